@@ -1,0 +1,34 @@
+// What is measured, defined once: models, objects, and the figures that others have published or that were measured of
+// them (milliseconds a frame at 1024 x 1024).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace csgrt::bench {
+
+struct Workload {
+    std::string name;
+    std::string file;  ///< relative to the models' folder, or to scenes/ if it ends in .json
+    std::vector<std::string> objects;
+    /// Domingues 2017, figure 4.2: OpenCL on a GTX 1060; table 4.2: segments. 0: not given.
+    double thesis_ms = 0;
+    double thesis_segments = 0;
+    /// BRL-CAD 7.32.6, first hits, shooting time only: 2 CPU cores; its OpenCL path on PoCL with 2 cores, and on an H200.
+    double brlcad_cpu_ms = 0, brlcad_pocl_ms = 0, brlcad_h200_ms = 0;
+};
+
+inline const std::vector<Workload>& workloads() {
+    static const std::vector<Workload> all = {
+        {"boolean-ops", "boolean-ops.asc", {"all"}, 40, 433443, 59, 113, 50},
+        {"operators", "operators.asc", {"operators"}, 50, 405319, 73, 172, 55},
+        {"truck", "truck.asc", {"g1", "g2", "g4"}, 80, 796168, 70, 401, 133},
+        {"tank_car", "tank_car.asc", {"tank_car"}, 0, 0, 182, 625, 191},
+        {"tank_car+track", "tank_car.asc", {"tank_car", "track"}, 120, 651742, 0, 0, 0},
+        {"havoc", "havoc.asc", {"havoc"}, 520, 701340, 340, 505, 307},
+        {"scene operators", "operators.json", {}, 0, 0, 0, 0, 0},
+    };
+    return all;
+}
+
+}  // namespace csgrt::bench

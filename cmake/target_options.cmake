@@ -1,0 +1,42 @@
+# What every target of csgrt is compiled with.
+#
+# -ffp-contract=off: the kernels are compiled for the host as well, and must round as they do on a device.
+# For the same reason nothing here may relax floating point (-ffast-math, -march=native with contraction, ...).
+# fma is written out where it is wanted; without -mfma it is a call into the C library, which picks the processor's
+# instruction at run time. That is slower than the instruction inline, and runs on every x86-64.
+function(csgrt_target_options target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES
+        CXX_EXTENSIONS OFF
+        POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden
+        VISIBILITY_INLINES_HIDDEN ON)
+    target_compile_options(${target} PRIVATE
+        -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+        $<$<BOOL:${CSGRT_WERROR}>:-Werror>)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+        # Both are false where "literal" + string is inlined (GCC bug 105651).
+        target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow)
+    endif()
+endfunction()
+
+# A shared library of csgrt: its interface is include/, its version the project's.
+function(csgrt_library_options target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_include_directories(${target} PUBLIC
+        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    set_target_properties(${target} PROPERTIES
+        LINKER_LANGUAGE CXX
+        VERSION ${PROJECT_VERSION}
+        SOVERSION ${PROJECT_VERSION_MAJOR}
+        INSTALL_RPATH "$ORIGIN")
+    if(NOT CSGRT_SANITIZE)  # the sanitizers' own symbols come with the program
+        target_link_options(${target} PRIVATE LINKER:--no-undefined)
+    endif()
+endfunction()
+
+set(CSGRT_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, for instance address,undefined")
+if(CSGRT_SANITIZE)
+    add_compile_options(-fsanitize=${CSGRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=${CSGRT_SANITIZE})
+endif()

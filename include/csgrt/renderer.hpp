@@ -1,0 +1,115 @@
+// From a scene to pictures and partitions, on an OpenCL device or on the CPU reference.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <csgrt/image.hpp>
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+struct DeviceInfo {
+    std::string name, platform, version, driver;
+    std::string type;  ///< "cpu", "gpu", "accelerator"
+    std::uint64_t memory = 0, max_allocation = 0;
+    unsigned compute_units = 0;
+    bool fp64 = false;
+};
+/// Every OpenCL device, in the order of their numbers; empty if there is none.
+CSGRT_API std::vector<DeviceInfo> devices();
+
+struct Settings {
+    bool reference = false;       ///< the CPU reference in place of a device
+    std::string device;           ///< "", "cpu", "gpu", a number, or part of a name
+    std::uint64_t max_memory = 0; ///< bytes of device memory; 0: what the device can give
+    double tolerance = -1;        ///< millimetres; negative: the scene's
+    bool air = false;             ///< keep air regions
+    unsigned threads = 0;         ///< of the reference; 0: all
+    /// Called now and then with the done fraction 0..1; returning false stops (Status::interrupted).
+    std::function<bool(double)> progress;
+};
+
+/// What to draw.
+struct View {
+    int width = 1024, height = 1024;
+    Camera camera;
+    bool every_partition = true;  ///< false: evaluation stops at the first hit; `overlap` counts only up to there
+};
+
+struct Ray {
+    Vec3 origin, direction;  ///< direction of any length but 0; distances are in units of it
+};
+
+struct Partition {
+    double in = 0, out = 0;         ///< along the ray; may be negative or infinite
+    Vec3 in_normal, out_normal;     ///< unit, outward from the region (flips applied)
+    std::uint32_t region = 0;       ///< index into Renderer::regions()
+    std::uint32_t in_solid = 0, out_solid = 0;  ///< index into Renderer::solids()
+};
+struct Overlap {
+    double in = 0, out = 0;
+    std::vector<std::uint32_t> regions;
+};
+/// Everything along one ray from its start on, front to back; neighbours of one region are joined. A ray that starts inside
+/// a region has a first partition with a negative `in`: where the region truly begins.
+struct RayPartitions {
+    std::vector<Partition> partitions;
+    std::vector<Overlap> overlaps;
+};
+
+struct RegionInfo {
+    std::string path;  ///< "/top/.../region"
+    int region_id = 0, air = 0, material_id = 0, los = 0;
+    Vec3 color{1, 1, 1};
+    Finish finish;
+    Box bounds;
+};
+struct SolidInfo {
+    std::string name, type;
+};
+
+/// Figures of the last call. Times in milliseconds; those of the five kernels are the device's own.
+struct Statistics {
+    std::string device, precision, method;
+    int width = 0, height = 0;
+    std::uint64_t rays = 0, hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
+    std::uint64_t device_bytes = 0, segment_bytes = 0, partition_bytes = 0;
+    std::uint32_t tiles = 0;
+    struct {
+        double load = 0, compile = 0, build = 0, count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0,
+               shade = 0, frame = 0, write = 0;
+    } ms;
+};
+
+/// A compiled scene on one device. Not copyable; one thread at a time.
+class CSGRT_API Renderer {
+public:
+    /// Validates, compiles and uploads `objects` of `scene` (empty: its top objects).
+    /// Throws Error: scene, no_device, out_of_memory, device_fault.
+    explicit Renderer(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    Image render(const View& view);
+    std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
+
+    const Box& bounds() const;  ///< of the model: its regions' boxes
+    const std::vector<RegionInfo>& regions() const;
+    const std::vector<SolidInfo>& solids() const;
+    const Statistics& statistics() const;
+    /// What compilation left out or found worth telling: objects without solids, air regions, ...
+    const std::vector<std::string>& notes() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+CSGRT_API const char* version();
+
+}  // namespace csgrt

@@ -1,0 +1,188 @@
+// The model: solids, combined by Boolean trees, some of them regions. Lengths are millimetres throughout;
+// a reader converts a file's own units when it loads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+struct Vec3 {
+    double x = 0, y = 0, z = 0;
+    friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+/// 4x4 matrix, row-major, applied to column vectors: p' = M p. The last row is 0 0 0 w; BRL-CAD's uniform scale
+/// 1/w is divided out by the readers, so here w is 1.
+using Matrix = std::array<double, 16>;
+inline constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// Axis-aligned box; empty while any low > high.
+struct Box {
+    Vec3 low, high;
+};
+
+/// Half-space: inside is normal . p <= distance. The normal is a unit vector, outward.
+struct Plane {
+    Vec3 normal;
+    double distance = 0;
+};
+
+// ---- Solids. Names and parameters are BRL-CAD's (librt's rtgeom.h). ----
+
+/// Ellipsoid: centre and three semi-axes, linearly independent.
+struct Ell {
+    Vec3 v, a, b, c;
+};
+/// Truncated general cone: base ellipse (v; a, b), top ellipse (v + h; c, d); c parallel to a, d parallel to b.
+/// Cylinders, cones, elliptical and oblique forms are all this one.
+struct Tgc {
+    Vec3 v, h, a, b, c, d;
+};
+/// arb4 to arb8: convex polyhedron of up to six faces, given by eight vertices in BRL-CAD's order
+/// (faces 0123, 4567, 0347, 1265, 0154, 3267); arb4 to arb7 repeat vertices.
+struct Arb {
+    std::array<Vec3, 8> vertices;
+};
+/// Convex polyhedron: the intersection of half-spaces. Must be bounded.
+struct Arbn {
+    std::vector<Plane> planes;
+};
+/// Half-space.
+struct Half {
+    Plane plane;
+};
+/// Torus: centre, axis (any length), radius of the circle r_a, radius of the tube r_h, 0 < r_h <= r_a.
+struct Tor {
+    Vec3 v, h;
+    double r_a = 0, r_h = 0;
+};
+/// Elliptical hyperboloid: base centre v, height vector h towards the apex, unit direction a of the semi-axis r_1,
+/// semi-axes r_1 and r_2 at the base, and c, the distance from the apex to the vertex of the asymptotic cone.
+struct Ehy {
+    Vec3 v, h, a;
+    double r_1 = 0, r_2 = 0, c = 0;
+};
+/// A solid that csgrt knows by name only: refused, with its name and its user, when a rendered object needs it.
+struct Unsupported {
+    std::string type;
+};
+
+using Shape = std::variant<Ell, Tgc, Arb, Arbn, Half, Tor, Ehy, Unsupported>;
+
+/// BRL-CAD's name of a shape's type: "ell", "tgc", "arb8", ...
+CSGRT_API const char* type_name(const Shape& shape);
+
+struct Solid {
+    std::string name;
+    Shape shape;
+    Place place;
+};
+
+// ---- Combinations ----
+
+enum class Operator : std::uint8_t { leaf, union_, intersection, difference, xor_, not_ };
+
+/// One node of a tree in postfix order: an operator follows its `arity` operands.
+/// union, intersection and xor take one or more, difference two or more (the first less all others), not exactly one.
+struct TreeNode {
+    Operator op = Operator::leaf;
+    std::uint32_t arity = 0;
+    std::string object;       ///< leaf: the name of a solid or a combination
+    Matrix matrix = identity; ///< leaf: places the object
+    Place place;
+};
+/// A Boolean tree, flat and in postfix order, so that depth costs no stack. Empty: the empty set.
+struct Tree {
+    std::vector<TreeNode> nodes;
+};
+
+/// BRL-CAD's plastic: colour = material colour x (ambient x cos(eye) + diffuse x cos(light)) + specular x cos^shine.
+struct Finish {
+    std::string shader = "plastic";
+    double specular = 0.7, diffuse = 0.3, ambient = 1.0;  ///< ambient scales the scene's ambient light
+    int shine = 10;
+    double transmit = 0, reflect = 0;  ///< kept for conversion; first-hit shading does not use them
+};
+
+struct Combination {
+    std::string name;
+    Tree tree;
+    bool region = false;
+    int region_id = 0, air = 0, material_id = 1, los = 100;
+    std::optional<Vec3> color;  ///< 0..1
+    std::optional<Finish> finish;
+    bool color_inherits = false, finish_inherits = false;  ///< true: overrides what stands below
+    Place place;
+};
+
+using Object = std::variant<Solid, Combination>;
+
+// ---- The scene ----
+
+struct Light {
+    Vec3 position;
+    Vec3 color{1, 1, 1};
+    double intensity = 1;
+};
+
+/// The view is BRL-CAD's: a square (or rectangle; then `view_size` is its height) centred on the model's box;
+/// azimuth from +x about z, elevation upward, both in degrees.
+struct Camera {
+    double azimuth = 35, elevation = 25;
+    double perspective = 0;           ///< angle of view in degrees, across the height; 0 is orthographic
+    std::optional<Vec3> center;       ///< default: the centre of the model's box
+    std::optional<double> view_size;  ///< default: the diagonal of the model's box
+};
+
+/// BRL-CAD's colour table: regions with low <= id <= high get the colour.
+struct RegionColor {
+    int low = 0, high = 0;
+    Vec3 color;
+};
+
+struct Scene {
+    std::string title;
+    std::string units = "mm";     ///< as the file says; values are millimetres already
+    double unit_length = 1;       ///< millimetres a unit
+    Camera camera;
+    std::vector<Light> lights;    ///< empty: one light by the eye
+    double ambient = 0.4;         ///< intensity of the ambient light from the eye
+    Vec3 background{0, 0, 0};
+    double tolerance = 0.0005;    ///< ends of segments closer than this along a ray are one, millimetres
+    std::vector<Object> objects;  ///< in the order of the file
+    std::vector<std::string> top; ///< what to render when nothing is named; empty: every object that no other uses
+    std::vector<RegionColor> region_colors;
+
+    /// The object of that name, or nullptr. Names are unique; readers refuse duplicates. Linear; compile keeps an index.
+    CSGRT_API const Object* find(const std::string& name) const;
+};
+
+CSGRT_API const std::string& name_of(const Object& object);
+CSGRT_API const Place& place_of(const Object& object);
+
+/// The objects that no combination uses, in the order of the file; `scene.top` if that is given.
+CSGRT_API std::vector<std::string> top_objects(const Scene& scene);
+
+/// Limits that validation enforces, each far beyond real models and far below what would exhaust a machine.
+struct Limits {
+    static constexpr std::uint32_t nesting = 1'000;         ///< combinations inside combinations
+    static constexpr std::uint32_t file_nesting = 512;      ///< brackets inside brackets in a scene file
+    static constexpr std::uint64_t instances = 20'000'000;  ///< solids after flattening, repeats counted
+    static constexpr std::uint32_t faces = 65'535;          ///< of one arbn
+    static constexpr int shine = 10'000;                    ///< beyond it a highlight is a point
+};
+
+/// Checks everything that can be checked object by object: unknown members, cycles, degenerate solids, singular
+/// matrices, non-finite numbers, trees. Only objects reachable from `objects` (empty: from the top objects).
+/// Returns all findings; empty means the scene is sound.
+CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {});
+
+}  // namespace csgrt

@@ -1,0 +1,18 @@
+// Reading and writing scenes.
+#pragma once
+
+#include <string>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// Reads .json (csgrt's own format, scenes/csgrt.schema.json) or .asc (BRL-CAD text, v4 and v5), by extension.
+/// Throws Error: Status::file if it cannot be read, Status::scene with every finding if it is wrong.
+/// The result is syntactically sound; `validate` checks the model.
+CSGRT_API Scene load_scene(const std::string& path);
+
+/// Writes the scene as .json; it loads to the same model, bit for bit. Written whole or not at all. "-": standard output.
+CSGRT_API void save_scene(const Scene& scene, const std::string& path);
+
+}  // namespace csgrt

@@ -1,0 +1,21 @@
+// Kernel 2: the same walk again; each segment's two ends go to the ray's own place.
+//
+//   ends of a ray:   in out | in out | in out ...      by ascending solid, then by distance
+#include "camera.h"
+#include "traverse.h"
+
+__kernel void store_segments(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
+                             __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
+                             __global const BvhNode* nodes, __global const RayRecord* rays,
+                             __global const RayCount* offsets, __global End* ends) {
+    u32 id = (u32)get_global_id(0);
+    Geometry g;
+    ray3 r;
+    if (id >= frame->ray_count) return;
+    if (offsets[id].segments == offsets[id + 1].segments) return;
+    g.solids = solids;
+    g.reals = reals;
+    g.planes = planes;
+    g.plane_refs = plane_refs;
+    if (ray_of(frame, rays, frame->first_ray + id, &r)) walk(frame, g, nodes, r, ends + 2 * (size_t)offsets[id].segments);
+}

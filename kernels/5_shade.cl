@@ -1,0 +1,43 @@
+// Kernel 5: the first claimed partition -> a pixel. Only here is a normal computed: one a ray. A region whose partition
+// begins where another solid ends shows that solid's surface from within: the normal is flipped.
+#include "camera.h"
+#include "geometry/solid.h"
+#include "shading.h"
+
+__kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
+                    __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
+                    __global const RegionRecord* regions, __global const MaterialRecord* materials,
+                    __global const LightRecord* lights, __global const RayCount* offsets,
+                    __global const End* all_ends, __global const PartitionNode* all_nodes,
+                    __global const RayResult* results, __global Pixel* pixels) {
+    u32 id = (u32)get_global_id(0);
+    RayResult result;
+    Pixel pixel;
+    ray3 r;
+    if (id >= frame->ray_count) return;
+    if (!ray_of(frame, 0, frame->first_ray + id, &r)) return;
+    result = results[id];
+    if (result.first == NONE) {
+        pixel = background_pixel(frame);
+    } else {
+        size_t base = 2 * (size_t)offsets[id].segments;
+        PartitionNode partition = all_nodes[base + result.first];
+        End end = all_ends[base + partition.in_end];
+        u32 region = partition.region & ~OVERLAP;
+        Geometry g;
+        vec3 n;
+        g.solids = solids;
+        g.reals = reals;
+        g.planes = planes;
+        g.plane_refs = plane_refs;
+        n = normal_at(g, solids[end.solid], r, end.t, end.surface);
+        if (partition.in_end & 1u) n = scale(n, REAL(-1));
+        pixel = hit_pixel(frame, lights, materials[regions[region].material], r, end.t, n);
+        pixel.region = region + 1;
+        pixel.solid = end.solid + 1;
+    }
+    pixel.depth = offsets[id + 1].segments - offsets[id].segments;
+    pixel.partitions = result.partitions;
+    pixel.overlap = result.overlaps;
+    pixels[id] = pixel;
+}

@@ -1,0 +1,48 @@
+// Solids that are affine images of a canonical shape: parameters begin with center[3] and the rows of L (9 reals),
+// local = L (p - center).
+//
+// The ray's origin is first moved to its closest approach to the center (in the solid's own metric), because
+// coefficients formed from a far origin lose their digits. The moved origin w = (o - center) + shift * d is computed
+// with the rounding errors of its two large terms kept (two_sum, two_product), so it is good to a few ulps of |w|,
+// however far the ray starts.
+#ifndef CSGRT_AFFINE_H
+#define CSGRT_AFFINE_H
+
+#include "hits.h"
+
+typedef struct {
+    vec3 o, d;   // local; o is the closest approach: o . d is about 0
+    real shift;  // t = shift + u, u along (o, d)
+} local_ray;
+
+FN vec3 affine_linear(GLOBAL const real* p, vec3 v) {
+    return make_vec3(dot3(make_vec3(p[3], p[4], p[5]), v), dot3(make_vec3(p[6], p[7], p[8]), v),
+                     dot3(make_vec3(p[9], p[10], p[11]), v));
+}
+// A normal goes back by the transpose of L.
+FN vec3 affine_normal(GLOBAL const real* p, vec3 n) {
+    return make_vec3(dot3(make_vec3(p[3], p[6], p[9]), n), dot3(make_vec3(p[4], p[7], p[10]), n),
+                     dot3(make_vec3(p[5], p[8], p[11]), n));
+}
+
+FN real shifted(pair offset, real shift, real d) {
+    pair step = two_product(shift, d);
+    pair sum = two_sum(offset.hi, step.hi);
+    return sum.hi + (sum.lo + (step.lo + offset.lo));
+}
+
+FN local_ray to_local(GLOBAL const real* p, ray3 r) {
+    local_ray l;
+    pair x = two_sum(r.o.x, -p[0]);
+    pair y = two_sum(r.o.y, -p[1]);
+    pair z = two_sum(r.o.z, -p[2]);
+    vec3 o = affine_linear(p, make_vec3(x.hi, y.hi, z.hi));
+    l.d = affine_linear(p, r.d);
+    l.shift = -dot3(o, l.d) / dot3(l.d, l.d);
+    l.o = affine_linear(p, make_vec3(shifted(x, l.shift, r.d.x), shifted(y, l.shift, r.d.y), shifted(z, l.shift, r.d.z)));
+    return l;
+}
+
+FN vec3 local_point(local_ray l, real t) { return add_scaled(l.o, t - l.shift, l.d); }
+
+#endif

@@ -1,0 +1,18 @@
+// arb4 to arb8 and arbn: a convex polyhedron, the piece of the ray that all its faces leave. No reals.
+// Planes and surfaces: the faces.
+#ifndef CSGRT_ARB_H
+#define CSGRT_ARB_H
+
+#include "plane.h"
+
+FN hits arb_intersect(Geometry g, SolidRecord solid, ray3 r) {
+    span s = whole_line();
+    u32 i;
+    for (i = 0; i < solid.plane_count; ++i) {
+        s = clip_to_face(s, g, solid.first_plane + i, r, i);
+        if (!(s.low < s.high)) return no_hits();
+    }
+    return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+}
+
+#endif

@@ -1,0 +1,12 @@
+// Half-space: one plane; the segment reaches to infinity on one side, or on both. No reals. Surface 0.
+#ifndef CSGRT_HALF_H
+#define CSGRT_HALF_H
+
+#include "plane.h"
+
+FN hits half_intersect(Geometry g, SolidRecord solid, ray3 r) {
+    span s = clip_to_face(whole_line(), g, solid.first_plane, r, 0);
+    return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+}
+
+#endif

@@ -1,0 +1,67 @@
+// What every solid answers: its segments along a ray, in ascending order.
+//
+//        in0      out0         in1      out1
+//   -----|=========|-----------|=========|-----> t        count = 2
+//
+// `surface` numbers the surfaces of a solid; each <solid>.h says which is which.
+#ifndef CSGRT_HITS_H
+#define CSGRT_HITS_H
+
+#include "../shared/layout.h"
+
+typedef struct {
+    u32 count;  // segments: 0, 1 or 2
+    real in0, out0, in1, out1;
+    u32 in0_surface, out0_surface, in1_surface, out1_surface;
+} hits;
+
+// A piece of the ray, with the surfaces that bound it.
+typedef struct {
+    real low, high;
+    u32 low_surface, high_surface;
+} span;
+
+// The tables that solids live in.
+typedef struct {
+    GLOBAL const SolidRecord* solids;
+    GLOBAL const real* reals;
+    GLOBAL const PlaneRecord* planes;
+    GLOBAL const PlaneRef* plane_refs;
+} Geometry;
+
+FN hits no_hits(void) {
+    hits h;
+    h.count = 0;
+    h.in0 = h.out0 = h.in1 = h.out1 = 0;
+    h.in0_surface = h.out0_surface = h.in1_surface = h.out1_surface = 0;
+    return h;
+}
+
+FN span whole_line(void) {
+    span s;
+    s.low = -REAL_INFINITY;
+    s.high = REAL_INFINITY;
+    s.low_surface = s.high_surface = 0;
+    return s;
+}
+
+// Appends [in, out] unless it is empty. A ray that only touches has no segment there.
+FN hits append(hits h, real in, u32 in_surface, real out, u32 out_surface) {
+    if (!(in < out)) return h;
+    if (h.count == 0) {
+        h.in0 = in;
+        h.out0 = out;
+        h.in0_surface = in_surface;
+        h.out0_surface = out_surface;
+        h.count = 1;
+    } else if (h.count == 1) {
+        h.in1 = in;
+        h.out1 = out;
+        h.in1_surface = in_surface;
+        h.out1_surface = out_surface;
+        h.count = 2;
+    }
+    return h;
+}
+
+#endif

@@ -1,0 +1,47 @@
+// Planes stand in one world-space table and are intersected from there, never through a solid's own matrix: two solids
+// that share a plane compute the same t to the last bit, so the sort sees an exact tie.
+#ifndef CSGRT_PLANE_H
+#define CSGRT_PLANE_H
+
+#include "hits.h"
+
+// Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high.
+FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
+    vec3 n = make_vec3(plane.nx, plane.ny, plane.nz);
+    real above = dot3(n, r.o) - plane.d;  // signed distance of the origin
+    real rate = dot3(n, r.d);
+    real t = -above / rate;
+    if (flipped) {
+        above = -above;
+        rate = -rate;
+    }
+    if (rate < 0) {
+        if (t > s.low) {
+            s.low = t;
+            s.low_surface = surface;
+        }
+    } else if (rate > 0) {
+        if (t < s.high) {
+            s.high = t;
+            s.high_surface = surface;
+        }
+    } else if (above > 0) {
+        s.low = REAL_INFINITY;
+        s.high = -REAL_INFINITY;
+    }
+    return s;
+}
+
+FN span clip_to_face(span s, Geometry g, u32 index, ray3 r, u32 surface) {
+    PlaneRef ref = g.plane_refs[index];
+    return clip(s, g.planes[ref >> 1], ref & 1u, r, surface);
+}
+
+FN vec3 face_normal(Geometry g, u32 index) {
+    PlaneRef ref = g.plane_refs[index];
+    PlaneRecord plane = g.planes[ref >> 1];
+    vec3 n = make_vec3(plane.nx, plane.ny, plane.nz);
+    return (ref & 1u) ? scale(n, REAL(-1)) : n;
+}
+
+#endif

@@ -1,0 +1,167 @@
+// Roots, and the pieces of a ray on which a polynomial is negative (inside).
+#ifndef CSGRT_POLYNOMIAL_H
+#define CSGRT_POLYNOMIAL_H
+
+#include "hits.h"
+
+// a b - c d with an error of at most 1.5 ulps (Kahan; Jeannerod, Louvet, Muller 2013).
+FN real difference_of_products(real a, real b, real c, real d) {
+    real cd = c * d;
+    real lost = real_fma(-c, d, cd);
+    return real_fma(a, b, -cd) + lost;
+}
+
+// Where q(u) = a u^2 + 2 b u + c is negative, within `s` (in t = shift + u): up to two pieces.
+// `discriminant` is b^2 - a c, which the caller knows in a form that does not cancel. The roots are taken in the form
+// that never subtracts near-equal numbers.
+//
+//   a > 0:  between the roots          a < 0:  outside them, or everywhere
+FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
+    hits h = no_hits();
+    real low, high;
+    if (!(s.low < s.high)) return h;
+    if (a == 0) {
+        if (b == 0) return c < 0 ? append(h, s.low, s.low_surface, s.high, s.high_surface) : h;
+        low = shift - c / (REAL(2) * b);
+        if (b > 0) {
+            if (low < s.high) {
+                s.high = low;
+                s.high_surface = surface;
+            }
+        } else if (low > s.low) {
+            s.low = low;
+            s.low_surface = surface;
+        }
+        return append(h, s.low, s.low_surface, s.high, s.high_surface);
+    }
+    if (!(discriminant > 0)) return a < 0 ? append(h, s.low, s.low_surface, s.high, s.high_surface) : h;
+    {
+        real root = real_sqrt(discriminant);
+        real q = b > 0 ? -(b + root) : root - b;
+        real u1 = q / a;
+        real u2 = c / q;
+        low = shift + real_min(u1, u2);
+        high = shift + real_max(u1, u2);
+    }
+    if (a > 0) {
+        if (low > s.low) {
+            s.low = low;
+            s.low_surface = surface;
+        }
+        if (high < s.high) {
+            s.high = high;
+            s.high_surface = surface;
+        }
+        return append(h, s.low, s.low_surface, s.high, s.high_surface);
+    }
+    if (low > s.low)
+        h = append(h, s.low, s.low_surface, real_min(low, s.high), low < s.high ? surface : s.high_surface);
+    if (high < s.high)
+        h = append(h, real_max(high, s.low), high > s.low ? surface : s.low_surface, s.high, s.high_surface);
+    return h;
+}
+
+// A quartic c0 + c1 u + ... + c4 u^4 and its first derivative.
+typedef struct {
+    real c[5];
+} quartic;
+
+FN real quartic_at(quartic p, real u) {
+    return real_fma(real_fma(real_fma(real_fma(p.c[4], u, p.c[3]), u, p.c[2]), u, p.c[1]), u, p.c[0]);
+}
+
+FN quartic derivative(quartic p) {
+    quartic d;
+    d.c[0] = p.c[1];
+    d.c[1] = REAL(2) * p.c[2];
+    d.c[2] = REAL(3) * p.c[3];
+    d.c[3] = REAL(4) * p.c[4];
+    d.c[4] = 0;
+    return d;
+}
+
+// The one root of p between a and b, where p is monotone and of different signs: Newton, kept within the bracket by
+// bisection. `slope` is p's derivative. 100 steps halve any bracket of doubles to neighbours; Newton takes about 5.
+#define ROOT_STEPS 100
+FN real bracketed_root(quartic p, quartic slope, real a, real b, int negative_at_a) {
+    real u = REAL(0.5) * (a + b);
+    int step;
+    for (step = 0; step < ROOT_STEPS; ++step) {
+        real value = quartic_at(p, u);
+        real next;
+        if ((value < 0) == (negative_at_a != 0)) {
+            a = u;
+        } else {
+            b = u;
+        }
+        next = u - value / quartic_at(slope, u);
+        if (!(next > a && next < b)) next = REAL(0.5) * (a + b);
+        if (next == u || next <= a || next >= b) return u;
+        u = next;
+    }
+    return u;
+}
+
+// Where p changes sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not. The roots are
+// bracketed by those of the derivative, these by those of the second derivative, which is a quadratic: so every
+// bracket holds a monotone piece, and the signs at the ends decide about the root. Counts and signs thus always agree.
+FN int sign_changes(quartic p, real low, real high, real* roots) {
+    quartic d1 = derivative(p);
+    quartic d2 = derivative(d1);
+    real knots[6];
+    real inner[4];
+    int knot_count = 0;
+    int inner_count = 0;
+    int root_count = 0;
+    int i;
+    // Second derivative: d2.c[2] u^2 + d2.c[1] u + d2.c[0].
+    inner[inner_count++] = low;
+    {
+        real a = d2.c[2], b = REAL(0.5) * d2.c[1], c = d2.c[0];
+        real discriminant = difference_of_products(b, b, a, c);
+        if (discriminant > 0) {
+            real root = real_sqrt(discriminant);
+            real q = b > 0 ? -(b + root) : root - b;
+            real u1 = q / a;
+            real u2 = c / q;
+            real first = real_min(u1, u2), second = real_max(u1, u2);
+            if (first > low && first < high) inner[inner_count++] = first;
+            if (second > low && second < high) inner[inner_count++] = second;
+        }
+    }
+    inner[inner_count++] = high;
+    knots[knot_count++] = low;
+    for (i = 0; i + 1 < inner_count; ++i) {
+        int negative = quartic_at(d1, inner[i]) < 0;
+        int after = quartic_at(d1, inner[i + 1]) < 0;
+        if (negative != after) knots[knot_count++] = bracketed_root(d1, d2, inner[i], inner[i + 1], negative);
+    }
+    knots[knot_count++] = high;
+    {
+        int negative = quartic_at(p, low) < 0;
+        for (i = 0; i + 1 < knot_count; ++i) {
+            int after = quartic_at(p, knots[i + 1]) < 0;
+            if (negative != after) roots[root_count++] = bracketed_root(p, d1, knots[i], knots[i + 1], negative);
+            negative = after;
+        }
+    }
+    return root_count;
+}
+
+// The inside pieces of `s` (bounded, in u + shift), given the sign changes in it.
+FN hits spans_between(span s, int inside, const real* roots, int count, u32 surface) {
+    hits h = no_hits();
+    real low = s.low;
+    u32 low_surface = s.low_surface;
+    int i;
+    for (i = 0; i < count; ++i) {
+        if (inside) h = append(h, low, low_surface, roots[i], surface);
+        low = roots[i];
+        low_surface = surface;
+        inside = !inside;
+    }
+    if (inside) h = append(h, low, low_surface, s.high, s.high_surface);
+    return h;
+}
+
+#endif

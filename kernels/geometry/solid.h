@@ -1,0 +1,71 @@
+// Any solid: the one place that knows all types. A program holds only the types that its scene has
+// (-DCSGRT_SOLIDS=<bits>): code that is not there costs no registers.
+#ifndef CSGRT_SOLID_H
+#define CSGRT_SOLID_H
+
+#include "arb.h"
+#include "ehy.h"
+#include "ell.h"
+#include "half.h"
+#include "tgc.h"
+#include "tor.h"
+
+#ifndef CSGRT_SOLIDS
+#define CSGRT_SOLIDS 0xffffffffu
+#endif
+
+#define HAS_SOLID(type) ((CSGRT_SOLIDS) >> (type) & 1u)
+
+FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
+#if HAS_SOLID(SOLID_ELL)
+    if (solid.type == SOLID_ELL) return ell_intersect(g.reals + solid.first_real, r);
+#endif
+#if HAS_SOLID(SOLID_TGC)
+    if (solid.type == SOLID_TGC) return tgc_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_ARB)
+    if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_HALF)
+    if (solid.type == SOLID_HALF) return half_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_TOR)
+    if (solid.type == SOLID_TOR) return tor_intersect(g.reals + solid.first_real, r);
+#endif
+#if HAS_SOLID(SOLID_EHY)
+    if (solid.type == SOLID_EHY) return ehy_intersect(g, solid, r);
+#endif
+    return no_hits();
+}
+
+// The outward unit normal of a solid where its `surface` is hit at t. Where a surface has none (an apex), against the ray.
+FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+    vec3 n = make_vec3(0, 0, 0);
+    real length2;
+#if HAS_SOLID(SOLID_ELL)
+    if (solid.type == SOLID_ELL) n = ell_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_TGC)
+    if (solid.type == SOLID_TGC) n = tgc_normal(g, solid, r, t, surface);
+#endif
+#if HAS_SOLID(SOLID_ARB)
+    if (solid.type == SOLID_ARB) n = face_normal(g, solid.first_plane + surface);
+#endif
+#if HAS_SOLID(SOLID_HALF)
+    if (solid.type == SOLID_HALF) n = face_normal(g, solid.first_plane);
+#endif
+#if HAS_SOLID(SOLID_TOR)
+    if (solid.type == SOLID_TOR) n = tor_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_EHY)
+    if (solid.type == SOLID_EHY) n = ehy_normal(g, solid, r, t, surface);
+#endif
+    length2 = dot3(n, n);
+    if (!(length2 > 0) || length2 == REAL_INFINITY) {
+        n = scale(r.d, REAL(-1));
+        length2 = dot3(n, n);
+    }
+    return scale(n, REAL(1) / real_sqrt(length2));
+}
+
+#endif

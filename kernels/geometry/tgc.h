@@ -1,0 +1,105 @@
+// Truncated general cone: cylinders and cones, right or oblique, circular or elliptical, with one or two different
+// tapers. Parameters: affine (12), a0, a1, b0, b1, kind, radius2. Planes: 0 base, 1 top. Surfaces: 0 side, 1 base, 2 top.
+//
+//   local z = -1 at the base, +1 at the top; semi-axes a(z) = a0 + a1 z along x, b(z) = b0 + b1 z along y
+//   kind 0 (a = b):  x^2 + y^2 - a^2 < 0             a quadric
+//   kind 1:          x^2 b^2 + y^2 a^2 - a^2 b^2 < 0  a quartic
+//   radius2: the square of a radius, local, around everything
+#ifndef CSGRT_TGC_H
+#define CSGRT_TGC_H
+
+#include "affine.h"
+#include "plane.h"
+#include "polynomial.h"
+
+#define TGC_SIDE 0
+#define TGC_BASE 1
+#define TGC_TOP 2
+
+// x^2 + y^2 = m^2 with m = m0 + m1 u. Its discriminant b^2 - a c equals |m0 d - m1 o|^2 - (o x d)^2 (all in x, y),
+// which does not cancel where b^2 and a c do.
+FN hits cone_inside(local_ray l, real m0, real m1, span s) {
+    real wx = difference_of_products(m0, l.d.x, m1, l.o.x);
+    real wy = difference_of_products(m0, l.d.y, m1, l.o.y);
+    real cross = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);
+    real w = real_sqrt(real_fma(wx, wx, wy * wy));
+    real discriminant = (w - real_abs(cross)) * (w + real_abs(cross));
+    real a = real_fma(l.d.x, l.d.x, l.d.y * l.d.y) - m1 * m1;
+    real b = real_fma(l.o.x, l.d.x, l.o.y * l.d.y) - m0 * m1;
+    real c = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - m0 * m0;
+    return quadratic_inside(a, b, c, discriminant, l.shift, s, TGC_SIDE);
+}
+
+// Everything lies within radius2, so the quartic is solved on a bounded piece, with u in units of the direction's length.
+FN hits tapered_inside(GLOBAL const real* p, local_ray l, span s) {
+    real a0 = real_fma(p[13], l.o.z, p[12]), a1 = p[13] * l.d.z;
+    real b0 = real_fma(p[15], l.o.z, p[14]), b1 = p[15] * l.d.z;
+    real dd = dot3(l.d, l.d);
+    real reach2 = p[17] - dot3(l.o, l.o);
+    real length, reach;
+    quartic g;
+    real roots[4];
+    int count, i, inside;
+    if (!(reach2 > 0)) return no_hits();
+    length = real_sqrt(dd);
+    reach = REAL(1.0001) * real_sqrt(reach2);
+    s.low = (s.low - l.shift) * length;
+    s.high = (s.high - l.shift) * length;
+    if (!(s.low > -reach)) s.low = -reach;
+    if (!(s.high < reach)) s.high = reach;
+    if (!(s.low < s.high)) return no_hits();
+    {
+        real dx = l.d.x / length, dy = l.d.y / length;
+        real x0, x1, x2, y0, y1, y2, z0, z1, z2;
+        a1 = a1 / length;
+        b1 = b1 / length;
+        // x b, y a and a b are quadratics in u
+        x0 = l.o.x * b0;
+        x1 = real_fma(l.o.x, b1, dx * b0);
+        x2 = dx * b1;
+        y0 = l.o.y * a0;
+        y1 = real_fma(l.o.y, a1, dy * a0);
+        y2 = dy * a1;
+        z0 = a0 * b0;
+        z1 = real_fma(a0, b1, a1 * b0);
+        z2 = a1 * b1;
+        g.c[0] = real_fma(x0, x0, y0 * y0) - z0 * z0;
+        g.c[1] = REAL(2) * (real_fma(x0, x1, y0 * y1) - z0 * z1);
+        g.c[2] = real_fma(x1, x1, y1 * y1) - z1 * z1 + REAL(2) * (real_fma(x0, x2, y0 * y2) - z0 * z2);
+        g.c[3] = REAL(2) * (real_fma(x1, x2, y1 * y2) - z1 * z2);
+        g.c[4] = real_fma(x2, x2, y2 * y2) - z2 * z2;
+    }
+    inside = quartic_at(g, s.low) < 0;
+    count = sign_changes(g, s.low, s.high, roots);
+    for (i = 0; i < count; ++i) roots[i] = l.shift + roots[i] / length;
+    s.low = l.shift + s.low / length;
+    s.high = l.shift + s.high / length;
+    return spans_between(s, inside, roots, count, TGC_SIDE);
+}
+
+FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
+    GLOBAL const real* p = g.reals + solid.first_real;
+    span s = clip_to_face(whole_line(), g, solid.first_plane, r, TGC_BASE);
+    local_ray l;
+    s = clip_to_face(s, g, solid.first_plane + 1, r, TGC_TOP);
+    if (!(s.low < s.high)) return no_hits();
+    l = to_local(p, r);
+    if (p[16] == 0) return cone_inside(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z, s);
+    return tapered_inside(p, l, s);
+}
+
+FN vec3 tgc_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+    GLOBAL const real* p = g.reals + solid.first_real;
+    vec3 at;
+    real a, b;
+    if (surface != TGC_SIDE) return face_normal(g, solid.first_plane + surface - TGC_BASE);
+    at = local_point(to_local(p, r), t);
+    a = real_fma(p[13], at.z, p[12]);
+    if (p[16] == 0) return affine_normal(p, make_vec3(at.x, at.y, -a * p[13]));
+    b = real_fma(p[15], at.z, p[14]);
+    return affine_normal(p, make_vec3(at.x * b * b, at.y * a * a,
+                                      at.x * at.x * b * p[15] + at.y * at.y * a * p[13] -
+                                          a * b * real_fma(p[13], b, a * p[15])));
+}
+
+#endif

@@ -1,0 +1,70 @@
+// Torus: local circle of radius 1 in z = 0. Parameters: affine (12), ratio (tube radius / circle radius). Surface 0.
+//
+//   (|p|^2 - 1 - ratio^2)^2 + 4 (z^2 - ratio^2) < 0
+//
+// a form whose terms stay small near a thin tube. The quartic along the ray is solved on the piece inside the slab
+// |z| <= ratio and the sphere |p| <= 1 + ratio (outside them it is positive); each root is then polished once on
+// (rho - 1)^2 + z^2 - ratio^2, evaluated at the point itself, which has none of the expanded form's cancellation.
+#ifndef CSGRT_TOR_H
+#define CSGRT_TOR_H
+
+#include "affine.h"
+#include "polynomial.h"
+
+#define TOR_MARGIN REAL(1.000001)  // the piece is a little larger than the torus, so that its ends are outside
+
+FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
+    vec3 p = add_scaled(o, u, d);
+    real rho = real_sqrt(real_fma(p.x, p.x, p.y * p.y));
+    real radial = rho - REAL(1);
+    real value = difference_of_products(radial, radial, ratio - p.z, ratio + p.z);
+    real slope = REAL(2) * real_fma(radial, real_fma(p.x, d.x, p.y * d.y) / rho, p.z * d.z);
+    real step = value / slope;
+    return real_abs(step) < REAL(1e-7) * ratio ? u - step : u;
+}
+
+FN hits tor_intersect(GLOBAL const real* p, ray3 r) {
+    local_ray l = to_local(p, r);
+    real ratio = p[12];
+    real outer = (REAL(1) + ratio) * TOR_MARGIN;
+    real tube = ratio * TOR_MARGIN;
+    real length = real_sqrt(dot3(l.d, l.d));
+    vec3 d = scale(l.d, REAL(1) / length);
+    real beta = dot3(l.o, d);
+    real omega = dot3(l.o, l.o);
+    real reach2 = outer * outer - omega;
+    span s = whole_line();
+    real m, low, high;
+    quartic g;
+    real roots[4];
+    int count, i;
+    if (!(reach2 > 0)) return no_hits();
+    high = real_sqrt(reach2) * TOR_MARGIN;
+    low = -high;
+    if (d.z != 0) {
+        real z0 = (-tube - l.o.z) / d.z, z1 = (tube - l.o.z) / d.z;
+        low = real_max(low, real_min(z0, z1));
+        high = real_min(high, real_max(z0, z1));
+    } else if (real_abs(l.o.z) > ratio) {
+        return no_hits();
+    }
+    if (!(low < high)) return no_hits();
+    m = omega - REAL(1) - ratio * ratio;
+    g.c[4] = 1;
+    g.c[3] = REAL(4) * beta;
+    g.c[2] = real_fma(REAL(4) * beta, beta, REAL(2) * m) + REAL(4) * d.z * d.z;
+    g.c[1] = REAL(4) * real_fma(beta, m, REAL(2) * l.o.z * d.z);
+    g.c[0] = real_fma(m, m, REAL(4) * (l.o.z - ratio) * (l.o.z + ratio));
+    count = sign_changes(g, low, high, roots);
+    for (i = 0; i < count; ++i) roots[i] = l.shift + tor_polish(l.o, d, roots[i], ratio) / length;
+    return spans_between(s, 0, roots, count & ~1, 0);
+}
+
+FN vec3 tor_normal(GLOBAL const real* p, ray3 r, real t) {
+    vec3 at = local_point(to_local(p, r), t);
+    real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
+    real radial = (rho - REAL(1)) / rho;
+    return affine_normal(p, make_vec3(at.x * radial, at.y * radial, at.z));
+}
+
+#endif

@@ -1,0 +1,159 @@
+// THE one file for every record that crosses the bus, every opcode and every limit that host and device share.
+// Sizes and offsets are asserted on the host (src/kernel_host.hpp) and reported by a probe kernel from the device.
+#ifndef CSGRT_LAYOUT_H
+#define CSGRT_LAYOUT_H
+
+#include "base.h"
+
+// ---- Solids ----
+// A solid's parameters are `real`s from SolidRecord.first_real on; what they mean stands in geometry/<solid>.h.
+// Its planes (faces, end caps) are PlaneRefs from first_plane on, into the one world-space table of planes.
+
+#define SOLID_ELL 0
+#define SOLID_TGC 1
+#define SOLID_ARB 2  // arb4 to arb8 and arbn: a convex polyhedron, given by its planes
+#define SOLID_HALF 3
+#define SOLID_TOR 4
+#define SOLID_EHY 5
+#define SOLID_TYPES 6
+
+typedef struct {
+    u32 type;
+    u32 first_real;
+    u32 first_plane, plane_count;    // into plane_refs
+    u32 first_region, region_count;  // into region_lists: the regions whose trees contain this solid, ascending
+} SolidRecord;
+
+// A plane of the world: inside is n . p <= d. Shared by all faces that lie in it, so that they are hit at the very same t.
+typedef struct {
+    real nx, ny, nz, d;
+} PlaneRecord;
+
+// A reference to a plane: index << 1 | flip. Flipped, inside is n . p >= d and the outward normal -n.
+typedef u32 PlaneRef;
+
+// ---- Regions and their trees ----
+// Depth-first order, one word a node: 3 high bits the operator, 29 low bits the right child's position in `trees`
+// (for OP_NOT: unused; its child is the next word) or, for a leaf, the solid. The left child is the next word.
+
+#define OP_LEAF 0
+#define OP_UNION 1
+#define OP_INTERSECTION 2
+#define OP_DIFFERENCE 3          // left and not right
+#define OP_XOR 4
+#define OP_NOT 5
+#define OP_REVERSE_DIFFERENCE 6  // right and not left: the compiler puts the deeper child second
+#define TREE_SHIFT 29
+#define TREE_MASK 0x1fffffffu
+
+// The walk pushes only on the way into a left child, and the compiler puts the child that needs the deeper stack second,
+// so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
+#define TREE_STACK 30
+
+#define REGION_UNION_ONLY 1u  // the tree holds unions only: any of its segments claims
+
+typedef struct {
+    u32 first_word, word_count;  // into trees
+    u32 flags;
+    u32 material;
+} RegionRecord;
+
+typedef struct {
+    float r, g, b;
+    float specular, diffuse, ambient;
+    u32 shine;
+} MaterialRecord;
+
+typedef struct {
+    real x, y, z;       // position
+    float r, g, b;      // colour x intensity
+} LightRecord;
+
+// ---- Bounding volume hierarchy ----
+// Depth-first order: an inner node's first child is the next node; `skip` is the next node when the box is missed, or
+// after a leaf. Solids are numbered in the order of the leaves, so a walk meets them in ascending order.
+// Boxes are relative to Frame.center, rounded outward and padded for the slab test in float.
+
+typedef struct {
+    float low[3];
+    u32 skip;
+    float high[3];
+    u32 leaf;  // 0: inner; else first solid << 4 | number of solids (1..15)
+} BvhNode;
+#define BVH_LEAF_SHIFT 4
+#define BVH_LEAF_MASK 15u
+
+// ---- Rays ----
+
+typedef struct {
+    // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
+    real eye[3];   // perspective: the eye. Orthographic: the centre of the picture plane
+    real u[3], v[3];  // one pixel to the right, one pixel up, millimetres on the picture plane
+    real w[3];     // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
+    real center[3];  // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
+    real radius;
+    real t_min;    // segments that end before this distance are not wanted
+    real tolerance;  // ends closer than this along the ray are one
+    real ambient;
+    float background[3];
+    u32 width, height;
+    u32 perspective;       // 0 or 1
+    u32 listed;            // 1: the rays are a list, not a picture's
+    u32 first_ray, ray_count;  // this tile
+    u32 solid_count, unbounded_count, node_count, light_count;
+    u32 every_partition;   // 0: evaluation stops at the first claimed partition
+} Frame;
+
+// Rays are numbered in blocks of 8 x 8 pixels, so that the work-items of a group look at neighbours.
+#define BLOCK 8u
+
+typedef struct {
+    real ox, oy, oz, dx, dy, dz;
+} RayRecord;
+
+// ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
+
+// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.
+typedef struct {
+    u32 segments;  // of the ray
+    u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
+    u32 regions;   // references to regions by the ray's segments: an upper bound of the regions that may claim
+} RayCount;
+#define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
+
+// 2 store segments -> weave: two ends a segment, in then out, by ascending solid.
+typedef struct {
+    real t;
+    u32 solid;
+    u32 surface;  // which surface of the solid; see geometry/<solid>.h
+} End;
+
+// 3 weave -> evaluate: doubly linked lists by index into the ray's own 2 * segments nodes.
+typedef struct {
+    u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition
+    u32 next, prev;       // NONE: no more
+    u32 region;           // after evaluation: the region that claimed it, or NONE; OVERLAP is set if several wanted it
+} PartitionNode;
+#define NONE 0x7fffffffu
+#define OVERLAP 0x80000000u
+
+// 3 weave and 4 evaluate -> shade
+typedef struct {
+    u32 first;       // node of the first partition, then (evaluate) of the first one claimed; NONE: none
+    u32 partitions;  // woven
+    u32 overlaps;    // partitions that more than one region wanted
+} RayResult;
+
+// 5 shade -> host
+typedef struct {
+    float rgba[4];
+    float z;
+    float normal[3];
+    u32 region, solid;  // + 1; 0: nothing
+    u32 depth, partitions, overlap;
+} Pixel;
+
+FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
+FN u32 partitions_of(u32 segments) { return 2u * segments; }
+
+#endif

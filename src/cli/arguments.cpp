@@ -1,0 +1,218 @@
+#include "arguments.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "options.hpp"
+#include "values.hpp"
+
+namespace csgrt::cli {
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void fail(std::string message, std::string suggestion) {
+    throw Error(Status::usage, {Diagnostic{{}, std::move(message), std::move(suggestion), {}}});
+}
+
+void define_scene(Options& options, SceneArguments& arguments) {
+    options.argument("SCENE", "scene file: .json, .g or .asc", arguments.scene);
+    options.arguments("OBJECT", "objects of the scene; without any, its top objects", arguments.objects);
+    options.flag("--air", "keep air regions", arguments.settings.air);
+}
+
+void define_settings(Options& options, Settings& settings) {
+    auto& device =
+        options.text("--device", "NAME|cpu|gpu|N",
+                     "OpenCL device: part of its name, its type, or its number in 'csgrt devices'", settings.device);
+    device.excludes = "--reference";
+    options.flag("--reference", "compute with the CPU reference in place of an OpenCL device", settings.reference);
+    auto& threads =
+        options.count("--threads", "threads of the reference; all cores if not given", settings.threads, 1, 4096);
+    threads.needs = "--reference";
+    options.value("--max-memory", "SIZE",
+                  "device memory to use, such as 512M or 2G; a frame that needs more is split into tiles",
+                  settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
+    options.number("--tolerance", "MM", "ends of segments closer than this are one; the scene's if not given",
+                   settings.tolerance, 0, unlimited, "a length in millimetres, 0 or more");
+}
+
+void define(Options& options, RenderArguments& arguments) {
+    define_scene(options, arguments);
+    auto& output = options.list(
+        "--output", "FILE",
+        "picture to write, FILE.exr (every channel) or FILE.png; - is standard output; may be given several times",
+        arguments.outputs);
+    output.letter = 'o';
+    auto parse_format = [](const std::string& text) {
+        return text == "exr" || text == "png" ? std::optional(text) : std::nullopt;
+    };
+    auto& format = options.value("--format", "exr|png", "format on standard output; exr if not given", arguments.format,
+                                 parse_format, "a format: exr or png");
+    format.needs = "--output";
+    auto parse_sides = [&arguments](const std::string& text) {
+        auto size = parse_size(text);
+        if (size) arguments.height = size->second;
+        return size ? std::optional(size->first) : std::nullopt;
+    };
+    options.value("--size", "N|WxH", "pixels; 1024 if not given", arguments.width, parse_sides,
+                  "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
+    options.number("--azimuth", "DEG", "where the eye is, from +x about z; the scene's, or 35, if not given",
+                   arguments.azimuth, -unlimited, unlimited, "an angle in degrees");
+    options.number("--elevation", "DEG", "where the eye is, upward; the scene's, or 25, if not given",
+                   arguments.elevation, -unlimited, unlimited, "an angle in degrees");
+    options.number("--perspective", "DEG", "angle of view, 0 is orthographic; the scene's, or 0, if not given",
+                   arguments.perspective, 0, 180, "an angle in degrees, from 0 to less than 180");
+    options.flag("--first-hit", "stop each ray at its first hit; overlaps behind it are not counted",
+                 arguments.first_hit);
+    define_settings(options, arguments.settings);
+    options.text("--stats", "FILE", "write the figures of the frame as JSON; - is standard output", arguments.stats);
+    options.count("--repeat", "render N frames; the figures are medians without the first", arguments.repeat, 1,
+                  1'000'000);
+}
+
+void define(Options& options, ShootArguments& arguments) {
+    define_scene(options, arguments);
+    auto& rays =
+        options.text("--rays", "FILE", "rays, one a line: ox oy oz dx dy dz (# begins a comment); - is standard input",
+                     arguments.rays);
+    rays.required = true;
+    auto& output = options.text("--output", "FILE", "where to write the partitions; standard output if not given",
+                                arguments.output);
+    output.letter = 'o';
+    define_settings(options, arguments.settings);
+}
+
+void define(Options& options, CompareArguments& arguments) {
+    options.argument("A", "EXR picture, or partitions that 'csgrt shoot' wrote", arguments.first);
+    options.argument("B", "another file of that kind", arguments.second);
+    options.number("--tolerance", "X",
+                   "count only differences beyond X; in files of partitions X is a distance, and normals and solids do "
+                   "not count; without it every bit does",
+                   arguments.tolerance, 0, unlimited, "a number, 0 or more");
+}
+
+void define(Options&, DevicesArguments&) {}
+
+void define(Options& options, InfoArguments& arguments) {
+    define_scene(options, arguments);
+    options.count("--depth", "levels of the tree to show; 2 if not given", arguments.depth, 0, Limits::nesting);
+}
+
+void define(Options& options, ConvertArguments& arguments) {
+    options.argument("IN", "scene file: .json, .g or .asc", arguments.input);
+    options.argument("OUT", "FILE.json to write; - is standard output", arguments.output);
+}
+
+struct Entry {
+    const char* name;  ///< "" is rendering, which needs no name
+    const char* synopsis;
+    const char* purpose;
+    Command (*parse)(const Entry&, const std::vector<std::string>&);
+    std::string (*options)();
+};
+
+template <class Arguments>
+Command parse_entry(const Entry& entry, const std::vector<std::string>& words) {
+    Options options;
+    Arguments arguments;
+    define(options, arguments);
+    auto findings = options.parse(words);
+    if (options.help_wanted()) return TextArguments{help_text(entry.name)};
+    if (findings.empty()) return arguments;
+    std::string& suggestion = findings.back().suggestion;
+    if (!suggestion.empty()) suggestion += '\n';
+    suggestion += *entry.name ? std::string("'csgrt help ") + entry.name + "'" : "'csgrt --help'";
+    suggestion += " lists the options";
+    throw Error(Status::usage, std::move(findings));
+}
+
+template <class Arguments>
+std::string entry_options() {
+    Options options;
+    Arguments arguments;
+    define(options, arguments);
+    return options.help();
+}
+
+template <class Arguments>
+constexpr Entry entry(const char* name, const char* synopsis, const char* purpose) {
+    return {name, synopsis, purpose, parse_entry<Arguments>, entry_options<Arguments>};
+}
+
+constexpr Entry entries[] = {
+    entry<RenderArguments>("", "SCENE [OBJECT...] -o FILE.exr|FILE.png", "render a scene"),
+    entry<ShootArguments>("shoot", "SCENE [OBJECT...] --rays FILE", "the partitions along given rays"),
+    entry<CompareArguments>("compare", "A B", "compare two pictures, or two files of partitions"),
+    entry<DevicesArguments>("devices", "", "list the OpenCL devices"),
+    entry<InfoArguments>("info", "SCENE [OBJECT...]", "what a scene holds"),
+    entry<ConvertArguments>("convert", "IN OUT.json", "rewrite a scene as JSON"),
+};
+
+const Entry* find_entry(const std::string& name) {
+    auto found = std::find_if(std::begin(entries), std::end(entries), [&](const Entry& e) { return name == e.name; });
+    return found == std::end(entries) ? nullptr : found;
+}
+
+std::string nearest_command(const std::string& word) {
+    std::vector<std::string_view> names = {"help"};
+    for (const Entry& entry : entries)
+        if (*entry.name) names.emplace_back(entry.name);
+    return suggestion(word, names);
+}
+
+std::string usage_line(const Entry& entry) {
+    std::string line = "csgrt";
+    for (const char* part : {entry.name, entry.synopsis})
+        if (*part) line += std::string(" ") + part;
+    return line;
+}
+
+std::string overview() {
+    std::string text;
+    auto row = [&text](std::string line, const char* purpose) {
+        line.resize(std::max<std::size_t>(line.size(), 46), ' ');
+        text += "  " + line + "  " + purpose + "\n";
+    };
+    for (const Entry& entry : entries) row(usage_line(entry), entry.purpose);
+    row("csgrt help [COMMAND]", "the options of a command");
+    row("csgrt --version", "print the version");
+    return text;
+}
+
+constexpr const char* exit_status =
+    "\nExit status: 0 done, 2 usage, 3 scene, 4 no device, 5 out of memory, 6 file, 7 device fault,\n"
+    "8 a comparison differs, 130 interrupted.\n";
+
+}  // namespace
+
+std::string help_text(const std::string& command) {
+    const Entry* entry = find_entry(command);
+    if (!entry) {
+        std::string near = nearest_command(command);
+        fail("no command '" + command + "'", near.empty() ? "'csgrt --help' lists the commands" : near);
+    }
+    if (!command.empty()) return usage_line(*entry) + "\n\n" + entry->options() + exit_status;
+    return "csgrt: exact ray tracing of Constructive Solid Geometry\n\n" + overview() + "\nTo render a scene:\n\n" +
+           entry->options() + exit_status;
+}
+
+Command parse_arguments(const std::vector<std::string>& words) {
+    if (words.empty()) fail("no scene and no command", overview());
+    const std::string& first = words[0];
+    if (first == "--version") return TextArguments{std::string("csgrt ") + version() + "\n"};
+    if (first == "help") return TextArguments{help_text(words.size() > 1 ? words[1] : "")};
+    if (const Entry* entry = find_entry(first); entry && *entry->name)
+        return entry->parse(*entry, {words.begin() + 1, words.end()});
+
+    std::error_code ignored;
+    bool may_be_command = first.find_first_of("-./") == first.npos && !std::filesystem::exists(first, ignored);
+    if (std::string near = nearest_command(first); may_be_command && !near.empty())
+        fail("no command and no file '" + first + "'", near);
+    return entries[0].parse(entries[0], words);
+}
+
+}  // namespace csgrt::cli

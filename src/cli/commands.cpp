@@ -1,0 +1,27 @@
+#include "commands.hpp"
+
+#include <csgrt/scene_io.hpp>
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+
+namespace csgrt::cli {
+
+Settings with_progress(const Settings& settings, Progress& progress) {
+    Settings result = settings;
+    result.progress = [&progress](double fraction) {
+        progress.update(fraction);
+        return !interrupted();
+    };
+    return result;
+}
+
+Scene load_with_progress(const std::string& path) {
+    Progress progress;
+    progress.stage("loading");
+    Scene scene = load_scene(path);
+    check_interrupt();
+    return scene;
+}
+
+}  // namespace csgrt::cli

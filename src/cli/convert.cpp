@@ -1,0 +1,20 @@
+// csgrt convert: any scene that csgrt reads, as its own JSON.
+#include <filesystem>
+
+#include <csgrt/scene_io.hpp>
+
+#include "commands.hpp"
+#include "output.hpp"
+
+namespace csgrt::cli {
+
+Status run(const ConvertArguments& arguments) {
+    if (arguments.output != "-" && std::filesystem::path(arguments.output).extension() != ".json")
+        throw Error(Status::usage, "OUT: '" + arguments.output + "' must end in .json, the format that is written");
+    check_outputs({{"OUT", arguments.output, true}}, {{"IN", arguments.input}});
+    Scene scene = load_with_progress(arguments.input);
+    save_scene(scene, arguments.output);
+    return Status::ok;
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,71 @@
+// csgrt: the command. What goes wrong becomes a message and an exit status here.
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "arguments.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+
+namespace csgrt::cli {
+
+namespace {
+
+constexpr std::size_t most_findings = 50;  ///< printed; more help nobody
+constexpr int defect = 1;                  ///< exit status of what should not happen
+
+void print_error(const std::string& text) {
+    const char* plain = std::getenv("NO_COLOR");
+    bool colored = on_terminal() && !(plain && *plain);
+    std::fprintf(stderr, "csgrt: %serror:%s %s\n", colored ? "\033[1;31m" : "", colored ? "\033[0m" : "", text.c_str());
+}
+
+int fail(Status status, const std::string& text) {
+    print_error(text);
+    return static_cast<int>(status);
+}
+
+int fail(const Error& error) {
+    const auto& diagnostics = error.diagnostics();
+    for (std::size_t i = 0; i < diagnostics.size() && i < most_findings; ++i) print_error(format(diagnostics[i]));
+    if (diagnostics.size() > most_findings)
+        print_error(std::to_string(diagnostics.size() - most_findings) + " more errors are not shown");
+    return static_cast<int>(error.status());
+}
+
+constexpr const char* more_memory = "not enough memory: try a smaller --size, fewer objects, or --max-memory";
+
+int main_status(const std::vector<std::string>& words) {
+    try {
+        Command command = parse_arguments(words);
+        return static_cast<int>(std::visit([](const auto& arguments) { return run(arguments); }, command));
+    } catch (const Error& error) {
+        return fail(error);
+    } catch (const std::bad_alloc&) {
+        return fail(Status::out_of_memory, more_memory);
+    } catch (const std::length_error&) {
+        return fail(Status::out_of_memory, more_memory);
+    } catch (const std::exception& error) {
+        print_error(std::string("a defect of csgrt, please report it: ") + error.what());
+        return defect;
+    }
+}
+
+}  // namespace
+
+Status run(const TextArguments& arguments) {
+    print(arguments.text);
+    return Status::ok;
+}
+
+}  // namespace csgrt::cli
+
+int main(int argc, char** argv) {
+    csgrt::cli::catch_interrupts();
+    return csgrt::cli::main_status({argv + (argc > 0), argv + argc});
+}

@@ -1,0 +1,108 @@
+// A table of options and arguments: reads a command line into variables, and prints itself as help.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <csgrt/error.hpp>
+
+#include "values.hpp"
+
+namespace csgrt::cli {
+
+/// One option. The name begins with two dashes; `letter` is its short form or 0.
+struct Option {
+    std::string name;
+    char letter = 0;
+    std::string value;  ///< how help calls its value; empty: a flag, without one
+    std::string help;
+    std::string expected;                          ///< "'x' is not ..."
+    std::function<bool(const std::string&)> take;  ///< false: the value is not what was expected
+    bool repeatable = false, required = false, given = false;
+    std::string needs, excludes;  ///< names of other options
+};
+
+/// The options of one command. Targets must outlive it.
+class Options {
+public:
+    void flag(std::string name, std::string help, bool& target);
+
+    /// `read` turns text into an optional that is empty for a wrong value.
+    template <class Target, class Parse>
+    Option& value(std::string name, std::string type, std::string help, Target& target, Parse read,
+                  std::string expected) {
+        return add(std::move(name), std::move(type), std::move(help), std::move(expected),
+                   [&target, read](const std::string& text) {
+                       auto result = read(text);
+                       if (result) target = *std::move(result);
+                       return result.has_value();
+                   });
+    }
+
+    /// A number from `low` up to, but without, `high`.
+    template <class Target>
+    Option& number(std::string name, std::string type, std::string help, Target& target, double low, double high,
+                   std::string expected) {
+        auto read = [low, high](const std::string& text) {
+            auto number = parse_number(text);
+            return number && *number >= low && *number < high ? number : std::nullopt;
+        };
+        return value(std::move(name), std::move(type), std::move(help), target, read, std::move(expected));
+    }
+
+    /// A whole number from `low` to `high`.
+    template <class Target>
+    Option& count(std::string name, std::string help, Target& target, std::uint64_t low, std::uint64_t high) {
+        auto read = [low, high](const std::string& text) {
+            auto number = parse_count(text);
+            bool fits = number && *number >= low && *number <= high;
+            return fits ? std::optional(static_cast<Target>(*number)) : std::nullopt;
+        };
+        return value(std::move(name), "N", std::move(help), target, read,
+                     "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    }
+
+    Option& text(std::string name, std::string type, std::string help, std::string& target);
+
+    /// May be given several times; each value is appended.
+    Option& list(std::string name, std::string type, std::string help, std::vector<std::string>& target);
+
+    /// An argument without a name, which must be there. In the order of the calls.
+    void argument(std::string name, std::string help, std::string& target);
+    /// Takes all arguments that are left.
+    void arguments(std::string name, std::string help, std::vector<std::string>& target);
+
+    /// Returns every finding; empty means that all targets are set. Words after "--" are arguments, however they begin.
+    std::vector<Diagnostic> parse(const std::vector<std::string>& words);
+
+    bool help_wanted() const { return help_wanted_; }
+    std::string help() const;
+
+private:
+    struct Argument {
+        std::string name, help;
+        std::string* target;
+    };
+
+    Option& add(std::string name, std::string type, std::string help, std::string expected,
+                std::function<bool(const std::string&)> take);
+    Option* find(const std::string& word);
+    void unknown(const std::string& name);
+    void parse_option(const std::vector<std::string>& words, std::size_t& position);
+    void parse_arguments(const std::vector<std::string>& words);
+    void check_presence();
+    void found(const std::string& where, std::string message, std::string suggestion = {});
+
+    std::list<Option> options_;  ///< a list: the references handed out stay valid
+    std::vector<Argument> arguments_;
+    std::string rest_name_, rest_help_;
+    std::vector<std::string>* rest_ = nullptr;
+    std::vector<Diagnostic> findings_;
+    bool help_wanted_ = false;
+};
+
+}  // namespace csgrt::cli

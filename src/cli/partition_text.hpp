@@ -1,0 +1,72 @@
+// The text form of partitions: for each ray a line "ray INDEX PARTITIONS OVERLAPS", then a line a partition,
+//
+//     region in out inx iny inz outx outy outz in-solid out-solid in-type out-type
+//
+// then a line an overlap, "overlap in out region region...". Numbers have 17 significant digits, so that they read back
+// to the same bits. A blank or a backslash in a name is written as \ooo, its byte in octal. Lines that begin with # are
+// comments.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+#include "lines.hpp"
+
+namespace csgrt::cli {
+
+class PartitionWriter {
+public:
+    explicit PartitionWriter(const Renderer& renderer);
+
+    /// Appends the lines of one ray to `out`.
+    void append(std::string& out, std::uint64_t ray, const RayPartitions& partitions) const;
+
+private:
+    std::vector<std::string> regions_, solids_, types_;
+};
+
+/// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.
+void append_number(std::string& out, double value);
+/// Appends a name, its blanks escaped.
+void append_name(std::string& out, std::string_view name);
+
+/// What a file says of one ray.
+struct TextRay {
+    struct Partition {
+        std::string region;
+        double in = 0, out = 0;
+        std::array<double, 6> normals{};
+        std::array<std::string, 4> solids;  ///< in-solid out-solid in-type out-type
+    };
+    struct Overlap {
+        double in = 0, out = 0;
+        std::vector<std::string> regions;
+    };
+    std::uint64_t index = 0;
+    std::vector<Partition> partitions;
+    std::vector<Overlap> overlaps;
+};
+
+class PartitionReader {
+public:
+    /// Throws Error (file), as next() does for whatever is no such file.
+    explicit PartitionReader(const std::string& path) : lines_(path, LineReader::Passes::one) {}
+
+    /// Replaces `ray` by the next one; false at the end of the file.
+    bool next(TextRay& ray);
+
+private:
+    void next_words(std::size_t least, const char* form);
+    double number(const Word& word) const;
+    [[noreturn]] void fail(int column, const std::string& message, const char* form) const;
+
+    LineReader lines_;
+    std::vector<Word> words_;
+};
+
+}  // namespace csgrt::cli

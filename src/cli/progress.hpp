@@ -1,0 +1,48 @@
+// What goes on, on a terminal: one line on standard error that is wiped away when the work is done.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace csgrt::cli {
+
+/// Shows the present stage with its done fraction and the time left, once it has lasted a second. Silent where standard
+/// error is no terminal. A thread of its own redraws, so that a stage which never reports still shows its elapsed time.
+class Progress {
+public:
+    /// `wanted` false: silent on a terminal too, for commands that print there themselves.
+    explicit Progress(bool wanted = true);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Begins a stage, e.g. "rendering"; its fraction is unknown until the first update. Safe from any thread.
+    void stage(std::string name);
+    /// What the next updates are of the stage: from `begin` to `end`, both 0..1. A new stage is 0 to 1.
+    void range(double begin, double end);
+    /// Sets the done fraction of the range, 0..1. Safe from any thread.
+    void update(double fraction);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void redraw_until_done();
+    std::string line(Clock::time_point now) const;
+
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::string name_;
+    double range_begin_ = 0, range_end_ = 1;
+    double fraction_ = -1;  ///< negative: unknown
+    Clock::time_point start_ = Clock::now();
+    bool done_ = false;
+    std::thread thread_;
+};
+
+/// Standard error is a terminal that understands escape sequences.
+bool on_terminal();
+
+}  // namespace csgrt::cli

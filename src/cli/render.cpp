@@ -1,0 +1,144 @@
+// csgrt SCENE: one or more frames, written as pictures and figures.
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include <unistd.h>
+
+#include <csgrt/image.hpp>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "partition_text.hpp"
+#include "progress.hpp"
+#include "scene_text.hpp"
+#include "stats.hpp"
+
+namespace csgrt::cli {
+
+namespace {
+
+[[noreturn]] void refuse(const char* option, std::string message, std::string suggestion) {
+    Diagnostic diagnostic;
+    diagnostic.place.pointer = option;
+    diagnostic.message = std::move(message);
+    diagnostic.suggestion = std::move(suggestion);
+    throw Error(Status::usage, {std::move(diagnostic)});
+}
+
+#ifdef CSGRT_HAVE_IMAGE
+std::string extension_of(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    return extension;
+}
+#endif
+
+/// Everything that can be known to go wrong before the work begins.
+void check(const RenderArguments& arguments) {
+    if (arguments.outputs.empty() && arguments.stats.empty())
+        refuse("", "nothing to write",
+               "name a picture with -o FILE.exr or -o FILE.png, or ask for figures with --stats -");
+    std::vector<NamedFile> outputs;
+    bool to_standard_output = false;
+    for (const std::string& path : arguments.outputs) {
+        outputs.push_back({"--output", path, true});
+        to_standard_output |= path == "-";
+#ifdef CSGRT_HAVE_IMAGE
+        if (path != "-" && extension_of(path) != ".exr" && extension_of(path) != ".png")
+            refuse("--output", "'" + path + "' is no picture's name",
+                   "FILE.exr holds every channel, FILE.png the colours");
+#else
+        refuse("--output", "this csgrt was built without OpenImageIO and writes no pictures",
+               "--stats works without it");
+#endif
+    }
+    if (!arguments.format.empty() && !to_standard_output)
+        refuse("--format", "has a meaning only with -o -", "a file's name says its format");
+    if (to_standard_output && isatty(STDOUT_FILENO) == 1)
+        refuse("--output", "a terminal cannot show a picture", "redirect standard output, or name a file with -o");
+    if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
+    check_outputs(outputs, {{"SCENE", arguments.scene}});
+}
+
+Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
+    Camera camera = scene.camera;
+    camera.azimuth = arguments.azimuth.value_or(camera.azimuth);
+    camera.elevation = arguments.elevation.value_or(camera.elevation);
+    camera.perspective = arguments.perspective.value_or(camera.perspective);
+    return camera;
+}
+
+#ifdef CSGRT_HAVE_IMAGE
+/// The command that makes this picture: only what decides its pixels, so that it is the same wherever it was made.
+std::string canonical_command(const Scene& scene, const RenderArguments& arguments, const Camera& camera) {
+    std::string text = "csgrt " + model_text(scene, arguments) + " --size " + std::to_string(arguments.width) + "x" +
+                       std::to_string(arguments.height);
+    auto option = [&text](const char* name, double value) {
+        text += std::string(" ") + name + " ";
+        append_number(text, value);
+    };
+    option("--azimuth", camera.azimuth);
+    option("--elevation", camera.elevation);
+    option("--perspective", camera.perspective);
+    option("--tolerance", arguments.settings.tolerance < 0 ? scene.tolerance : arguments.settings.tolerance);
+    if (arguments.settings.air) text += " --air";
+    if (arguments.first_hit) text += " --first-hit";
+    return text;
+}
+#endif
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// Leaves the last frame in `image`.
+Statistics render_frames(const Scene& scene, const RenderArguments& arguments, const View& view, Image& image) {
+    Progress progress;
+    progress.stage("compiling");
+    Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
+    check_interrupt();
+
+    progress.stage("rendering");
+    std::vector<Statistics> frames;
+    for (int frame = 0; frame < arguments.repeat; ++frame) {
+        progress.range(double(frame) / arguments.repeat, double(frame + 1) / arguments.repeat);
+        image = renderer.render(view);
+        frames.push_back(renderer.statistics());
+        check_interrupt();
+    }
+    return median_of(frames);
+}
+
+}  // namespace
+
+Status run(const RenderArguments& arguments) {
+    check(arguments);
+    auto begin = Clock::now();
+    Scene scene = load_with_progress(arguments.scene);
+    double load = milliseconds_since(begin);
+    View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
+    Image image;
+    Statistics statistics = render_frames(scene, arguments, view, image);
+    statistics.ms.load = load;
+#ifdef CSGRT_HAVE_IMAGE
+    image.attributes["csgrt:command"] = canonical_command(scene, arguments, view.camera);
+    begin = Clock::now();
+    for (const std::string& path : arguments.outputs) {
+        write_image(image, path, arguments.format.empty() ? "exr" : arguments.format);
+        check_interrupt();
+    }
+    statistics.ms.write = milliseconds_since(begin);
+#endif
+    if (!arguments.stats.empty()) {
+        OutputFile out(arguments.stats);
+        out.write(to_json(statistics));
+        out.commit();
+    }
+    return Status::ok;
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,139 @@
+#include "scene_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "partition_text.hpp"
+
+namespace csgrt::cli {
+
+namespace {
+
+/// A leaf as it stands in its tree: "- (" before it and ")" behind it.
+struct Member {
+    const TreeNode* leaf = nullptr;
+    std::string before, behind;
+};
+
+const char* symbol(Operator op) {
+    return op == Operator::intersection ? "+" : op == Operator::difference ? "-" : op == Operator::xor_ ? "^" : "u";
+}
+
+int strength(Operator op) {
+    if (op == Operator::leaf || op == Operator::not_) return 3;
+    return op == Operator::intersection || op == Operator::difference ? 2 : 1;
+}
+
+/// The leaves in order, with the operators between them. As in BRL-CAD, "-" and "+" bind stronger than "u"; brackets
+/// stand where that does not say it.
+std::vector<Member> members_of(const Tree& tree) {
+    struct Part {
+        std::size_t first;  ///< leaf
+        Operator op;
+    };
+    std::vector<Member> members;
+    std::vector<Part> stack;
+    for (const TreeNode& node : tree.nodes) {
+        if (node.op == Operator::leaf) {
+            stack.push_back({members.size(), node.op});
+            members.push_back({&node, "", ""});
+            continue;
+        }
+        if (node.arity == 0 || node.arity > stack.size()) return {};  // unsound: compiling will say so
+        std::size_t base = stack.size() - node.arity;
+        for (std::size_t i = base; i < stack.size(); ++i) {
+            Member& first = members[stack[i].first];
+            std::size_t end = i + 1 < stack.size() ? stack[i + 1].first : members.size();
+            int inner = strength(stack[i].op), outer = strength(node.op);
+            bool same = stack[i].op == node.op;
+            bool clear = inner > outer || (inner == outer && same && (i == base || node.op != Operator::difference));
+            if (end - stack[i].first > 1 && !clear) {
+                first.before.insert(0, "(");
+                members[end - 1].behind += ")";
+            }
+            if (node.op == Operator::not_)
+                first.before.insert(0, "!");
+            else if (i > base)
+                first.before.insert(0, std::string(symbol(node.op)) + " ");
+        }
+        stack.resize(base + 1);
+        stack[base].op = node.op;
+    }
+    return members;
+}
+
+class TreePrinter {
+public:
+    explicit TreePrinter(const Scene& scene) {
+        for (const Object& object : scene.objects) objects_.emplace(name_of(object), &object);
+    }
+
+    void print(const std::string& name, const std::string& before, const std::string& behind, int depth, int level) {
+        auto found = objects_.find(name);
+        text += std::string(4 * static_cast<std::size_t>(level), ' ') + before + name + behind;
+        if (found == objects_.end()) {
+            text += "  (missing)\n";
+            return;
+        }
+        if (auto* solid = std::get_if<Solid>(found->second)) {
+            text += std::string("  ") + type_name(solid->shape) + "\n";
+            return;
+        }
+        const auto& combination = std::get<Combination>(*found->second);
+        auto members = members_of(combination.tree);
+        text += combination.region ? "  region " + std::to_string(combination.region_id) : "  combination";
+        if (combination.region && combination.air) text += "  air " + std::to_string(combination.air);
+        text += "  of " + std::to_string(members.size());
+        if (level >= depth || members.empty()) {
+            text += "\n";
+            return;
+        }
+        if (!unfolded_.insert(&combination).second) {
+            text += "  (see above)\n";
+            return;
+        }
+        text += "\n";
+        for (const Member& member : members) print(member.leaf->object, member.before, member.behind, depth, level + 1);
+    }
+
+    std::string text;
+
+private:
+    std::unordered_map<std::string, const Object*> objects_;
+    std::unordered_set<const Combination*> unfolded_;
+};
+
+}  // namespace
+
+std::string model_text(const Scene& scene, const SceneArguments& arguments) {
+    std::string text;
+    append_name(text, std::filesystem::path(arguments.scene).filename().string());
+    for (const std::string& object : arguments.objects.empty() ? top_objects(scene) : arguments.objects) {
+        text += ' ';
+        append_name(text, object);
+    }
+    return text;
+}
+
+std::string count_text(const std::map<std::string, std::size_t>& by_type) {
+    std::vector<std::pair<std::string, std::size_t>> rows(by_type.begin(), by_type.end());
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::size_t total = 0;
+    std::string list;
+    for (const auto& [type, count] : rows) {
+        total += count;
+        list += (list.empty() ? "" : ", ") + type + " " + std::to_string(count);
+    }
+    return std::to_string(total) + (list.empty() ? "" : " (" + list + ")");
+}
+
+std::string tree_text(const Scene& scene, const std::vector<std::string>& objects, int depth) {
+    TreePrinter printer(scene);
+    for (const std::string& name : objects) printer.print(name, "", "", depth, 0);
+    return std::move(printer.text);
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,67 @@
+// csgrt shoot: the partitions along given rays, a chunk at a time, so that any number of rays fits the memory.
+#include <unistd.h>
+
+#include <csgrt/scene_io.hpp>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "partition_text.hpp"
+#include "progress.hpp"
+#include "rays.hpp"
+#include "scene_text.hpp"
+
+namespace csgrt::cli {
+
+namespace {
+
+constexpr std::size_t chunk = 65'536;  ///< rays; enough to fill a device, and some 100 MB of answers in deep scenes
+
+std::string header(const ShootArguments& arguments, const Scene& scene, const Renderer& renderer, std::uint64_t rays) {
+    std::string text = std::string("# csgrt ") + version() + " model " + model_text(scene, arguments) + "\n# rays " +
+                       std::to_string(rays) + " solids " + std::to_string(renderer.solids().size()) + " regions " +
+                       std::to_string(renderer.regions().size()) + " useair " + (arguments.settings.air ? "1" : "0") +
+                       " tol.dist ";
+    append_number(text, arguments.settings.tolerance < 0 ? scene.tolerance : arguments.settings.tolerance);
+    text += "\n# box";
+    const Box& box = renderer.bounds();
+    for (double value : {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z}) {
+        text += ' ';
+        append_number(text, value);
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+Status run(const ShootArguments& arguments) {
+    check_outputs({{"--output", arguments.output}}, {{"SCENE", arguments.scene}, {"--rays", arguments.rays}});
+    Progress progress(arguments.output != "-" || isatty(STDOUT_FILENO) != 1);
+    progress.stage("loading");
+    Scene scene = load_scene(arguments.scene);
+    progress.stage("reading rays");
+    RayReader reader(arguments.rays);
+    progress.stage("compiling");
+    Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
+    check_interrupt();
+
+    OutputFile out(arguments.output);
+    out.write(header(arguments, scene, renderer, reader.count()));
+    PartitionWriter writer(renderer);
+    progress.stage("shooting");
+    std::vector<Ray> rays;
+    std::string text;
+    std::uint64_t done = 0;
+    auto total = static_cast<double>(reader.count());
+    while (reader.next(rays, chunk)) {
+        progress.range(static_cast<double>(done) / total, static_cast<double>(done + rays.size()) / total);
+        for (const RayPartitions& along : renderer.shoot(rays)) writer.append(text, done++, along);
+        out.write(text);
+        text.clear();
+        check_interrupt();
+    }
+    out.commit();
+    return Status::ok;
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,18 @@
+// Statistics for --stats.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+namespace csgrt::cli {
+
+/// One JSON object, with a line break after it.
+std::string to_json(const Statistics& statistics);
+
+/// The last frame's counts with the median of every time; the first of several frames, which warms up, is not counted.
+/// `frames` must not be empty.
+Statistics median_of(const std::vector<Statistics>& frames);
+
+}  // namespace csgrt::cli

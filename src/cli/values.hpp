@@ -1,0 +1,30 @@
+// Values as they are written on a command line and in a file of rays.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace csgrt::cli {
+
+inline constexpr int max_side = 32'768;  ///< pixels; more than a billion rays are a mistake rather than a wish
+
+/// A finite number, the whole of `text`; a leading plus is fine.
+std::optional<double> parse_number(std::string_view text);
+
+/// A decimal whole number, the whole of `text`.
+std::optional<std::uint64_t> parse_count(std::string_view text);
+
+/// "1024" or "1920x1080", each side from 1 to max_side.
+std::optional<std::pair<int, int>> parse_size(std::string_view text);
+
+/// Bytes: a whole number, with K, M, G or T for powers of 1024; at least 1.
+std::optional<std::uint64_t> parse_memory(std::string_view text);
+
+/// "did you mean 'name'?" for the name that begins with `word` or is nearest to it; empty if none is.
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& names);
+
+}  // namespace csgrt::cli

@@ -1,0 +1,25 @@
+// Colour and finish on the way down to a region.
+#pragma once
+
+#include <optional>
+
+#include <csgrt/renderer.hpp>
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// What the combinations above have set. A combination sets its own, unless one above set it and wants it inherited.
+struct Attributes {
+    std::optional<Vec3> color;
+    const Finish* finish = nullptr;  ///< in the scene
+    bool color_fixed = false, finish_fixed = false;
+
+    void apply(const Combination& combination);
+};
+
+/// Everything but path and bounds. A null `region` is a solid outside all regions: everything 0.
+/// BRL-CAD's colour table colours a region by its id, unless a combination has given it a colour.
+RegionInfo describe_region(const Combination* region, const Attributes& attributes,
+                           const std::vector<RegionColor>& region_colors);
+
+}  // namespace csgrt

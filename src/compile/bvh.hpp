@@ -1,0 +1,24 @@
+// The hierarchy of boxes that kernels 1 and 2 walk.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+struct Hierarchy {
+    std::vector<kernel::BvhNode> nodes;  ///< none if there are no boxes
+    std::vector<std::uint32_t> order;    ///< boxes in the order of the leaves
+};
+
+/// Boxes are widened by this much of the radius, all around. The slab test of kernels/traverse.h takes the ray's origin
+/// within one radius of the centre, and with all its roundings to float displaces a side by less than half of this.
+inline constexpr double bvh_padding = 1.0 / (1 << 20);
+
+/// Builds the hierarchy by the binned surface area heuristic, with 1 to 4 boxes a leaf. `center` and `radius` are of a
+/// sphere around all boxes. The box that comes i-th in the order gets the number first_solid + i.
+Hierarchy build_bvh(const std::vector<Box>& boxes, const Vec3& center, double radius, std::uint32_t first_solid);
+
+}  // namespace csgrt

@@ -1,0 +1,201 @@
+// The order of it all: flatten, box, number, pack, linearize.
+
+#include "compile/compiled_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "compile/bounds.hpp"
+#include "compile/bvh.hpp"
+#include "compile/flatten.hpp"
+#include "compile/hash.hpp"
+#include "compile/linear.hpp"
+#include "compile/linearize.hpp"
+#include "compile/pack_solids.hpp"
+#include "compile/polyhedron.hpp"
+
+namespace csgrt {
+
+namespace {
+
+const Solid& solid_of(const Scene& scene, const Instance& instance) {
+    return std::get<Solid>(scene.objects[instance.object]);
+}
+
+/// The sphere around all bounded solids, from the box around their boxes.
+void set_sphere(const std::vector<Box>& boxes, CompiledScene& compiled) {
+    Box all = empty_box;
+    for (const Box& box : boxes)
+        if (is_finite(box)) all = united(all, box);
+    if (is_empty(all)) return;
+    compiled.center = narrow(0.5L * (wide(all.low) + wide(all.high)));
+    compiled.radius = 0.5 * diagonal(all);
+}
+
+/// Numbers the instances: the unbounded ones first, then in the order of the hierarchy's leaves. Returns old numbers in
+/// the new order.
+std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, CompiledScene& compiled) {
+    std::vector<std::uint32_t> order, bounded;
+    std::vector<Box> bounded_boxes;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (is_finite(boxes[i])) {
+            bounded.push_back(i);
+            bounded_boxes.push_back(boxes[i]);
+        } else {
+            order.push_back(i);
+        }
+    }
+    compiled.unbounded_count = static_cast<std::uint32_t>(order.size());
+    Hierarchy hierarchy = build_bvh(bounded_boxes, compiled.center, compiled.radius, compiled.unbounded_count);
+    compiled.nodes = std::move(hierarchy.nodes);
+    for (const std::uint32_t i : hierarchy.order) order.push_back(bounded[i]);
+    return order;
+}
+
+/// Where planes of unbounded solids are compared: around everything bounded, or where there is nothing, around the feet of
+/// the planes.
+Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& compiled) {
+    double reach = compiled.radius;
+    if (reach == 0) {
+        reach = 1;
+        for (const Instance& instance : flat.instances)
+            if (const auto* half = std::get_if<Half>(&solid_of(scene, instance).shape))
+                reach = std::max(reach, 2 * std::fabs(transform_plane(instance.matrix, half->plane).distance));
+    }
+    const Vec3& c = compiled.center;
+    return {{c.x - reach, c.y - reach, c.z - reach}, {c.x + reach, c.y + reach, c.z + reach}};
+}
+
+void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<std::uint32_t>& order,
+                 const std::vector<Box>& boxes, CompiledScene& compiled) {
+    const Box common = common_box(scene, flat, compiled);
+    PlaneTable planes(compiled.center, 0.5 * diagonal(common));
+    for (const std::uint32_t i : order) {
+        const Solid& solid = solid_of(scene, flat.instances[i]);
+        const bool bounded = is_finite(boxes[i]);
+        pack_solid(solid.shape, flat.instances[i].matrix, bounded ? boxes[i] : common, compiled, planes);
+        compiled.solid_info.push_back({solid.name, type_name(solid.shape)});
+        compiled.solid_boxes.push_back(boxes[i]);
+        compiled.solid_types |= 1u << compiled.solids.back().type;
+        if (!bounded && !std::holds_alternative<Half>(solid.shape))
+            compiled.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
+    }
+    compiled.planes = planes.take();
+}
+
+void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, CompiledScene& compiled) {
+    using Key = std::tuple<float, float, float, float, float, float, std::uint32_t>;
+    std::map<Key, std::uint32_t> known;
+    compiled.bounds = empty_box;
+    for (FlatRegion& region : flat.regions) {
+        const LinearTree tree = linearize(region.tree, compiled.trees);
+        if (!tree.union_only) {
+            compiled.operators |= tree.operators;
+            compiled.tree_stack = std::max(compiled.tree_stack, tree.stack);
+        }
+
+        const Finish& f = region.info.finish;
+        const Vec3& color = region.info.color;
+        const auto to_float = [](double x) { return static_cast<float>(x); };
+        const kernel::MaterialRecord m{to_float(color.x), to_float(color.y), to_float(color.z), to_float(f.specular),
+                                       to_float(f.diffuse), to_float(f.ambient), static_cast<std::uint32_t>(std::max(f.shine, 0))};
+        const auto next = static_cast<std::uint32_t>(compiled.materials.size());
+        const auto [material, added] = known.emplace(Key{m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine}, next);
+        if (added) compiled.materials.push_back(m);
+
+        compiled.regions.push_back(
+            {tree.first_word, tree.word_count, tree.union_only ? REGION_UNION_ONLY : 0u, material->second});
+        region.info.bounds = tree_box(region.tree, brlcad_boxes);
+        if (is_finite(region.info.bounds) && !is_empty(region.info.bounds))
+            compiled.bounds = united(compiled.bounds, region.info.bounds);
+        compiled.region_info.push_back(std::move(region.info));
+        compiled.flat_trees.push_back(std::move(region.tree));
+    }
+}
+
+/// The regions of each solid, ascending.
+void list_regions(CompiledScene& compiled) {
+    const auto region_count = static_cast<std::uint32_t>(compiled.flat_trees.size());
+    std::vector<std::uint32_t> last(compiled.solids.size());
+    const auto for_each = [&](const auto& call) {
+        std::fill(last.begin(), last.end(), region_count);
+        for (std::uint32_t region = 0; region < region_count; ++region) {
+            for (const FlatTree::Node& node : compiled.flat_trees[region].nodes) {
+                if (node.op != Operator::leaf || last[node.solid] == region) continue;
+                last[node.solid] = region;
+                call(compiled.solids[node.solid], region);
+            }
+        }
+    };
+    for_each([](kernel::SolidRecord& solid, std::uint32_t) { ++solid.region_count; });
+    std::uint32_t total = 0;
+    for (kernel::SolidRecord& solid : compiled.solids) {
+        solid.first_region = total;
+        total += solid.region_count;
+        solid.region_count = 0;
+    }
+    compiled.region_lists.resize(total);
+    for_each([&](kernel::SolidRecord& solid, std::uint32_t region) {
+        compiled.region_lists[solid.first_region + solid.region_count++] = region;
+    });
+}
+
+void set_surroundings(const Scene& scene, CompiledScene& compiled) {
+    for (const Light& light : scene.lights) {
+        const auto shade = [&](double c) { return static_cast<float>(c * light.intensity); };
+        compiled.lights.push_back({light.position.x, light.position.y, light.position.z, shade(light.color.x),
+                                   shade(light.color.y), shade(light.color.z)});
+    }
+    compiled.background = {scene.background.x, scene.background.y, scene.background.z};
+    compiled.ambient = scene.ambient;
+    compiled.tolerance = scene.tolerance;
+}
+
+}  // namespace
+
+CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects, const CompileOptions& options) {
+    if (std::vector<Diagnostic> findings = validate(scene, objects); !findings.empty())
+        throw Error(Status::scene, std::move(findings));
+
+    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air);
+    CompiledScene compiled;
+    compiled.notes = std::move(flat.notes);
+    if (flat.regions.empty()) {
+        std::string message = "there is nothing to render";
+        for (const std::string& note : compiled.notes) message += "\n" + note;
+        throw Error(Status::scene, message);
+    }
+
+    std::vector<Box> boxes, brlcad_boxes;
+    boxes.reserve(flat.instances.size());
+    for (const Instance& instance : flat.instances) boxes.push_back(solid_box(solid_of(scene, instance).shape, instance.matrix));
+    set_sphere(boxes, compiled);
+    const std::vector<std::uint32_t> order = number_solids(boxes, compiled);
+    pack_solids(scene, flat, order, boxes, compiled);
+
+    std::vector<std::uint32_t> number(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        number[order[i]] = i;
+        const Instance& instance = flat.instances[order[i]];
+        brlcad_boxes.push_back(brlcad_box(solid_of(scene, instance).shape, instance.matrix));
+    }
+    std::uint64_t leaves = 0;
+    for (FlatRegion& region : flat.regions) {
+        for (FlatTree::Node& node : region.tree.nodes) {
+            if (node.op != Operator::leaf) continue;
+            node.solid = number[node.solid];
+            ++leaves;
+        }
+    }
+    compiled.instances = static_cast<std::uint32_t>(leaves);
+
+    set_regions(flat, brlcad_boxes, compiled);
+    list_regions(compiled);
+    set_surroundings(scene, compiled);
+    compiled.hash = hash_of(compiled);
+    return compiled;
+}
+
+}  // namespace csgrt

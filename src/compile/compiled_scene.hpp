@@ -1,0 +1,65 @@
+// Scene -> CompiledScene: everything that the five kernels and the reference need, in the order in which they need it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+#include <csgrt/scene.hpp>
+
+#include "../kernel_host.hpp"
+
+namespace csgrt {
+
+/// A region's tree as the model gives it (after flattening), in postfix order, for the reference: it shares nothing with
+/// the linearized words but the numbers of the solids.
+struct FlatTree {
+    struct Node {
+        Operator op = Operator::leaf;
+        std::uint32_t arity = 0;
+        std::uint32_t solid = 0;  ///< leaf
+    };
+    std::vector<Node> nodes;
+};
+
+struct CompiledScene {
+    // Crosses the bus. Solids are numbered: the unbounded ones first, then in the order of the hierarchy's leaves.
+    std::vector<kernel::SolidRecord> solids;
+    std::vector<double> reals;
+    std::vector<kernel::PlaneRecord> planes;
+    std::vector<kernel::PlaneRef> plane_refs;
+    std::vector<std::uint32_t> region_lists;
+    std::vector<kernel::RegionRecord> regions;
+    std::vector<std::uint32_t> trees;
+    std::vector<kernel::MaterialRecord> materials;
+    std::vector<kernel::LightRecord> lights;  ///< the scene's own; none: the view supplies one
+    std::vector<kernel::BvhNode> nodes;
+    std::uint32_t unbounded_count = 0;
+
+    // Stays on the host.
+    std::vector<FlatTree> flat_trees;       ///< one a region
+    std::vector<RegionInfo> region_info;    ///< one a region
+    std::vector<SolidInfo> solid_info;      ///< one a solid
+    std::vector<Box> solid_boxes;           ///< one a solid; infinite for the unbounded
+    Box bounds;                             ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
+    Vec3 center;                            ///< of the sphere around all bounded solids
+    double radius = 0;
+    std::uint32_t solid_types = 0;          ///< bit SOLID_x: the scene has such solids
+    std::uint32_t operators = 0;            ///< bit OP_x: trees that need a walk have such operators
+    std::uint32_t instances = 0;            ///< leaves over all trees
+    std::uint32_t tree_stack = 0;           ///< the deepest stack that any walk needs, <= TREE_STACK
+    std::vector<double> background{0, 0, 0};
+    double ambient = 0.4, tolerance = 0.0005;
+    std::uint64_t hash = 0;                 ///< FNV-1a over everything that crosses the bus: the same scene, the same number
+    std::vector<std::string> notes;         ///< worth telling: objects without solids, air regions left out, ...
+};
+
+struct CompileOptions {
+    bool air = false;  ///< keep air regions
+};
+
+/// Validates and compiles `objects` of `scene` (empty: its top objects). Throws Error (scene) with every finding.
+CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects = {}, const CompileOptions& options = {});
+
+}  // namespace csgrt

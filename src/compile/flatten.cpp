@@ -1,0 +1,277 @@
+#include "compile/flatten.hpp"
+
+#include <cstring>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "compile/linear.hpp"
+#include "compile/linearize.hpp"
+#include "compile/regions.hpp"
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// A name list for a note: all of a few, the first few of many.
+std::string some(const std::vector<std::string>& names) {
+    constexpr std::size_t shown = 5;
+    std::string text;
+    for (std::size_t i = 0; i < names.size() && i < shown; ++i) text += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > shown) text += ", ...";
+    return text;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+struct InstanceHash {
+    std::size_t operator()(const Instance& instance) const {
+        std::uint64_t hash = 14695981039346656037u ^ instance.object;
+        for (const double value : instance.matrix) {
+            std::uint64_t bits;
+            std::memcpy(&bits, &value, sizeof bits);
+            hash = (hash ^ bits) * 1099511628211u;
+            hash ^= hash >> 29;
+        }
+        return hash;
+    }
+};
+struct InstanceEqual {
+    bool operator()(const Instance& a, const Instance& b) const { return a.object == b.object && a.matrix == b.matrix; }
+};
+
+/// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
+class Flattener {
+public:
+    Flattener(const Scene& scene, const ObjectIndex& index, FlatScene& result)
+        : scene_(scene), index_(index), result_(result) {}
+
+    enum class Kind { tree, nothing, everything };
+    Kind write(const RegionForest& forest, std::uint32_t term, FlatTree& tree);
+
+private:
+    /// The nodes of an operand start at `first` and end where the next one's start. A constant has none.
+    struct Operand {
+        std::size_t first;
+        Kind kind;
+    };
+    struct Frame {
+        const Combination* combination;
+        Matrix matrix;
+        std::size_t next;
+    };
+
+    void expand(std::uint32_t object, const Matrix& matrix);
+    void enter(std::uint32_t object, const Matrix& matrix);
+    void operate(Operator op, std::uint32_t arity);
+    void append(Operator op, std::size_t arity);
+    std::uint32_t instance_of(std::uint32_t object, const Matrix& matrix);
+
+    const Scene& scene_;
+    const ObjectIndex& index_;
+    FlatScene& result_;
+    FlatTree* tree_ = nullptr;
+    std::vector<Operand> operands_;
+    std::vector<Frame> frames_;
+    std::unordered_map<Instance, std::uint32_t, InstanceHash, InstanceEqual> known_;
+    std::uint64_t references_ = 0, leaves_ = 0;
+};
+
+Flattener::Kind Flattener::write(const RegionForest& forest, std::uint32_t term, FlatTree& tree) {
+    tree_ = &tree;
+    operands_.clear();
+    struct Task {
+        std::uint32_t node;
+        bool operands_done;
+    };
+    std::vector<Task> tasks{{term, false}};
+    while (!tasks.empty()) {
+        const auto [number, operands_done] = tasks.back();
+        tasks.pop_back();
+        const RegionForest::Node& node = forest.node(number);
+        if (node.op == Operator::leaf) {
+            const RegionStart& start = forest.start(node.left);
+            expand(start.object, start.matrix);
+        } else if (operands_done) {
+            operate(node.op, node.op == Operator::not_ ? 1 : 2);
+        } else {
+            tasks.push_back({number, true});
+            if (node.op != Operator::not_) tasks.push_back({node.right, false});
+            tasks.push_back({node.left, false});
+        }
+    }
+    return operands_.back().kind;
+}
+
+void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
+    enter(object, matrix);
+    while (!frames_.empty()) {
+        Frame& frame = frames_.back();
+        const std::vector<TreeNode>& nodes = frame.combination->tree.nodes;
+        if (frame.next == nodes.size()) {
+            if (nodes.empty()) operands_.push_back({tree_->nodes.size(), Kind::nothing});
+            frames_.pop_back();
+            continue;
+        }
+        const TreeNode& node = nodes[frame.next++];
+        if (node.op == Operator::leaf) {
+            enter(index_.find(node.object), compose(frame.matrix, node.matrix));
+        } else {
+            operate(node.op, node.arity);
+        }
+    }
+}
+
+void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
+    // The second limit ends the doubling of combinations that hold nothing.
+    if (++references_ > 16 * Limits::instances || leaves_ > Limits::instances)
+        throw Error(Status::scene, "more than " + std::to_string(Limits::instances) +
+                                       " solids after following all combinations, repeats counted");
+    if (const auto* combination = std::get_if<Combination>(&scene_.objects[object])) {
+        frames_.push_back({combination, matrix, 0});
+        return;
+    }
+    ++leaves_;
+    operands_.push_back({tree_->nodes.size(), Kind::tree});
+    tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, matrix)});
+}
+
+std::uint32_t Flattener::instance_of(std::uint32_t object, const Matrix& matrix) {
+    Instance instance{object, matrix};
+    for (double& value : instance.matrix) value += 0.0;  // -0 and 0 are one place
+    const auto number = static_cast<std::uint32_t>(result_.instances.size());
+    const auto [entry, added] = known_.emplace(instance, number);
+    if (added) result_.instances.push_back(instance);
+    return entry->second;
+}
+
+void Flattener::append(Operator op, std::size_t arity) {
+    tree_->nodes.push_back({op, static_cast<std::uint32_t>(arity), 0});
+}
+
+void Flattener::operate(Operator op, std::uint32_t arity) {
+    const std::size_t base = operands_.size() - arity;
+    const std::size_t first = operands_[base].first;
+    const Kind left = operands_[base].kind;
+    std::size_t trees = 0, wholes = 0;  // among the operands; the left one of a difference apart
+    for (std::size_t i = base + (op == Operator::difference ? 1 : 0); i < operands_.size(); ++i) {
+        if (operands_[i].kind == Kind::tree) ++trees;
+        if (operands_[i].kind == Kind::everything) ++wholes;
+    }
+    const std::size_t empties = arity - trees - wholes;
+    operands_.resize(base);
+
+    Kind result = Kind::tree;
+    bool complement = false;
+    switch (op) {
+        case Operator::union_:
+            result = wholes > 0 ? Kind::everything : trees > 0 ? Kind::tree : Kind::nothing;
+            break;
+        case Operator::intersection:
+            result = empties > 0 ? Kind::nothing : trees > 0 ? Kind::tree : Kind::everything;
+            break;
+        case Operator::difference:
+            if (left == Kind::nothing || wholes > 0) {
+                result = Kind::nothing;
+            } else if (left == Kind::everything) {
+                op = Operator::union_;
+                complement = true;
+                result = trees > 0 ? Kind::tree : Kind::nothing;
+            } else {
+                ++trees;
+            }
+            break;
+        case Operator::xor_:
+            result = trees > 0 ? Kind::tree : Kind::nothing;
+            complement = wholes % 2 == 1;
+            break;
+        default:  // not
+            complement = true;
+            result = left;
+            break;
+    }
+    if (result == Kind::tree) {
+        if (trees > 1) append(op, trees);
+        if (complement) append(Operator::not_, 1);
+    } else {
+        tree_->nodes.resize(first);
+        if (complement) result = result == Kind::nothing ? Kind::everything : Kind::nothing;
+    }
+    operands_.push_back({first, result});
+}
+
+/// Instances that only dropped parts of trees used are dropped, too.
+void drop_unused(FlatScene& flat) {
+    constexpr std::uint32_t unused = 0xffffffff;
+    std::vector<std::uint32_t> number(flat.instances.size(), unused);
+    std::vector<Instance> kept;
+    for (FlatRegion& region : flat.regions) {
+        for (FlatTree::Node& node : region.tree.nodes) {
+            if (node.op != Operator::leaf) continue;
+            std::uint32_t& to = number[node.solid];
+            if (to == unused) {
+                to = static_cast<std::uint32_t>(kept.size());
+                kept.push_back(flat.instances[node.solid]);
+            }
+            node.solid = to;
+        }
+    }
+    flat.instances = std::move(kept);
+}
+
+}  // namespace
+
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
+    FlatScene result;
+    const ObjectIndex index(scene);
+    Flattener flattener(scene, index, result);
+    std::vector<std::string> air_regions, empty_regions;
+    std::vector<Diagnostic> findings;
+    const auto contains_space = [&](const std::string& what, const Place& place) {
+        findings.push_back({place, what + " contains the empty space where no solid is",
+                            "intersect the complement with something that bounds it", {}});
+    };
+
+    std::unordered_set<std::string_view> seen;
+    for (const std::string& object : objects) {
+        if (!seen.insert(object).second) {
+            result.notes.push_back("object " + object + " is named twice; it is rendered once");
+            continue;
+        }
+        const std::size_t air_before = air_regions.size();
+        const std::size_t regions_before = result.regions.size(), empty_before = empty_regions.size();
+        RegionForest forest(scene, index, object, air, air_regions);
+        if (forest.is_everything()) contains_space("object " + object, place_of(scene.objects[index.find(object)]));
+        forest.for_each_term([&](std::uint32_t term) {
+            const RegionStart& start = forest.leftmost_start(term);
+            const Object& origin = scene.objects[start.object];
+            FlatRegion region;
+            const Flattener::Kind kind = flattener.write(forest, term, region.tree);
+            region.info = describe_region(std::get_if<Combination>(&origin), start.attributes, scene.region_colors);
+            region.info.path = forest.path(start.path);
+            region.place = place_of(origin);
+            if (kind == Flattener::Kind::nothing) {
+                empty_regions.push_back(region.info.path);
+            } else if (kind == Flattener::Kind::everything || contains_empty_space(region.tree)) {
+                contains_space("region " + region.info.path, region.place);
+            } else {
+                result.regions.push_back(std::move(region));
+            }
+        });
+        if (result.regions.size() == regions_before && empty_regions.size() == empty_before &&
+            air_regions.size() == air_before && findings.empty())
+            result.notes.push_back("object " + object + " holds no solid");
+    }
+    if (!findings.empty()) throw Error(Status::scene, std::move(findings));
+    if (!air_regions.empty())
+        result.notes.push_back(counted(air_regions.size(), "air region", "air regions") + " left out: " + some(air_regions));
+    if (!empty_regions.empty())
+        result.notes.push_back(counted(empty_regions.size(), "region without solids", "regions without solids") +
+                               " left out: " + some(empty_regions));
+    drop_unused(result);
+    return result;
+}
+
+}  // namespace csgrt

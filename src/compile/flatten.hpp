@@ -1,0 +1,34 @@
+// Scene -> regions with flat trees over placed solids: combinations, matrices and names are gone.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+/// A solid in its place. Two places of one solid with bit-equal matrices are one instance.
+struct Instance {
+    std::uint32_t object = 0;  ///< into Scene::objects
+    Matrix matrix{};           ///< from the root: M_top ... M_leg
+};
+
+struct FlatRegion {
+    RegionInfo info;  ///< all but the bounds
+    FlatTree tree;    ///< leaves are instances
+    Place place;
+};
+
+struct FlatScene {
+    std::vector<Instance> instances;  ///< all that trees use, in the order of first use
+    std::vector<FlatRegion> regions;  ///< in the order of the walk
+    std::vector<std::string> notes;
+};
+
+/// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
+/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is.
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air);
+
+}  // namespace csgrt

@@ -1,0 +1,29 @@
+// View + CompiledScene -> Frame: everything that a kernel needs to know about one picture.
+#pragma once
+
+#include <vector>
+
+#include "compiled_scene.hpp"
+
+namespace csgrt {
+
+struct PreparedFrame {
+    kernel::Frame frame{};
+    std::vector<kernel::LightRecord> lights;
+    double eye_to_center = 0;  ///< millimetres
+    double view_size = 0;      ///< height of the picture at the centre, millimetres
+    Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
+    Vec3 center;
+    std::uint64_t rays = 0;    ///< numbers of rays: pixels, filled up to whole blocks
+};
+
+/// BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that make no sense.
+PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1);
+
+/// The frame of a list of rays: no camera, no lights, everything along the whole line.
+PreparedFrame prepare_rays(const CompiledScene& scene, std::uint32_t count, double tolerance = -1);
+
+/// The model's box as BRL-CAD frames it: rounded outward to whole millimetres (not below one millimetre of diagonal).
+Box framing_box(const CompiledScene& scene);
+
+}  // namespace csgrt

@@ -1,0 +1,13 @@
+// One number for everything that crosses the bus.
+#pragma once
+
+#include <cstdint>
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+/// FNV-1a over what the device gets: the same scene gives the same number, on every machine of the same byte order.
+std::uint64_t hash_of(const CompiledScene& scene);
+
+}  // namespace csgrt

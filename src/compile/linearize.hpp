@@ -1,0 +1,25 @@
+// Trees -> 32-bit words, for the walk of the kernels (layout.h says how a word reads).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+struct LinearTree {
+    std::uint32_t first_word = 0, word_count = 0;  ///< in the words that were given
+    std::uint32_t operators = 0;                   ///< bit OP_x: the words hold such operators
+    std::uint32_t stack = 0;                       ///< entries that the walk needs at most
+    bool union_only = false;                       ///< true where any of its solids is: needs no walk
+};
+
+/// Is the tree true where no solid is? Such a tree is no region.
+bool contains_empty_space(const FlatTree& tree);
+
+/// Appends the tree to `words`. It must not contain the empty space.
+/// Throws Error (scene) if it does not fit 29 bits of position or of solid.
+LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words);
+
+}  // namespace csgrt

@@ -1,0 +1,16 @@
+// Solids -> SolidRecord, reals and plane references, as geometry/<solid>.h reads them.
+#pragma once
+
+#include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/planes.hpp"
+
+namespace csgrt {
+
+/// Appends a solid in its place to solids, reals and plane_refs of `scene`, and its faces to `planes`. `box` is the
+/// solid's own, or the scene's if it is not bounded. Its regions are not filled in.
+/// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
+void pack_solid(const Shape& shape, const Matrix& matrix, const Box& box, CompiledScene& scene, PlaneTable& planes);
+
+}  // namespace csgrt

@@ -1,0 +1,48 @@
+// The one table of planes in the world. Faces, end caps and half-spaces that lie in one plane share its record, so that a
+// ray meets them at the very same distance.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+class PlaneTable {
+public:
+    /// Two planes are one when over the boxes of both their solids they lie no farther apart than this, relative to the
+    /// smaller box's diagonal. Rounding of a model's own numbers and matrices stays below; a modelled gap is far above.
+    static constexpr double gap = 1e-10;
+    /// ... and when their unit normals differ by no more than this in any component, which keeps the search local.
+    static constexpr double tilt = 1e-9;
+
+    /// `around`: a sphere around the scene; distances are looked up relative to it.
+    PlaneTable(const Vec3& center, double radius) : center_(center), radius_(radius) {}
+
+    /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
+    kernel::PlaneRef add(const Plane& plane, const Box& box);
+
+    std::vector<kernel::PlaneRecord> take() { return std::move(records_); }
+
+private:
+    struct Entry {
+        Box box;             ///< of the solid that brought the plane
+        std::uint32_t next;  ///< in the same cell
+    };
+
+    std::uint32_t find(const Plane& plane, const Box& box) const;
+    bool same(std::uint32_t record, const Plane& plane, const Box& box) const;
+    double offset(const Plane& plane) const;
+
+    Vec3 center_;
+    double radius_;
+    std::vector<kernel::PlaneRecord> records_;
+    std::vector<Entry> entries_;
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  ///< hash of a cell -> its last record
+};
+
+}  // namespace csgrt

@@ -1,0 +1,98 @@
+#include "compile/polyhedron.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace csgrt {
+
+namespace {
+
+// Corners closer than this are one. BRL-CAD merges at 0.0005 mm, whatever the size; a small arb needs a finer measure.
+constexpr long double same_corner = 0.0005L;             // millimetres
+constexpr long double same_corner_relative = 1e-6L;      // of the arb's diagonal, if that is less
+// A third corner closer to the line through the first two than this, relative to their distance, says nothing of the plane.
+constexpr long double in_line = 1e-6L;
+// Corners may leave their plane by this, relative to the arb's diagonal, without being seen as a twisted face.
+constexpr long double flat = 1e-12L;
+
+Vec3 without_negative_zero(const Vec3& v) { return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; }
+
+}  // namespace
+
+Plane plane_through(const Wide& p, const Wide& normal) {
+    const Wide n = glm::normalize(normal);
+    return {without_negative_zero(narrow(n)), static_cast<double>(glm::dot(n, p)) + 0.0};
+}
+
+Plane transform_plane(const Matrix& matrix, const Plane& plane) {
+    const Wide n = wide(plane.normal);
+    const Wide on = transform_point(matrix, n * (plane.distance / glm::dot(n, n)));
+    return plane_through(on, glm::transpose(glm::inverse(linear_part(matrix))) * n);
+}
+
+std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix) {
+    std::vector<Plane> planes;
+    planes.reserve(arbn.planes.size());
+    for (const Plane& plane : arbn.planes) planes.push_back(transform_plane(matrix, plane));
+    return planes;
+}
+
+ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
+    static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+        {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
+
+    std::array<Wide, 8> corners;
+    Wide mean(0), low(infinity), high(-infinity);
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = transform_point(matrix, wide(arb.vertices[i]));
+        mean += corners[i] / 8.0L;
+        low = glm::min(low, corners[i]);
+        high = glm::max(high, corners[i]);
+    }
+    const long double size = glm::length(high - low);
+    const long double same = std::min(same_corner, same_corner_relative * size);
+
+    // Equal corners become one, the first of them, in every face.
+    std::array<std::size_t, 8> first_of{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        first_of[i] = i;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (glm::length(corners[i] - corners[j]) < same) {
+                first_of[i] = first_of[j];
+                break;
+            }
+        }
+    }
+
+    ArbFaces result;
+    result.is_hull = true;
+    for (const auto& face : faces) {
+        std::vector<std::size_t> chosen;
+        Wide normal(0);
+        for (const std::size_t corner : face) {
+            const std::size_t c = first_of[corner];
+            if (chosen.size() == 3 || std::find(chosen.begin(), chosen.end(), c) != chosen.end()) continue;
+            if (chosen.size() == 2) {
+                const Wide along = corners[chosen[1]] - corners[chosen[0]];
+                normal = glm::cross(along, corners[c] - corners[chosen[0]]);
+                if (glm::length(normal) < in_line * glm::dot(along, along)) continue;
+            }
+            chosen.push_back(c);
+        }
+        if (chosen.size() < 3) continue;
+        const Wide& on = corners[chosen[0]];
+        if (glm::dot(normal, on - mean) < 0) normal = -normal;
+        result.planes.push_back(plane_through(on, normal));
+
+        const Wide unit = glm::normalize(normal);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const long double above = glm::dot(unit, corners[i] - on);
+            const bool of_face = std::find(face.begin(), face.end(), i) != face.end();
+            if (above > flat * size || (of_face && above < -flat * size)) result.is_hull = false;
+        }
+    }
+    if (result.planes.size() < 4) result.is_hull = false;
+    return result;
+}
+
+}  // namespace csgrt

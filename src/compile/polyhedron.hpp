@@ -1,0 +1,33 @@
+// Convex polyhedra as the intersection of half-spaces: their faces, and the box around them.
+#pragma once
+
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/linear.hpp"
+
+namespace csgrt {
+
+/// The plane through p with the given normal, outward as it is; normal of any length but 0.
+Plane plane_through(const Wide& p, const Wide& normal);
+
+/// A plane of the model, moved to the world.
+Plane transform_plane(const Matrix& matrix, const Plane& plane);
+
+/// The faces of an arb in the world: the plane through the first three corners of each face that are neither equal nor in
+/// line, in BRL-CAD's order; outward is away from the mean of the corners. A face with fewer such corners is none.
+struct ArbFaces {
+    std::vector<Plane> planes;
+    bool is_hull = false;  ///< the planes bound the corners' hull: faces are flat, no corner lies outside
+};
+ArbFaces arb_faces(const Arb& arb, const Matrix& matrix);
+
+/// The faces of an arbn in the world.
+std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix);
+
+/// The box around the intersection of half-spaces; infinite where that is not bounded, empty if there is none.
+/// Expected time is linear in the number of planes.
+Box polyhedron_box(const std::vector<Plane>& planes);
+
+}  // namespace csgrt

@@ -1,0 +1,152 @@
+// Linear programming in three variables, after Seidel (1991): planes are added one by one in random order. A plane that the
+// best point so far satisfies changes nothing; otherwise the new best point lies on it, and is found by the same method
+// in one dimension less. Everything starts inside a large cube; what still touches it at the end is not bounded.
+
+#include "compile/polyhedron.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace csgrt {
+
+namespace {
+
+// Relative to the cube: a point this far outside a plane is on it.
+constexpr long double on_plane = 1e-15L;
+// Planes that meet at a smaller angle (radians) than this are parallel: where they meet is noise, and the box is the
+// larger for it.
+constexpr long double parallel = 1e-10L;
+
+/// sum n_i x_i <= d over N variables.
+template <std::size_t N>
+struct Constraint {
+    std::array<long double, N> n;
+    long double d;
+};
+template <std::size_t N>
+using Point = std::array<long double, N>;
+
+template <std::size_t N>
+long double dot(const std::array<long double, N>& a, const std::array<long double, N>& b) {
+    long double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+/// What a constraint says on the border of `c`, with variable k of N eliminated.
+template <std::size_t N>
+Constraint<N - 1> on_border(const Constraint<N>& c, std::size_t k, const Constraint<N>& other) {
+    Constraint<N - 1> result;
+    const long double factor = other.n[k] / c.n[k];
+    for (std::size_t j = 0, m = 0; j < N; ++j)
+        if (j != k) result.n[m++] = other.n[j] - factor * c.n[j];
+    result.d = other.d - factor * c.d;
+    return result;
+}
+
+/// Appends a constraint with a unit normal. False if it cannot be satisfied; nothing is appended if it says nothing.
+template <std::size_t N>
+bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long double reach) {
+    const long double length = std::sqrt(dot(c.n, c.n));
+    if (length < parallel) return c.d >= -parallel * reach;
+    for (long double& n : c.n) n /= length;
+    c.d /= length;
+    constraints.push_back(c);
+    return true;
+}
+
+/// The point of the cube |x_i| <= reach that satisfies the constraints and goes farthest along `aim`.
+template <std::size_t N>
+std::optional<Point<N>> farthest(const std::vector<Constraint<N>>& constraints, const Point<N>& aim, long double reach) {
+    Point<N> best;
+    for (std::size_t i = 0; i < N; ++i) best[i] = aim[i] < 0 ? -reach : reach;
+    if constexpr (N == 1) {
+        long double low = -reach, high = reach;
+        for (const Constraint<1>& c : constraints) {
+            if (c.n[0] > 0) high = std::min(high, c.d / c.n[0]);
+            if (c.n[0] < 0) low = std::max(low, c.d / c.n[0]);
+        }
+        if (low > high + on_plane * reach) return std::nullopt;
+        best[0] = aim[0] < 0 ? std::min(low, high) : std::max(low, high);
+    } else {
+        std::vector<Constraint<N - 1>> border;
+        for (std::size_t i = 0; i < constraints.size(); ++i) {
+            const Constraint<N>& c = constraints[i];
+            if (dot(c.n, best) <= c.d + on_plane * reach) continue;
+            std::size_t k = 0;
+            for (std::size_t j = 1; j < N; ++j)
+                if (std::fabs(c.n[j]) > std::fabs(c.n[k])) k = j;
+            border.clear();
+            for (std::size_t j = 0; j < i; ++j)
+                if (!append(border, on_border(c, k, constraints[j]), reach)) return std::nullopt;
+            for (const int side : {-1, 1}) {
+                Constraint<N> face{{}, reach};
+                face.n[k] = side;
+                if (!append(border, on_border(c, k, face), reach)) return std::nullopt;
+            }
+            const auto lower = farthest<N - 1>(border, on_border(c, k, {aim, 0}).n, reach);
+            if (!lower) return std::nullopt;
+            long double rest = c.d;
+            for (std::size_t j = 0, m = 0; j < N; ++j) {
+                if (j == k) continue;
+                best[j] = (*lower)[m++];
+                rest -= c.n[j] * best[j];
+            }
+            best[k] = rest / c.n[k];
+        }
+    }
+    return best;
+}
+
+/// In the cube of half-width `reach` around `center`.
+std::optional<Box> box_within(const std::vector<Plane>& planes, const Wide& center, long double reach) {
+    std::vector<Constraint<3>> constraints;
+    for (const Plane& plane : planes) {
+        const Wide n = wide(plane.normal);
+        append<3>(constraints, {{n.x, n.y, n.z}, plane.distance - glm::dot(n, center)}, reach);
+    }
+    Wide low(0), high(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const int side : {-1, 1}) {
+            Point<3> aim{};
+            aim[static_cast<std::size_t>(axis)] = side;
+            const auto point = farthest<3>(constraints, aim, reach);
+            if (!point) return std::nullopt;
+            (side < 0 ? low : high)[axis] = (*point)[static_cast<std::size_t>(axis)];
+        }
+    }
+    return Box{narrow(center + low), narrow(center + high)};
+}
+
+}  // namespace
+
+Box polyhedron_box(const std::vector<Plane>& planes) {
+    std::vector<Plane> shuffled = planes;
+    std::uint64_t random = 0x9e3779b97f4a7c15u;  // a fixed start: the same planes, the same box
+    for (std::size_t i = shuffled.size(); i > 1; --i) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        std::swap(shuffled[i - 1], shuffled[(random >> 33) % i]);
+    }
+
+    // Vertices may lie far beyond the feet of the planes, where these meet at a small angle.
+    long double foot = 0;
+    for (const Plane& plane : planes) foot = std::max(foot, static_cast<long double>(std::fabs(plane.distance)));
+    const long double reach = 1e6L * (foot > 0 ? foot : 1);
+    std::optional<Box> box = box_within(shuffled, Wide(0), reach);
+    if (!box) return empty_box;
+    const double limit = static_cast<double>(0.999L * reach);
+    const auto far = [&](const Vec3& p) {
+        return std::fabs(p.x) > limit || std::fabs(p.y) > limit || std::fabs(p.z) > limit;
+    };
+    if (far(box->low) || far(box->high)) return whole_space;
+
+    // Again in a cube of its own size: rounding is relative to the cube.
+    const Wide center = 0.5L * (wide(box->low) + wide(box->high));
+    const long double size = diagonal(*box) + 1e-9L * reach;
+    const std::optional<Box> finer = box_within(shuffled, center, size);
+    return finer ? *finer : *box;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,189 @@
+#include "compile/regions.hpp"
+
+#include <algorithm>
+
+#include "compile/linear.hpp"
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+constexpr std::uint32_t no_path = 0xffffffff;
+
+// Groups of groups hold more references than solids, though not many times more. This ends the doubling of
+// combinations that hold nothing, of which Limits::instances takes no notice.
+constexpr std::uint64_t reference_limit = 4 * Limits::instances;
+
+}  // namespace
+
+ObjectIndex::ObjectIndex(const Scene& scene) {
+    index_.reserve(scene.objects.size());
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        index_.emplace(name_of(scene.objects[i]), static_cast<std::uint32_t>(i));
+}
+
+std::uint32_t ObjectIndex::find(const std::string& name) const {
+    const auto found = index_.find(name);
+    if (found == index_.end()) throw Error(Status::scene, "there is no object '" + name + "'");
+    return found->second;
+}
+
+RegionForest::RegionForest(const Scene& scene, const ObjectIndex& index, const std::string& object, bool air,
+                           std::vector<std::string>& dropped)
+    : scene_(scene), air_(air) {
+    visit(index.find(object), identity, {}, no_path, dropped);
+    while (!frames_.empty()) {
+        Frame& frame = frames_.back();
+        const std::vector<TreeNode>& nodes = frame.combination->tree.nodes;
+        if (frame.next == nodes.size()) {
+            if (nodes.empty()) operands_.push_back(nothing);
+            frames_.pop_back();
+            continue;
+        }
+        const TreeNode& node = nodes[frame.next++];
+        if (node.op == Operator::leaf) {
+            visit(index.find(node.object), compose(frame.matrix, node.matrix), frame.attributes, frame.path, dropped);
+        } else {
+            operate(node.op, node.arity);
+        }
+    }
+    root_ = operands_.back();
+}
+
+void RegionForest::visit(std::uint32_t object, const Matrix& matrix, Attributes attributes, std::uint32_t above,
+                         std::vector<std::string>& dropped) {
+    if (paths_.size() >= reference_limit)
+        throw Error(Status::scene, "more than " + std::to_string(reference_limit) + " references above the regions");
+    const auto path = static_cast<std::uint32_t>(paths_.size());
+    paths_.push_back({above, object});
+    const auto* combination = std::get_if<Combination>(&scene_.objects[object]);
+    if (combination != nullptr) {
+        attributes.apply(*combination);
+        if (!combination->region) {
+            frames_.push_back({combination, matrix, attributes, path, 0});
+            return;
+        }
+        if (combination->air != 0 && !air_) {
+            dropped.push_back(this->path(path));
+            operands_.push_back(nothing);
+            return;
+        }
+    }
+    starts_.push_back({object, path, matrix, attributes});
+    operands_.push_back(add_node(Operator::leaf, static_cast<std::uint32_t>(starts_.size() - 1)));
+}
+
+void RegionForest::operate(Operator op, std::uint32_t arity) {
+    const std::size_t first = operands_.size() - arity;
+    std::uint32_t result = operands_[first];
+    if (op == Operator::not_) result = complement(result);
+    for (std::size_t i = first + 1; i < operands_.size(); ++i) result = combine(op, result, operands_[i]);
+    operands_.resize(first);
+    operands_.push_back(result);
+}
+
+std::uint32_t RegionForest::combine(Operator op, std::uint32_t left, std::uint32_t right) {
+    switch (op) {
+        case Operator::union_:
+            if (left == nothing) return right;
+            if (right == nothing) return left;
+            if (left == everything || right == everything) return everything;
+            break;
+        case Operator::intersection:
+            if (left == nothing || right == nothing) return nothing;
+            if (left == everything) return right;
+            if (right == everything) return left;
+            break;
+        case Operator::difference:
+            if (left == nothing || right == everything) return nothing;
+            if (right == nothing) return left;
+            if (left == everything) return complement(right);
+            break;
+        default:  // xor
+            if (left == nothing) return right;
+            if (right == nothing) return left;
+            if (left == everything) return complement(right);
+            if (right == everything) return complement(left);
+            break;
+    }
+    return add_node(op, left, right);
+}
+
+std::uint32_t RegionForest::complement(std::uint32_t operand) {
+    if (operand == nothing) return everything;
+    if (operand == everything) return nothing;
+    return add_node(Operator::not_, operand);
+}
+
+std::uint32_t RegionForest::add_node(Operator op, std::uint32_t left, std::uint32_t right) {
+    nodes_.push_back({op, left, right});
+    return static_cast<std::uint32_t>(nodes_.size() - 1);
+}
+
+void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call) {
+    if (root_ == nothing || root_ == everything) return;
+
+    // What still has to be done to a term that is found further down, innermost first: a list that terms share.
+    enum class Pending { subtract_right, intersect_right, intersect_left };
+    struct Context {
+        Pending pending;
+        std::uint32_t operand, outer;
+    };
+    constexpr std::uint32_t none = 0xffffffff;
+    std::vector<Context> contexts;
+    struct Task {
+        std::uint32_t node, context;
+    };
+    std::vector<Task> tasks{{root_, none}};
+
+    const auto push = [&](std::uint32_t node, Pending pending, std::uint32_t operand, std::uint32_t outer) {
+        contexts.push_back({pending, operand, outer});
+        tasks.push_back({node, static_cast<std::uint32_t>(contexts.size() - 1)});
+    };
+    while (!tasks.empty()) {
+        auto [term, context] = tasks.back();
+        tasks.pop_back();
+        const Node node = nodes_[term];
+        if (node.op == Operator::union_) {
+            tasks.push_back({node.right, context});
+            tasks.push_back({node.left, context});
+            continue;
+        }
+        if (node.op == Operator::difference || node.op == Operator::intersection) {
+            const bool subtract = node.op == Operator::difference;
+            push(node.left, subtract ? Pending::subtract_right : Pending::intersect_right, node.right, context);
+            continue;
+        }
+        // A term: apply what is pending, until another operand must be taken apart first.
+        while (context != none) {
+            const Context c = contexts[context];
+            context = c.outer;
+            if (c.pending == Pending::subtract_right) {
+                term = add_node(Operator::difference, term, c.operand);
+            } else if (c.pending == Pending::intersect_left) {
+                term = add_node(Operator::intersection, c.operand, term);
+            } else {
+                push(c.operand, Pending::intersect_left, term, c.outer);
+                term = none;
+                break;
+            }
+        }
+        if (term != none) call(term);
+    }
+}
+
+const RegionStart& RegionForest::leftmost_start(std::uint32_t node) const {
+    while (nodes_[node].op != Operator::leaf) node = nodes_[node].left;
+    return starts_[nodes_[node].left];
+}
+
+std::string RegionForest::path(std::uint32_t number) const {
+    std::vector<std::uint32_t> steps;
+    for (; number != no_path; number = paths_[number].above) steps.push_back(paths_[number].object);
+    std::string text;
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step) text += "/" + name_of(scene_.objects[*step]);
+    return text;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,99 @@
+// Which tree belongs to which region, by BRL-CAD's rules.
+//
+// The walk goes down from a named object. A combination flagged as a region, or a solid, ends it: there a region starts.
+// What stands above is an expression over such starts. Unions there only collect regions; where another operator stands
+// above regions, unions are pulled up through it until they alone stand on top:
+//
+//     (A u B) - C  ->  (A - C) u (B - C)        (A u B) + C  ->  (A + C) u (B + C)        C + (A u B)  ->  (C + A) u (C + B)
+//
+// (C - (A u B) stays; xor and complement do not distribute.) Each term is one region: its tree the whole term with the
+// trees of all its starts, everything else that of its leftmost start.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "compile/attributes.hpp"
+
+namespace csgrt {
+
+/// The objects of a scene by name.
+class ObjectIndex {
+public:
+    explicit ObjectIndex(const Scene& scene);
+    /// Throws Error (scene) if there is none.
+    std::uint32_t find(const std::string& name) const;
+
+private:
+    std::unordered_map<std::string_view, std::uint32_t> index_;
+};
+
+/// Where a region starts: a combination with the region flag, or a solid outside all regions.
+struct RegionStart {
+    std::uint32_t object = 0;
+    std::uint32_t path = 0;  ///< see RegionForest::path
+    Matrix matrix{};
+    Attributes attributes;  ///< with the region's own
+};
+
+/// The expression over region starts that stands above the regions of one named object.
+class RegionForest {
+public:
+    /// Walks down from an object. The paths of air regions that are left out are appended to `dropped`.
+    /// Throws Error (scene) if there are more references than any model has.
+    RegionForest(const Scene& scene, const ObjectIndex& index, const std::string& object, bool air,
+                 std::vector<std::string>& dropped);
+
+    /// leaf: `left` is a start. Complement: `left` is the operand.
+    struct Node {
+        Operator op = Operator::leaf;
+        std::uint32_t left = 0, right = 0;
+    };
+    /// Calls with the topmost node of each term, in BRL-CAD's order of regions.
+    void for_each_term(const std::function<void(std::uint32_t)>& call);
+    /// The expression is true even where no solid is.
+    bool is_everything() const { return root_ == everything; }
+
+    const Node& node(std::uint32_t number) const { return nodes_[number]; }
+    const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
+    const RegionStart& leftmost_start(std::uint32_t node) const;
+    /// "/top/.../name"
+    std::string path(std::uint32_t number) const;
+
+private:
+    // Expressions that are a constant have no node.
+    static constexpr std::uint32_t nothing = 0xffffffff, everything = 0xfffffffe;
+
+    struct Frame {
+        const Combination* combination;
+        Matrix matrix;
+        Attributes attributes;
+        std::uint32_t path;
+        std::size_t next;
+    };
+    struct PathStep {
+        std::uint32_t above, object;
+    };
+
+    void visit(std::uint32_t object, const Matrix& matrix, Attributes attributes, std::uint32_t above,
+               std::vector<std::string>& dropped);
+    void operate(Operator op, std::uint32_t arity);
+    std::uint32_t combine(Operator op, std::uint32_t left, std::uint32_t right);
+    std::uint32_t complement(std::uint32_t operand);
+    std::uint32_t add_node(Operator op, std::uint32_t left, std::uint32_t right = 0);
+
+    const Scene& scene_;
+    bool air_;
+    std::vector<Frame> frames_;
+    std::vector<std::uint32_t> operands_;
+    std::uint32_t root_ = nothing;
+    std::vector<Node> nodes_;
+    std::vector<RegionStart> starts_;
+    std::vector<PathStep> paths_;
+};
+
+}  // namespace csgrt

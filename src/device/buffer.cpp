@@ -1,0 +1,110 @@
+#include "device/buffer.hpp"
+
+#include <stdexcept>
+
+namespace csgrt {
+
+Buffer::Buffer(Device& device, std::string name, std::size_t bytes) : device_(&device), name_(std::move(name)) {
+    reserve(bytes);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : device_(other.device_),
+      name_(std::move(other.name_)),
+      size_(std::exchange(other.size_, 0)),
+      memory_(std::move(other.memory_)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(name_, other.name_);
+    std::swap(size_, other.size_);
+    memory_ = std::move(other.memory_);
+    return *this;
+}
+
+Buffer::~Buffer() {
+    if (size_) device_->release(name_, size_);
+}
+
+void Buffer::reserve(std::size_t bytes) {
+    if (bytes <= size_) return;
+    if (size_) {
+        memory_ = {};
+        device_->release(name_, std::exchange(size_, 0));
+    }
+    device_->claim(name_, bytes);
+    cl_int code = CL_SUCCESS;
+    memory_ = Handle<cl_mem, clReleaseMemObject>(
+        clCreateBuffer(device_->context(), CL_MEM_READ_WRITE, bytes, nullptr, &code));
+    if (code != CL_SUCCESS) device_->release(name_, bytes);
+    check(code, "clCreateBuffer (" + name_ + ", " + std::to_string(bytes) + " bytes)");
+    size_ = bytes;
+}
+
+void Buffer::check_range(std::size_t bytes, std::size_t offset) const {
+    if (offset > size_ || bytes > size_ - offset) {
+        throw std::logic_error("buffer " + name_ + ": a transfer past its end");
+    }
+}
+
+Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t offset, bool wait) {
+    check_range(bytes, offset);
+    if (bytes == 0) return {};
+    cl_event event = nullptr;
+    check(clEnqueueWriteBuffer(device_->queue(), get(), wait, offset, bytes, source, 0, nullptr, &event),
+          "clEnqueueWriteBuffer (" + name_ + ")");
+    return Event(event);
+}
+
+Event Buffer::transfer_out(void* target, std::size_t bytes, std::size_t offset, bool wait) const {
+    check_range(bytes, offset);
+    if (bytes == 0) return {};
+    cl_event event = nullptr;
+    check(clEnqueueReadBuffer(device_->queue(), get(), wait, offset, bytes, target, 0, nullptr, &event),
+          "clEnqueueReadBuffer (" + name_ + ")");
+    return Event(event);
+}
+
+void Buffer::upload(const void* source, std::size_t bytes, std::size_t offset) {
+    transfer_in(source, bytes, offset, true);
+}
+
+void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
+    transfer_out(target, bytes, offset, true);
+}
+
+Event Buffer::queue_upload(const void* source, std::size_t bytes, std::size_t offset) {
+    return transfer_in(source, bytes, offset, false);
+}
+
+Event Buffer::queue_read(void* target, std::size_t bytes, std::size_t offset) const {
+    return transfer_out(target, bytes, offset, false);
+}
+
+Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes) {
+    check_range(bytes, 0);
+    if (bytes == 0) return {};
+    cl_event event = nullptr;
+    check(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, 0, bytes, 0, nullptr, &event),
+          "clEnqueueFillBuffer (" + name_ + ")");
+    return Event(event);
+}
+
+PinnedMemory::PinnedMemory(const Device& device, std::string name, std::size_t bytes) : device_(&device), size_(bytes) {
+    if (bytes == 0) return;
+    cl_int code = CL_SUCCESS;
+    memory_ = Handle<cl_mem, clReleaseMemObject>(
+        clCreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, nullptr, &code));
+    check(code, "clCreateBuffer (" + name + ", " + std::to_string(bytes) + " bytes on the host)");
+    data_ = clEnqueueMapBuffer(device.queue(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr,
+                               nullptr, &code);
+    check(code, "clEnqueueMapBuffer (" + name + ")");
+}
+
+PinnedMemory::~PinnedMemory() {
+    if (!data_) return;
+    clEnqueueUnmapMemObject(device_->queue(), memory_.get(), data_, 0, nullptr, nullptr);
+    clFinish(device_->queue());
+}
+
+}  // namespace csgrt

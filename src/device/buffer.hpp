@@ -1,0 +1,89 @@
+// Memory: on the device, and pages on the host that the device reaches without a copy in between.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "device/device.hpp"
+
+namespace csgrt {
+
+/// A named piece of device memory, counted against the device's budget. Of size 0 it holds no memory, and a kernel gets
+/// a null pointer for it. All transfers throw Error (device_fault, out_of_memory) with the buffer's name.
+class Buffer {
+public:
+    Buffer(Device& device, std::string name, std::size_t bytes = 0);
+    /// Holds a copy of `values`.
+    template <class T>
+    Buffer(Device& device, std::string name, const std::vector<T>& values)
+        : Buffer(device, std::move(name), values.size() * sizeof(T)) {
+        upload(values);
+    }
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    ~Buffer();
+
+    const std::string& name() const noexcept { return name_; }
+    std::size_t size() const noexcept { return size_; }  ///< bytes
+    cl_mem get() const noexcept { return memory_.get(); }
+
+    /// Makes the buffer at least `bytes` large; what it held is lost if it had to grow.
+    void reserve(std::size_t bytes);
+
+    /// Copies host -> device and back, and waits for it. `offset` is a place in the buffer, in bytes.
+    void upload(const void* source, std::size_t bytes, std::size_t offset = 0);
+    void read(void* target, std::size_t bytes, std::size_t offset = 0) const;
+    template <class T>
+    void upload(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        upload(values.data(), values.size() * sizeof(T));
+    }
+    /// The first `count` values.
+    template <class T>
+    std::vector<T> read(std::size_t count) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<T> values(count);
+        read(values.data(), count * sizeof(T));
+        return values;
+    }
+
+    /// The same without the wait: the host's memory must stay as it is until the event, or the queue, is done.
+    Event queue_upload(const void* source, std::size_t bytes, std::size_t offset = 0);
+    Event queue_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
+    /// Fills the first `bytes` (a multiple of 4) with copies of `value`.
+    Event queue_fill(std::uint32_t value, std::size_t bytes);
+
+private:
+    Event transfer_in(const void* source, std::size_t bytes, std::size_t offset, bool wait);
+    Event transfer_out(void* target, std::size_t bytes, std::size_t offset, bool wait) const;
+    void check_range(std::size_t bytes, std::size_t offset) const;
+
+    Device* device_;
+    std::string name_;
+    std::size_t size_ = 0;
+    Handle<cl_mem, clReleaseMemObject> memory_;
+};
+
+/// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through a copy of the
+/// driver's, several times slower). On the host's side; it does not count against the device's budget.
+class PinnedMemory {
+public:
+    PinnedMemory(const Device& device, std::string name, std::size_t bytes);
+    PinnedMemory(const PinnedMemory&) = delete;
+    PinnedMemory& operator=(const PinnedMemory&) = delete;
+    ~PinnedMemory();
+
+    void* data() const noexcept { return data_; }
+    std::size_t size() const noexcept { return size_; }
+
+private:
+    const Device* device_;
+    std::size_t size_;
+    Handle<cl_mem, clReleaseMemObject> memory_;
+    void* data_ = nullptr;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,12 @@
+// Amounts of memory as people read them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace csgrt {
+
+/// "512 bytes", "1.5 MiB"; one digit after the point.
+std::string bytes_text(std::uint64_t bytes);
+
+}  // namespace csgrt

@@ -1,0 +1,78 @@
+#include "device/device.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "device/choice.hpp"
+#include "device/host_memory.hpp"
+#include "device/bytes_text.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// What buffers may take of a device that is asked for no special amount. A driver keeps some memory for itself and
+/// does not say how much; a device that shares the host's memory must leave the host its half.
+std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
+    if (!shares_host_memory) return info.memory / 8 * 7;
+    const std::uint64_t host = available_host_memory();
+    return std::min(info.memory, host ? host : info.memory) / 2;
+}
+
+}  // namespace
+
+Device::Device(const std::string& choice, std::uint64_t max_memory) {
+    std::vector<FoundDevice> found = find_devices();
+    std::vector<DeviceInfo> infos;
+    for (const FoundDevice& device : found) infos.push_back(device.info);
+    const std::size_t chosen = choose_device(infos, choice);
+    info_ = infos[chosen];
+    id_ = found[chosen].id;
+
+    cl_int code = CL_SUCCESS;
+    context_ = Handle<cl_context, clReleaseContext>(clCreateContext(nullptr, 1, &id_, nullptr, nullptr, &code));
+    check(code, "clCreateContext (" + info_.name + ")");
+    queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(
+        clCreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
+    check(code, "clCreateCommandQueue (" + info_.name + ")");
+
+    cl_bool unified = CL_FALSE;
+    check(clGetDeviceInfo(id_, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified, nullptr), "clGetDeviceInfo");
+    budget_ = max_memory ? max_memory : default_budget(info_, unified || info_.type == "cpu");
+    max_buffer_ = std::min(budget_, info_.max_allocation);
+}
+
+void Device::flush() const {
+    check(clFlush(queue()), "clFlush");
+}
+
+void Device::finish() const {
+    check(clFinish(queue()), "clFinish");
+}
+
+void Device::claim(const std::string& name, std::uint64_t bytes) {
+    if (bytes > info_.max_allocation) {
+        throw Error(Status::out_of_memory, "device memory: \"" + name + "\" needs " + bytes_text(bytes) +
+                                               ", but one buffer may take " + bytes_text(info_.max_allocation) + " on " +
+                                               info_.name);
+    }
+    if (bytes > available()) {
+        std::string holders;
+        for (const auto& [holder, held] : allocations_) {
+            holders += (holders.empty() ? "; in use: " : ", ") + holder + " " + bytes_text(held);
+        }
+        throw Error(Status::out_of_memory, "device memory: \"" + name + "\" needs " + bytes_text(bytes) + ", but of " +
+                                               bytes_text(budget_) + " only " + bytes_text(available()) +
+                                               " are free on " + info_.name + holders);
+    }
+    allocations_[name] += bytes;
+    allocated_ += bytes;
+}
+
+void Device::release(const std::string& name, std::uint64_t bytes) noexcept {
+    allocated_ -= bytes;
+    const auto entry = allocations_.find(name);
+    if (entry != allocations_.end() && (entry->second -= bytes) == 0) allocations_.erase(entry);
+}
+
+}  // namespace csgrt

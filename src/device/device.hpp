@@ -1,0 +1,59 @@
+// One OpenCL device in use: its context, its one in-order queue, and the count of its memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include <csgrt/renderer.hpp>
+
+#include "device/opencl.hpp"
+
+namespace csgrt {
+
+/// A context and a profiling queue on one device. Buffers, programs and kernels refer to it and must not outlive it.
+/// Commands run in the order in which they are queued; several may be queued before one wait.
+class Device {
+public:
+    /// Picks by `choice`: "" (a GPU if there is one, else the first), "cpu", "gpu", "accelerator", a number as in
+    /// devices(), or a part of a name. Only devices with double precision are taken.
+    /// `max_memory` bounds what all buffers together may take, in bytes; 0: what the device can give.
+    /// Throws Error (no_device) that lists what there is, or names the package that brings a device.
+    explicit Device(const std::string& choice = "", std::uint64_t max_memory = 0);
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceInfo& info() const noexcept { return info_; }
+    cl_device_id id() const noexcept { return id_; }
+    cl_context context() const noexcept { return context_.get(); }
+    cl_command_queue queue() const noexcept { return queue_.get(); }
+
+    /// Hands what is queued to the device without waiting.
+    void flush() const;
+    /// Waits until everything queued is done. Throws Error (device_fault, out_of_memory) if something failed.
+    void finish() const;
+
+    /// Bytes that all buffers together may take, and that one buffer may take. Devices misreport both, and change their
+    /// mind: they are asked each time a Device is made.
+    std::uint64_t budget() const noexcept { return budget_; }
+    std::uint64_t max_buffer() const noexcept { return max_buffer_; }
+    std::uint64_t allocated() const noexcept { return allocated_; }  ///< bytes now in buffers
+    std::uint64_t available() const noexcept { return budget_ - allocated_; }
+    /// Bytes now in buffers, by the buffers' names.
+    const std::map<std::string, std::uint64_t>& allocations() const noexcept { return allocations_; }
+
+    /// Counts `bytes` for a buffer called `name`. Throws Error (out_of_memory), naming who holds what, if they do not fit.
+    void claim(const std::string& name, std::uint64_t bytes);
+    void release(const std::string& name, std::uint64_t bytes) noexcept;
+
+private:
+    DeviceInfo info_;
+    cl_device_id id_ = nullptr;
+    Handle<cl_context, clReleaseContext> context_;
+    Handle<cl_command_queue, clReleaseCommandQueue> queue_;
+    std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
+    std::map<std::string, std::uint64_t> allocations_;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,46 @@
+#include "device/host_memory.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace csgrt {
+
+namespace {
+
+constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t number_in(const char* path) {
+    std::ifstream file(path);
+    std::uint64_t number = 0;
+    return file >> number ? number : unknown;  // cgroup v2 says "max" where there is no limit
+}
+
+std::uint64_t rest_of(const char* limit_path, const char* used_path) {
+    const std::uint64_t limit = number_in(limit_path), used = number_in(used_path);
+    if (limit == unknown || used == unknown) return unknown;
+    return limit > used ? limit - used : 0;
+}
+
+std::uint64_t system_available() {
+    std::ifstream file("/proc/meminfo");
+    std::string key, unit;
+    std::uint64_t kilobytes = 0;
+    while (file >> key >> kilobytes) {
+        if (key == "MemAvailable:") return kilobytes * 1024;
+        std::getline(file, unit);
+    }
+    return unknown;
+}
+
+}  // namespace
+
+std::uint64_t available_host_memory() {
+    const std::uint64_t bytes =
+        std::min({system_available(), rest_of("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+                  rest_of("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")});
+    return bytes == unknown ? 0 : bytes;
+}
+
+}  // namespace csgrt

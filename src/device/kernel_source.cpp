@@ -1,0 +1,80 @@
+#include "device/kernel_source.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace csgrt {
+
+namespace {
+
+const char* text_of(const std::string& name, const std::string& wanted_by) {
+    for (const KernelFile& file : kernel_files()) {
+        if (name == file.name) return file.text;
+    }
+    throw std::logic_error("no kernel file \"" + name + "\", wanted by " + wanted_by);
+}
+
+/// "geometry/ell.h" and "../shared/layout.h" -> "shared/layout.h".
+std::string resolve(const std::string& includer, std::string_view included) {
+    std::string folder = includer.substr(0, includer.find_last_of('/') + 1);  // "" or "geometry/"
+    while (included.starts_with("../") && !folder.empty()) {
+        included.remove_prefix(3);
+        folder.pop_back();
+        folder.resize(folder.find_last_of('/') + 1);
+    }
+    return folder.append(included);
+}
+
+/// What stands in the quotes of an #include line; empty for any other line.
+std::string_view included_file(std::string_view line) {
+    const auto skip_spaces = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
+    const auto skip = [&](std::string_view word) {
+        skip_spaces();
+        const bool there = line.starts_with(word);
+        if (there) line.remove_prefix(word.size());
+        return there;
+    };
+    if (!skip("#") || !skip("include") || !skip("\"")) return {};
+    return line.substr(0, line.find('"'));
+}
+
+class Assembly {
+public:
+    void add(const std::string& name, const std::string& wanted_by) {
+        if (!done_.insert(name).second) return;
+        mark(1, name);
+        std::string_view rest = text_of(name, wanted_by);
+        for (int line_number = 1; !rest.empty(); ++line_number) {
+            const std::string_view line = rest.substr(0, rest.find('\n'));
+            rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+            if (const std::string_view included = included_file(line); !included.empty()) {
+                add(resolve(name, included), name);
+                mark(line_number + 1, name);
+            } else {
+                text_.append(line) += '\n';
+            }
+        }
+    }
+    std::string take() { return std::move(text_); }
+
+private:
+    void mark(int line, const std::string& name) {
+        text_ += "#line " + std::to_string(line) + " \"kernels/" + name + "\"\n";
+    }
+
+    std::set<std::string> done_;
+    std::string text_;
+};
+
+}  // namespace
+
+std::string assemble_program(const std::vector<std::string>& names) {
+    Assembly assembly;
+    for (const std::string& name : names) assembly.add(name, "the host");
+    return assembly.take();
+}
+
+}  // namespace csgrt

@@ -1,0 +1,87 @@
+#include "device/opencl.hpp"
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+const char* opencl_error_name(cl_int code) noexcept {
+#define CSGRT_NAME(x) \
+    case x: return #x
+    switch (code) {
+        CSGRT_NAME(CL_SUCCESS);
+        CSGRT_NAME(CL_DEVICE_NOT_FOUND);
+        CSGRT_NAME(CL_DEVICE_NOT_AVAILABLE);
+        CSGRT_NAME(CL_COMPILER_NOT_AVAILABLE);
+        CSGRT_NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE);
+        CSGRT_NAME(CL_OUT_OF_RESOURCES);
+        CSGRT_NAME(CL_OUT_OF_HOST_MEMORY);
+        CSGRT_NAME(CL_PROFILING_INFO_NOT_AVAILABLE);
+        CSGRT_NAME(CL_MEM_COPY_OVERLAP);
+        CSGRT_NAME(CL_IMAGE_FORMAT_MISMATCH);
+        CSGRT_NAME(CL_IMAGE_FORMAT_NOT_SUPPORTED);
+        CSGRT_NAME(CL_BUILD_PROGRAM_FAILURE);
+        CSGRT_NAME(CL_MAP_FAILURE);
+        CSGRT_NAME(CL_MISALIGNED_SUB_BUFFER_OFFSET);
+        CSGRT_NAME(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST);
+        CSGRT_NAME(CL_COMPILE_PROGRAM_FAILURE);
+        CSGRT_NAME(CL_LINKER_NOT_AVAILABLE);
+        CSGRT_NAME(CL_LINK_PROGRAM_FAILURE);
+        CSGRT_NAME(CL_DEVICE_PARTITION_FAILED);
+        CSGRT_NAME(CL_KERNEL_ARG_INFO_NOT_AVAILABLE);
+        CSGRT_NAME(CL_INVALID_VALUE);
+        CSGRT_NAME(CL_INVALID_DEVICE_TYPE);
+        CSGRT_NAME(CL_INVALID_PLATFORM);
+        CSGRT_NAME(CL_INVALID_DEVICE);
+        CSGRT_NAME(CL_INVALID_CONTEXT);
+        CSGRT_NAME(CL_INVALID_QUEUE_PROPERTIES);
+        CSGRT_NAME(CL_INVALID_COMMAND_QUEUE);
+        CSGRT_NAME(CL_INVALID_HOST_PTR);
+        CSGRT_NAME(CL_INVALID_MEM_OBJECT);
+        CSGRT_NAME(CL_INVALID_BINARY);
+        CSGRT_NAME(CL_INVALID_BUILD_OPTIONS);
+        CSGRT_NAME(CL_INVALID_PROGRAM);
+        CSGRT_NAME(CL_INVALID_PROGRAM_EXECUTABLE);
+        CSGRT_NAME(CL_INVALID_KERNEL_NAME);
+        CSGRT_NAME(CL_INVALID_KERNEL_DEFINITION);
+        CSGRT_NAME(CL_INVALID_KERNEL);
+        CSGRT_NAME(CL_INVALID_ARG_INDEX);
+        CSGRT_NAME(CL_INVALID_ARG_VALUE);
+        CSGRT_NAME(CL_INVALID_ARG_SIZE);
+        CSGRT_NAME(CL_INVALID_KERNEL_ARGS);
+        CSGRT_NAME(CL_INVALID_WORK_DIMENSION);
+        CSGRT_NAME(CL_INVALID_WORK_GROUP_SIZE);
+        CSGRT_NAME(CL_INVALID_WORK_ITEM_SIZE);
+        CSGRT_NAME(CL_INVALID_GLOBAL_OFFSET);
+        CSGRT_NAME(CL_INVALID_EVENT_WAIT_LIST);
+        CSGRT_NAME(CL_INVALID_EVENT);
+        CSGRT_NAME(CL_INVALID_OPERATION);
+        CSGRT_NAME(CL_INVALID_BUFFER_SIZE);
+        CSGRT_NAME(CL_INVALID_GLOBAL_WORK_SIZE);
+        CSGRT_NAME(CL_INVALID_PROPERTY);
+        CSGRT_NAME(CL_INVALID_COMPILER_OPTIONS);
+        CSGRT_NAME(CL_INVALID_LINKER_OPTIONS);
+        case -1001: return "CL_PLATFORM_NOT_FOUND_KHR";
+        default: return "an unknown error";
+    }
+#undef CSGRT_NAME
+}
+
+void check(cl_int code, std::string_view call) {
+    if (code == CL_SUCCESS) return;
+    const bool memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY;
+    throw Error(memory ? Status::out_of_memory : Status::device_fault,
+                std::string(call) + " failed: " + opencl_error_name(code) + " (" + std::to_string(code) + ")");
+}
+
+double milliseconds(const Event& event) {
+    if (!event) return 0;
+    const cl_event one = event.get();
+    check(clWaitForEvents(1, &one), "clWaitForEvents");
+    cl_ulong start = 0, end = 0;
+    check(clGetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr),
+          "clGetEventProfilingInfo");
+    check(clGetEventProfilingInfo(one, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr), "clGetEventProfilingInfo");
+    return end > start ? static_cast<double>(end - start) * 1e-6 : 0;
+}
+
+}  // namespace csgrt

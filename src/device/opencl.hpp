@@ -1,0 +1,48 @@
+// The ground under src/device: OpenCL's handles freed by scope, its calls checked by name, its events timed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <CL/cl.h>
+
+namespace csgrt {
+
+/// OpenCL's name of an error code, "CL_OUT_OF_RESOURCES"; "an unknown error" for a code of no known meaning.
+const char* opencl_error_name(cl_int code) noexcept;
+
+/// Throws unless `code` is CL_SUCCESS: "CALL failed: NAME (number)" with Status::out_of_memory where the code says that
+/// memory ran out, else Status::device_fault. `call` says which call, and for what: "clEnqueueReadBuffer (pixels)".
+void check(cl_int code, std::string_view call);
+
+/// Owns one OpenCL object. Freeing it never throws: what could be done about it?
+template <class T, cl_int (*release)(T)>
+class Handle {
+public:
+    Handle() = default;
+    explicit Handle(T object) noexcept : object_(object) {}
+    Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~Handle() {
+        if (object_) release(object_);
+    }
+
+    T get() const noexcept { return object_; }
+    explicit operator bool() const noexcept { return object_ != nullptr; }
+
+private:
+    T object_ = nullptr;
+};
+
+/// Something that the device was told to do. Empty: there was nothing to do.
+using Event = Handle<cl_event, clReleaseEvent>;
+
+/// How long the device itself took, in milliseconds, by its own clock; waits until it is done. 0 for an empty event.
+/// Throws Error (device_fault, out_of_memory) if the command failed.
+double milliseconds(const Event& event);
+
+}  // namespace csgrt

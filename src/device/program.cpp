@@ -1,0 +1,105 @@
+#include "device/program.hpp"
+
+#include <stdexcept>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+namespace {
+
+std::string log_of(cl_program program, cl_device_id device) {
+    std::size_t size = 0;
+    check(clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size), "clGetProgramBuildInfo");
+    std::string log(size, '\0');
+    check(clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr),
+          "clGetProgramBuildInfo");
+    const std::size_t end = log.find_last_not_of(std::string_view(" \n\t\0", 4));
+    log.resize(end == std::string::npos ? 0 : end + 1);
+    return log;
+}
+
+template <class T>
+T group_info(const Handle<cl_kernel, clReleaseKernel>& kernel, const Device& device, cl_kernel_work_group_info what) {
+    T value{};
+    check(clGetKernelWorkGroupInfo(kernel.get(), device.id(), what, sizeof value, &value, nullptr),
+          "clGetKernelWorkGroupInfo");
+    return value;
+}
+
+}  // namespace
+
+Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines)
+    : device_(&device) {
+    std::string options = "-cl-std=CL1.2 -DCSGRT_REAL=double";
+    for (const std::string& define : defines) options += " -D" + define;
+
+    const char* text = source.data();
+    const std::size_t size = source.size();
+    cl_int code = CL_SUCCESS;
+    program_ = Handle<cl_program, clReleaseProgram>(
+        clCreateProgramWithSource(device.context(), 1, &text, &size, &code));
+    check(code, "clCreateProgramWithSource");
+    const cl_device_id id = device.id();
+    code = clBuildProgram(program_.get(), 1, &id, options.c_str(), nullptr, nullptr);
+    build_log_ = log_of(program_.get(), id);
+    if (code == CL_BUILD_PROGRAM_FAILURE) {
+        throw Error(Status::device_fault,
+                    "the kernels do not compile for " + device.info().name + " (" + options + "):\n" + build_log_);
+    }
+    check(code, "clBuildProgram (" + options + ")");
+}
+
+Kernel Program::kernel(const std::string& name) const {
+    return Kernel(*device_, program_.get(), name);
+}
+
+Kernel::Kernel(const Device& device, cl_program program, std::string name) : device_(&device), name_(std::move(name)) {
+    cl_int code = CL_SUCCESS;
+    kernel_ = Handle<cl_kernel, clReleaseKernel>(clCreateKernel(program, name_.c_str(), &code));
+    check(code, "clCreateKernel (" + name_ + ")");
+    check(clGetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr),
+          "clGetKernelInfo (" + name_ + ")");
+}
+
+void Kernel::set(cl_uint position, const Buffer& buffer) {
+    const cl_mem memory = buffer.get();
+    set_bytes(position, &memory, sizeof memory);
+}
+
+void Kernel::set(cl_uint position, LocalMemory local) {
+    set_bytes(position, nullptr, local.bytes);
+}
+
+void Kernel::set_bytes(cl_uint position, const void* value, std::size_t bytes) {
+    const cl_int code = clSetKernelArg(kernel_.get(), position, bytes, value);
+    if (code != CL_SUCCESS) check(code, "clSetKernelArg (" + name_ + ", argument " + std::to_string(position) + ")");
+}
+
+void Kernel::check_count(std::size_t count) const {
+    if (count == argument_count_) return;
+    throw std::logic_error("kernel " + name_ + " takes " + std::to_string(argument_count_) + " arguments, not " +
+                           std::to_string(count));
+}
+
+Event Kernel::queue(std::size_t items, std::size_t group) {
+    if (items == 0) return {};
+    const std::size_t padded = (items + group - 1) / group * group;
+    cl_event event = nullptr;
+    const cl_int code = clEnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &padded, &group, 0, nullptr, &event);
+    if (code != CL_SUCCESS) {
+        check(code, "clEnqueueNDRangeKernel (" + name_ + ", " + std::to_string(items) + " items in groups of " +
+                        std::to_string(group) + ")");
+    }
+    return Event(event);
+}
+
+std::size_t Kernel::max_group() const {
+    return group_info<std::size_t>(kernel_, *device_, CL_KERNEL_WORK_GROUP_SIZE);
+}
+
+std::uint64_t Kernel::private_bytes() const {
+    return group_info<cl_ulong>(kernel_, *device_, CL_KERNEL_PRIVATE_MEM_SIZE);
+}
+
+}  // namespace csgrt

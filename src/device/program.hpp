@@ -1,0 +1,79 @@
+// Programs and their kernels. Including this file brings all of src/device that a pipeline needs.
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "device/buffer.hpp"
+#include "device/device.hpp"
+#include "device/kernel_source.hpp"
+
+namespace csgrt {
+
+/// Local memory for a kernel's __local pointer, in bytes.
+struct LocalMemory {
+    std::size_t bytes;
+};
+
+/// One kernel of a program, ready to be queued. Not for two threads at a time: OpenCL keeps a kernel's arguments in it.
+class Kernel {
+public:
+    /// Queues `items` work-items in groups of `group`; the last group is filled up, so the kernel must look whether
+    /// its number is below `items`. The arguments stand in the order of the kernel's own: a Buffer, LocalMemory, or a
+    /// plain value of the very type that the kernel has (cl_uint, cl_double, a struct of kernels/shared/layout.h).
+    /// Does not wait. 0 items: nothing is queued, and the event is empty.
+    /// Throws Error (device_fault, out_of_memory) that names the kernel.
+    template <class... Arguments>
+    Event launch(std::size_t items, std::size_t group, const Arguments&... arguments) {
+        check_count(sizeof...(arguments));
+        cl_uint position = 0;
+        (set(position++, arguments), ...);
+        return queue(items, group);
+    }
+
+    const std::string& name() const noexcept { return name_; }
+    std::size_t max_group() const;      ///< most work-items in a group
+    std::uint64_t private_bytes() const;  ///< of one work-item, as far as the device says
+
+private:
+    friend class Program;
+    Kernel(const Device& device, cl_program program, std::string name);
+
+    void set(cl_uint position, const Buffer& buffer);
+    void set(cl_uint position, LocalMemory local);
+    template <class T>
+    void set(cl_uint position, const T& value) {
+        static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "kernels take plain values");
+        static_assert(!std::is_same_v<T, bool>, "OpenCL takes no bool: pass a cl_int or cl_uint");
+        set_bytes(position, &value, sizeof(T));
+    }
+    void set_bytes(cl_uint position, const void* value, std::size_t bytes);
+    void check_count(std::size_t count) const;
+    Event queue(std::size_t items, std::size_t group);
+
+    const Device* device_;
+    std::string name_;
+    cl_uint argument_count_ = 0;
+    Handle<cl_kernel, clReleaseKernel> kernel_;
+};
+
+/// OpenCL C source, compiled for one device in double precision. `source` is what assemble_program gives; each of
+/// `defines` becomes a -D ("COUNT=3", "HAS_TORUS").
+class Program {
+public:
+    /// Throws Error (device_fault) with the compiler's words if the source does not compile.
+    Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {});
+
+    /// Throws Error (device_fault) if the program has no kernel of that name.
+    Kernel kernel(const std::string& name) const;
+    /// What the compiler had to say; empty when all was well.
+    const std::string& build_log() const noexcept { return build_log_; }
+
+private:
+    const Device* device_;
+    Handle<cl_program, clReleaseProgram> program_;
+    std::string build_log_;
+};
+
+}  // namespace csgrt

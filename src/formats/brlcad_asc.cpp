@@ -1,0 +1,44 @@
+#include "formats/brlcad_asc.hpp"
+
+#include <algorithm>
+#include <new>
+
+#include "formats/text_source.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// Every v4 record starts with a word of one letter, no Tcl command does. Comments and empty lines stand before either.
+bool is_v4(std::string_view text) {
+    while (true) {
+        const std::size_t begin = text.find_first_not_of(" \t\r\n");
+        if (begin == std::string_view::npos) return false;
+        if (text[begin] != '#') return text.find_first_of(" \t\r\n", begin) == begin + 1;
+        text.remove_prefix(std::min(text.find('\n', begin), text.size()));
+    }
+}
+
+}  // namespace
+
+Scene read_brlcad_asc(const std::string& path) {
+    try {
+        return parse_brlcad_asc(TextSource::read(path));
+    } catch (const std::bad_alloc&) {
+        throw Error(Status::out_of_memory, path + ": the model does not fit the memory");
+    }
+}
+
+Scene parse_brlcad_asc(const TextSource& source) {
+    const std::string_view text = source.text();
+    Findings findings(source);
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+        findings.add(zero, {}, "a zero byte: this is no text", "convert a binary database (.g) with BRL-CAD's g2asc");
+    } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+        findings.add(0, {}, "the file is empty");
+    }
+    findings.throw_if_any();
+    return is_v4(text) ? parse_brlcad_asc_v4(source) : parse_brlcad_asc_v5(source);
+}
+
+}  // namespace csgrt

@@ -1,0 +1,25 @@
+// BRL-CAD's text databases, as g2asc writes them.
+#pragma once
+
+#include <string>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+class TextSource;
+
+/// Reads an .asc file of either form. Throws Error: file if it cannot be read, scene with every finding if it is wrong,
+/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported.
+Scene read_brlcad_asc(const std::string& path);
+
+/// The same for a text in memory: v5 if it starts with a Tcl command, else v4.
+Scene parse_brlcad_asc(const TextSource& source);
+
+/// Release 4 and older: one record a line, named by its first letter.
+Scene parse_brlcad_asc_v4(const TextSource& source);
+
+/// Release 5 and newer: Tcl commands (title, units, color, put, attr).
+Scene parse_brlcad_asc_v5(const TextSource& source);
+
+}  // namespace csgrt

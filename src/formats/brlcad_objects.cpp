@@ -1,0 +1,24 @@
+#include "formats/brlcad_objects.hpp"
+
+#include <utility>
+
+namespace csgrt {
+
+void BrlcadObjects::add(Object object, std::size_t offset) {
+    const std::string name = name_of(object);
+    const auto [found, is_new] = index_.try_emplace(name, objects_.size());
+    if (!is_new) {
+        const Place& first = place_of(objects_[found->second]);
+        findings_.add(offset, name, "this name is taken by the object on line " + std::to_string(first.line),
+                      "rename one of them: combinations refer to objects by name");
+        return;
+    }
+    objects_.push_back(std::move(object));
+}
+
+Object* BrlcadObjects::find(const std::string& name) {
+    const auto found = index_.find(name);
+    return found == index_.end() ? nullptr : &objects_[found->second];
+}
+
+}  // namespace csgrt

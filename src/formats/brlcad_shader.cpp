@@ -1,0 +1,151 @@
+#include "formats/brlcad_shader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace csgrt {
+
+namespace {
+
+/// Exponents beyond this give the same highlight, a single point.
+constexpr double max_shine = 10'000;
+
+/// The next token of a parameter list; blanks, braces and '=' separate.
+std::string_view next_token(std::string_view& text) {
+    constexpr std::string_view separators = " \t\r\n={}\"";
+    const std::size_t begin = std::min(text.find_first_not_of(separators), text.size());
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    const std::string_view token = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return token;
+}
+
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\n";
+    const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+    const std::size_t end = text.find_last_not_of(blanks);
+    return text.substr(begin, end == std::string_view::npos ? 0 : end + 1 - begin);
+}
+
+/// The length of the braced group that `text` starts with; all of it if the brace is not closed.
+std::size_t group_length(std::string_view text) {
+    std::size_t depth = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '{') ++depth;
+        if (text[i] == '}' && --depth == 0) return i + 1;
+    }
+    return text.size();
+}
+
+/// Without braces that hold all of it; nobody wraps a shader deeper than this.
+std::string_view unwrapped(std::string_view text) {
+    constexpr int deepest = 8;
+    text = trimmed(text);
+    for (int depth = 0; depth < deepest; ++depth) {
+        if (text.size() < 2 || text.front() != '{' || group_length(text) != text.size() || text.back() != '}') break;
+        text = trimmed(text.substr(1, text.size() - 2));
+    }
+    return text;
+}
+
+/// The next shader of a stack: up to a ';' in the older notation, a braced group in the newer.
+std::string_view next_member(std::string_view& stack) {
+    stack.remove_prefix(std::min(stack.find_first_not_of(" \t\r\n;"), stack.size()));
+    const bool braced = !stack.empty() && stack.front() == '{';
+    const std::size_t length = braced ? group_length(stack) : std::min(stack.find(';'), stack.size());
+    const std::string_view member = stack.substr(0, length);
+    stack.remove_prefix(length);
+    return unwrapped(member);
+}
+
+std::optional<double> number(std::string_view token) {
+    double value = 0;
+    const auto [end, status] = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (status != std::errc() || end != token.data() + token.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+/// The four shaders of BRL-CAD's Phong model, with the defaults of its liboptical; nullopt for all others.
+std::optional<Finish> phong_family(std::string_view shader) {
+    Finish finish;
+    if (shader == "plastic" || shader == "phong" || shader == "default") return finish;
+    finish.shine = 4;
+    if (shader == "mirror") {
+        finish.specular = 0.6;
+        finish.diffuse = 0.4;
+        finish.reflect = 0.75;
+        return finish;
+    }
+    if (shader == "glass") {
+        finish.transmit = 0.8;
+        finish.reflect = 0.1;
+        return finish;
+    }
+    return std::nullopt;
+}
+
+void set_parameter(Finish& finish, std::string_view key, double value) {
+    if (key == "sh" || key == "shine") {
+        finish.shine = static_cast<int>(std::clamp(value, 0.0, max_shine));
+    } else if (key == "sp" || key == "specular") {
+        finish.specular = value;
+    } else if (key == "di" || key == "diffuse") {
+        finish.diffuse = value;
+    } else if (key == "tr" || key == "transmit") {
+        finish.transmit = value;
+    } else if (key == "re" || key == "reflect") {
+        finish.reflect = value;
+    }
+}
+
+void set_parameters(Finish& finish, std::string_view parameters) {
+    while (true) {
+        const std::string_view key = next_token(parameters);
+        if (key.empty()) return;
+        // A key without a number leaves the next token to be a key itself.
+        std::string_view rest = parameters;
+        if (const auto value = number(next_token(rest))) {
+            set_parameter(finish, key, *value);
+            parameters = rest;
+        }
+    }
+}
+
+/// The look of a stack: of its last shader that belongs to the Phong model.
+Finish stack_finish(std::string_view stack) {
+    stack = unwrapped(stack);
+    Finish finish;
+    while (!stack.empty()) {
+        std::string_view parameters = next_member(stack);
+        if (const auto member = phong_family(next_token(parameters))) {
+            finish = *member;
+            set_parameters(finish, parameters);
+        }
+    }
+    return finish;
+}
+
+}  // namespace
+
+Finish read_finish(std::string_view shader, std::string_view parameters) {
+    Finish finish;
+    if (const auto known = phong_family(shader)) {
+        finish = *known;
+        set_parameters(finish, parameters);
+    } else if (shader == "stack") {
+        finish = stack_finish(parameters);
+    }
+    finish.shader = shader;
+    return finish;
+}
+
+Finish read_finish(std::string_view shader_and_parameters) {
+    std::string_view parameters = unwrapped(shader_and_parameters);
+    const std::string_view shader = next_token(parameters);
+    return read_finish(shader, parameters);
+}
+
+}  // namespace csgrt

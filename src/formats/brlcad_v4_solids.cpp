@@ -1,0 +1,245 @@
+#include "formats/brlcad_v4_solids.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace csgrt {
+
+namespace {
+
+using Parameters = std::array<double, 24>;
+
+/// How far a torus' tube may exceed its circle and still be the same length, rounded to a v4 database's floats.
+constexpr double torus_rounding = 1e-6;
+
+/// An arbn of an absurd number of faces must not make the reader wait for it.
+constexpr int max_faces = static_cast<int>(Limits::faces);
+
+Vec3 vec3_at(const Parameters& p, std::size_t at) {
+    return {p[at], p[at + 1], p[at + 2]};
+}
+
+double length(const Vec3& v) {
+    return std::hypot(v.x, v.y, v.z);
+}
+
+Shape torus(const Parameters& p) {
+    const Vec3 h = vec3_at(p, 3);
+    const double r_a = length(vec3_at(p, 6));
+    double r_h = length(h);
+    if (r_h > r_a && r_h <= r_a * (1 + torus_rounding)) r_h = r_a;
+    return Tor{vec3_at(p, 0), h, r_a, r_h};
+}
+
+/// The first vertex is absolute, the others stand relative to it.
+Shape arb8(const Parameters& p) {
+    Arb arb;
+    arb.vertices[0] = vec3_at(p, 0);
+    const Vec3& first = arb.vertices[0];
+    for (std::size_t i = 1; i < 8; ++i) {
+        const Vec3 v = vec3_at(p, 3 * i);
+        arb.vertices[i] = {first.x + v.x, first.y + v.y, first.z + v.z};
+    }
+    return arb;
+}
+
+/// `S type name comgeom-type` and 24 numbers, of which most solids use fewer.
+Shape parameter_solid(Fields& fields, std::string& name) {
+    const Field type = fields.next("the solid's type");
+    const int number = read_integer(type.text, type.offset, 0, 127);
+    name = fields.next("the solid's name").text;
+    fields.integer("the COMGEOM type");
+    const Parameters p = fields.numbers<24>("parameters");
+    fields.end();
+    switch (number) {
+        case 16: return torus(p);
+        case 18:
+            return Tgc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), vec3_at(p, 12), vec3_at(p, 15)};
+        case 19: return Ell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9)};
+        case 20: return arb8(p);
+        case 24: return Half{unit_plane(vec3_at(p, 0), p[3])};
+        case 26: return Unsupported{"rpc"};
+        case 27: return Unsupported{"rhc"};
+        case 28: return Unsupported{"epa"};
+        case 29: return Ehy{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10], p[11]};
+        case 30: return Unsupported{"eto"};
+        case 31: return Unsupported{"grip"};
+        case 32: return Unsupported{"superell"};
+        case 33: return Unsupported{"hyp"};
+        default:
+            throw Fault{type.offset, "no solid has type " + std::to_string(number),
+                        "solids are 16 tor, 18 tgc, 19 ell, 20 arb8, 24 half and 26 to 33"};
+    }
+}
+
+/// `n name count`, then a line `n x y z distance` for each plane. All lines are taken even if one is wrong.
+Shape arbn(Fields& fields, LineReader& lines, std::string& name) {
+    name = fields.next("the solid's name").text;
+    const int count = fields.integer("the number of planes", 1, max_faces);
+    fields.end();
+    Arbn solid;
+    std::optional<Fault> first_fault;
+    for (int i = 0; i < count; ++i) {
+        if (!lines.peek().text.starts_with("n ")) {
+            throw Fault{lines.peek().offset, "plane " + std::to_string(i + 1) + " of " + std::to_string(count) +
+                                                 " is missing", {}};
+        }
+        Fields plane(lines.take());
+        try {
+            plane.next("the letter n");
+            const auto p = plane.numbers<4>("coefficients of the plane");
+            plane.end();
+            solid.planes.push_back(unit_plane({p[0], p[1], p[2]}, p[3]));
+        } catch (Fault& fault) {
+            if (!first_fault) first_fault = std::move(fault);
+        }
+    }
+    if (first_fault) throw *first_fault;
+    return solid;
+}
+
+/// Takes `count` lines that start with one of `starts`; a Fault if there are fewer.
+void take_lines(LineReader& lines, std::uint64_t count, std::string_view starts, const char* what) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const Line line = lines.peek();
+        if (lines.at_end() || line.text.empty() || starts.find(line.text[0]) == std::string_view::npos) {
+            throw Fault{line.offset, "the solid ends early: " + std::to_string(i) + " of " + std::to_string(count) +
+                                         ' ' + what, {}};
+        }
+        lines.take();
+    }
+}
+
+std::uint64_t count_field(Fields& fields, const char* what) {
+    return static_cast<std::uint64_t>(fields.integer(what, 0));
+}
+
+Shape mesh(Fields& fields, LineReader& lines) {
+    const int mode = fields.integer("the mode");
+    fields.integer("the orientation");
+    fields.integer("the error mode");
+    const std::uint64_t vertices = count_field(fields, "the number of vertices");
+    const std::uint64_t faces = count_field(fields, "the number of faces");
+    constexpr int plate_mode = 3;  // has one more line, a bit for each face
+    take_lines(lines, vertices + faces + (mode == plate_mode ? 1 : 0), "\t", "lines of vertices and faces");
+    return Unsupported{"bot"};
+}
+
+Shape pipe(Fields& fields, LineReader& lines) {
+    const std::size_t start = fields.offset();
+    while (!lines.at_end()) {
+        const Line line = lines.take();
+        if (line.text.starts_with("END_PIPE")) return Unsupported{"pipe"};
+        Fields point(line);
+        point.numbers<6>("numbers of a point of the pipe");
+    }
+    throw Fault{start, "the pipe has no END_PIPE", {}};
+}
+
+Shape ars(Fields& fields, LineReader& lines, std::string& name) {
+    fields.integer("the solid's type");
+    name = fields.next("the solid's name").text;
+    fields.integer("the number of curves");
+    fields.integer("the points of a curve");
+    fields.integer("the records of a curve");
+    take_lines(lines, count_field(fields, "the number of records"), "B", "records B");
+    return Unsupported{"ars"};
+}
+
+Shape polysolid(LineReader& lines) {
+    take_lines(lines, 1, "Q", "faces");
+    while (lines.peek().text.starts_with('Q')) lines.take();
+    return Unsupported{"poly"};
+}
+
+Shape sketch(Fields& fields, LineReader& lines) {
+    fields.numbers<9>("numbers of the sketch's plane");
+    fields.integer("the number of vertices", 0);
+    // Vertices stand on one line; curves on a line each, or three.
+    take_lines(lines, 1 + count_field(fields, "the number of segments"), " ", "lines of vertices and segments");
+    while (lines.peek().text.starts_with(' ')) lines.take();
+    return Unsupported{"sketch"};
+}
+
+Shape nmg(Fields& fields, LineReader& lines, std::string& name) {
+    fields.integer("the version");
+    name = fields.next("the solid's name").text;
+    const std::uint64_t records = count_field(fields, "the number of records");
+    constexpr std::uint64_t lines_a_record = 4;  // 128 bytes, 32 a line, in hexadecimal
+    take_lines(lines, 1, " ", "lines of counts");
+    take_lines(lines, lines_a_record * records, "0123456789abcdefABCDEF", "lines of data");
+    return Unsupported{"nmg"};
+}
+
+Shape spline(Fields& fields, LineReader& lines) {
+    constexpr int max_mesh = 32'767;  // a record holds it in 16 bits
+    const std::uint64_t surfaces = count_field(fields, "the number of surfaces");
+    for (std::uint64_t i = 0; i < surfaces; ++i) {
+        const Line head = lines.peek();
+        if (!head.text.starts_with('D')) throw Fault{head.offset, "a surface of the spline is missing", {}};
+        Fields surface(lines.take());
+        surface.next("the letter D");
+        surface.integer("the order in u");
+        surface.integer("the order in v");
+        std::uint64_t numbers = count_field(surface, "the number of knots in u");
+        numbers += count_field(surface, "the number of knots in v");
+        const auto rows = static_cast<std::uint64_t>(surface.integer("the rows of the mesh", 0, max_mesh));
+        const auto columns = static_cast<std::uint64_t>(surface.integer("the columns of the mesh", 0, max_mesh));
+        numbers += rows * columns * static_cast<std::uint64_t>(surface.integer("the coordinates of a point", 0, 4));
+        take_lines(lines, numbers, "+-.0123456789", "knots and coordinates");
+    }
+    return Unsupported{"bspline"};
+}
+
+/// `s type name parameters`; the parameters are the solid's own and may be any text.
+Shape string_solid(Fields& fields, std::string& name) {
+    std::string type(fields.next("the solid's type").text);
+    name = fields.next("the solid's name").text;
+    return Unsupported{std::move(type)};
+}
+
+template <std::size_t count>
+Shape plain_solid(Fields& fields, const char* type) {
+    fields.numbers<count>("parameters");
+    fields.end();
+    return Unsupported{type};
+}
+
+Shape extrude(Fields& fields) {
+    fields.next("the sketch's name");
+    fields.integer("the key point");
+    return plain_solid<12>(fields, "extrude");
+}
+
+}  // namespace
+
+bool is_v4_solid(char letter) {
+    return std::string_view("SnstwpNPbAecd").find(letter) != std::string_view::npos;
+}
+
+Shape read_v4_solid(const Line& line, LineReader& lines, std::string& name) {
+    Fields fields(line);
+    const char letter = fields.next("the record's letter").text[0];
+    switch (letter) {
+        case 'S': return parameter_solid(fields, name);
+        case 'n': return arbn(fields, lines, name);
+        case 's': return string_solid(fields, name);
+        case 'A': return ars(fields, lines, name);
+        case 'N': return nmg(fields, lines, name);
+        default: break;
+    }
+    name = fields.next("the solid's name").text;
+    switch (letter) {
+        case 't': return mesh(fields, lines);
+        case 'w': return pipe(fields, lines);
+        case 'p': return plain_solid<8>(fields, "part");
+        case 'c': return plain_solid<8>(fields, "cline");
+        case 'e': return extrude(fields);
+        case 'd': return sketch(fields, lines);
+        case 'b': return spline(fields, lines);
+        default: return polysolid(lines);
+    }
+}
+
+}  // namespace csgrt

@@ -1,0 +1,39 @@
+// What both text forms of BRL-CAD's databases share: numbers, units, planes, matrices.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// A finite number that fills `text`, or a Fault at `offset` that quotes it.
+double read_number(std::string_view text, std::size_t offset);
+
+/// A whole number that fills `text` and lies in [low, high], or a Fault.
+int read_integer(std::string_view text, std::size_t offset, int low, int high);
+
+/// `text` in quotes for a message, cut short if long.
+std::string quoted(std::string_view text);
+
+/// Millimetres in one unit of that name ("mm", "in", "feet", ...); 0 if there is no such unit.
+double unit_in_millimetres(std::string_view name);
+/// The name of a unit of that many millimetres; empty if there is none.
+std::string unit_name(double millimetres);
+
+/// The half-space normal . p <= distance with its normal made a unit vector. A zero normal stays; validation names it.
+Plane unit_plane(Vec3 normal, double distance);
+
+/// `v` made a unit vector; a zero vector stays.
+Vec3 unit_vector(const Vec3& v);
+
+/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. Throws Fault at `offset` if the
+/// matrix is not affine.
+Matrix without_scale(Matrix matrix, std::size_t offset);
+
+/// A colour of three components 0..255.
+Vec3 color_of_bytes(int r, int g, int b);
+
+}  // namespace csgrt

@@ -1,0 +1,100 @@
+#include "formats/json_forms.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace csgrt {
+
+namespace {
+
+constexpr bool required = true;
+
+/// A tree's node: what it is, and what places it.
+JsonForm node(std::string_view name, std::string_view key) {
+    return {name, {{key, required}, {"matrix"}, {"translate"}, {"rotate"}, {"scale"}}};
+}
+
+JsonForm solid(std::string_view name, std::vector<JsonKey> keys) {
+    keys.insert(keys.begin(), {"type", required});
+    return {name, std::move(keys)};
+}
+
+std::vector<JsonForm> solid_forms() {
+    return {
+        solid("sphere", {{"center", required}, {"radius", required}}),
+        solid("ell", {{"center", required}, {"a", required}, {"b", required}, {"c", required}}),
+        solid("cylinder", {{"base", required}, {"height", required}, {"radius", required}}),
+        solid("cone", {{"base", required}, {"height", required}, {"radius", required}, {"top_radius"}}),
+        solid("tgc", {{"base", required}, {"height", required}, {"a", required}, {"b", required}, {"c", required}, {"d", required}}),
+        solid("box", {{"low", required}, {"high", required}}),
+        solid("arb4", {{"vertices", required}}),
+        solid("arb5", {{"vertices", required}}),
+        solid("arb6", {{"vertices", required}}),
+        solid("arb7", {{"vertices", required}}),
+        solid("arb8", {{"vertices", required}}),
+        solid("arbn", {{"planes", required}}),
+        solid("half", {{"normal", required}, {"distance", required}}),
+        solid("tor", {{"center", required}, {"axis", required}, {"radius", required}, {"tube", required}}),
+        solid("ehy", {{"base", required}, {"height", required}, {"a", required}, {"r1", required}, {"r2", required}, {"c", required}}),
+        solid("unsupported", {{"was", required}}),
+    };
+}
+
+std::vector<JsonForm> all_forms() {
+    std::vector<JsonForm> forms = {
+        {"scene",
+         {{"csgrt", required}, {"title"}, {"units"}, {"model_units"}, {"camera"}, {"lights"}, {"ambient"}, {"background"},
+          {"tolerance"}, {"materials"}, {"solids"}, {"combinations"}, {"objects"}, {"order"}, {"region_colors"}}},
+        {"model_units", {{"name", required}, {"millimetres", required}}},
+        {"camera", {{"azimuth"}, {"elevation"}, {"perspective"}, {"center"}, {"size"}}},
+        {"light", {{"position", required}, {"color"}, {"intensity"}}},
+        {"material",
+         {{"color"}, {"shader"}, {"specular"}, {"diffuse"}, {"ambient"}, {"shine"}, {"transmit"}, {"reflect"}}},
+        {"region_color", {{"low", required}, {"high", required}, {"color", required}}},
+        {"combination",
+         {{"tree", required}, {"region"}, {"id"}, {"air"}, {"material_id"}, {"los"}, {"material"}, {"inherit"}}},
+        node("leaf", "object"),
+        node("union", "union"),
+        node("intersection", "intersection"),
+        node("difference", "difference"),
+        node("xor", "xor"),
+        node("not", "not"),
+        {"postfix", {{"postfix", required}}},
+        {"postfix_operator", {{"operator", required}, {"operands", required}}},
+        {"rotation", {{"axis", required}, {"angle", required}}},
+        {"plane", {{"normal", required}, {"distance", required}}},
+    };
+    for (JsonForm& form : solid_forms()) forms.push_back(std::move(form));
+    return forms;
+}
+
+}  // namespace
+
+const std::vector<JsonForm>& json_forms() {
+    static const std::vector<JsonForm> forms = all_forms();
+    return forms;
+}
+
+const JsonForm& json_form(std::string_view name) {
+    const auto& forms = json_forms();
+    const auto found = std::find_if(forms.begin(), forms.end(), [&](const JsonForm& form) { return form.name == name; });
+    if (found == forms.end()) throw std::logic_error("no JSON form is called " + std::string(name));
+    return *found;
+}
+
+const std::vector<std::string_view>& json_solid_types() {
+    static const std::vector<std::string_view> types = [] {
+        std::vector<std::string_view> names;
+        for (const JsonForm& form : solid_forms()) names.push_back(form.name);
+        return names;
+    }();
+    return types;
+}
+
+const std::vector<std::string_view>& json_units() {
+    static const std::vector<std::string_view> units = {"nm", "um", "mm", "cm", "m", "km", "in", "ft", "yd", "mi"};
+    return units;
+}
+
+}  // namespace csgrt

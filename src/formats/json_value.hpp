@@ -1,0 +1,40 @@
+// A JSON text as a tree of values that know where they stand.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "formats/text_source.hpp"
+
+namespace csgrt {
+
+struct JsonValue;
+struct JsonMember;
+using JsonArray = std::vector<JsonValue>;
+using JsonMembers = std::vector<JsonMember>;  // in the order of the file; names are unique
+
+struct JsonValue {
+    std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonMembers> data;
+    std::size_t offset = 0;  ///< of its first character
+};
+struct JsonMember {
+    std::string name;
+    std::size_t offset = 0;  ///< of the name's first quote
+    JsonValue value;
+};
+
+/// The value with a name that is given, or nullptr.
+const JsonValue* find_member(const JsonMembers& members, std::string_view name);
+
+/// Parses the whole text. Syntax errors, numbers beyond a double's range, brackets nested deeper than
+/// Limits::file_nesting and names that stand twice in one object become findings; only the last kind lets it go on.
+/// Without a value, there is a finding.
+std::optional<JsonValue> parse_json(const TextSource& source, Findings& findings);
+
+/// A JSON pointer to a child of what `pointer` points to.
+std::string child_pointer(const std::string& pointer, std::string_view name);
+
+}  // namespace csgrt

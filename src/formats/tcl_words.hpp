@@ -1,0 +1,83 @@
+// Words of Tcl, as far as a database needs them: commands of words, lists of words, braces, quotes and backslashes.
+// Nothing is executed: a $ or [ that Tcl would replace is a Fault.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/text_source.hpp"
+
+namespace csgrt {
+
+/// A word's value and where it stands. The value is a part of the source, unless backslashes had to be replaced in it.
+struct TclWord {
+    std::string_view text;
+    std::size_t offset = 0;  ///< of the value's first character in the source
+    bool in_source = true;   ///< `text` is a part of the source, so `offset` holds for each character of it
+    bool braced = false;
+
+    /// The place in the source of the character at `index`; the word's own if the value was made up.
+    std::size_t offset_at(std::size_t index) const { return in_source ? offset + index : offset; }
+};
+
+/// Values that are no part of the source live here; a deque, so that they stay where they are.
+using TclStore = std::deque<std::string>;
+
+/// Reads one word after another. Cost is linear in the text, however deep its braces.
+class TclReader {
+public:
+    TclReader(std::string_view text, TclStore& store) : TclReader(TclWord{text}, store, true) {}
+
+    /// The next command of a script: words up to the end of a line or a ';'. Comments are passed over. False at the
+    /// end. Throws Fault; then `skip_to` finds the next command.
+    bool next_command(std::vector<TclWord>& words);
+
+    /// Goes on at the next line, after the last command's first, that starts with one of the names and a blank.
+    void skip_to(const std::vector<std::string_view>& names);
+
+    std::size_t offset() const { return source_.offset_at(at_); }
+
+private:
+    friend class TclList;
+    TclReader(const TclWord& source, TclStore& store, bool script) : source_(source), store_(store), script_(script) {}
+
+    TclWord next_word();
+    TclWord braced_word();
+    TclWord quoted_word();
+    TclWord bare_word();
+    TclWord value(std::size_t begin, std::size_t end, bool has_backslashes);
+    void expect_word_end(const char* after) const;
+    std::size_t continuation() const;
+    bool ends_word(char c) const;
+    bool at_end() const { return at_ >= source_.text.size(); }
+    char peek() const { return source_.text[at_]; }
+    [[noreturn]] void fail(std::size_t index, std::string message, std::string suggestion = {}) const;
+
+    TclWord source_;
+    TclStore& store_;
+    bool script_;  ///< a script, else a list: there newlines part words, and $ [ ; are letters
+    std::size_t at_ = 0;
+    std::size_t command_ = 0;  ///< where the last command starts
+};
+
+/// The elements of a word that is a list.
+class TclList {
+public:
+    TclList(const TclWord& list, TclStore& store) : reader_(list, store, false) {}
+
+    /// False at the end. Throws Fault.
+    bool next(TclWord& element);
+    std::size_t offset() const { return reader_.offset(); }
+
+private:
+    TclReader reader_;
+};
+
+/// The name that a word stands for. g2asc writes the braces of a name as \{ and \}, inside braces, where Tcl would keep
+/// the backslashes; they are taken back here, so that an object is found by the name that its users give.
+std::string tcl_name(const TclWord& word);
+
+}  // namespace csgrt

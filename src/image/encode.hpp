@@ -1,0 +1,15 @@
+// A picture as the bytes of a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <csgrt/image.hpp>
+
+namespace csgrt {
+
+/// `format` is "exr" or "png". The same picture gives the same bytes: no date, no name of a machine stands in them.
+/// Throws Error (usage) if the picture is not well formed (`name` says which), (file) if it cannot be encoded.
+std::vector<unsigned char> encode(const Image& image, const std::string& format, const std::string& name);
+
+}  // namespace csgrt

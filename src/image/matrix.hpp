@@ -1,0 +1,17 @@
+// 4x4 matrices in image headers.
+#pragma once
+
+#include <vector>
+
+namespace csgrt {
+
+/// OpenEXR's matrices apply to row vectors, p' = p M, csgrt's to column vectors: one is the other's transpose.
+inline std::vector<float> transpose(const std::vector<float>& matrix) {
+    std::vector<float> result(16);
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) result[4 * column + row] = matrix[4 * row + column];
+    }
+    return result;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <numeric>
+
+#include <OpenImageIO/imageio.h>
+
+#include <csgrt/image.hpp>
+
+#include "image/matrix.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// csgrt's order. The file itself keeps its channels by alphabet.
+constexpr std::array channel_order = {"R",   "G",      "B",     "A",     "Z",          "N.X",    "N.Y",
+                                      "N.Z", "region", "solid", "depth", "partitions", "overlap"};
+
+std::size_t rank(const std::string& name) {
+    return static_cast<std::size_t>(std::find(channel_order.begin(), channel_order.end(), name) - channel_order.begin());
+}
+
+}  // namespace
+
+Image read_image(const std::string& path) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+    if (!input) throw Error(Status::file, path + ": cannot read: " + OIIO::geterror());
+    if (std::string(input->format_name()) != "openexr") throw Error(Status::file, path + ": is no EXR file");
+
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.depth > 1 || spec.deep) throw Error(Status::file, path + ": is no flat picture");
+    const std::size_t count = spec.channelnames.size();
+    const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
+    std::vector<float> interleaved(count * pixels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, interleaved.data())) {
+        throw Error(Status::file, path + ": cannot read: " + input->geterror());
+    }
+
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return rank(spec.channelnames[a]) < rank(spec.channelnames[b]);
+    });
+
+    Image image;
+    image.width = spec.width;
+    image.height = spec.height;
+    for (const std::size_t c : order) {
+        image.names.push_back(spec.channelnames[c]);
+        std::vector<float>& channel = image.channels.emplace_back(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) channel[i] = interleaved[i * count + c];
+    }
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (name == "compression" || name.starts_with("oiio:")) continue;  // of the file, not of the picture
+        if (attribute.type() == OIIO::TypeString) {
+            image.attributes[name] = attribute.get_string();
+        } else if (attribute.type() == OIIO::TypeMatrix) {
+            const float* values = static_cast<const float*>(attribute.data());
+            image.matrices[name] = transpose(std::vector<float>(values, values + 16));
+        }
+    }
+    return image;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,12 @@
+// The kernels' geometry, camera, shading and tree walk, compiled for the host.
+#pragma once
+
+#include "kernel_host.hpp"
+
+namespace csgrt::kernel {
+
+#include "../kernels/camera.h"
+#include "../kernels/geometry/solid.h"
+#include "../kernels/shading.h"
+
+}  // namespace csgrt::kernel

@@ -1,0 +1,195 @@
+#include "reference/reference.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "kernel_geometry.hpp"
+#include "reference/intersect.hpp"
+#include "reference/weave.hpp"
+
+namespace csgrt {
+
+// One ray's answer, and the memory that the next ray uses again.
+struct Reference::Claims {
+    std::vector<kernel::End> ends;
+    std::vector<ClaimedPartition> partitions;
+    std::size_t woven = 0, overlaps = 0;
+    std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
+};
+
+Reference::Reference(const CompiledScene& scene, unsigned threads)
+    : scene_(scene), threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())) {
+    regions_of_.resize(scene.solids.size());
+    for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
+        for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
+            if (node.op != Operator::leaf) continue;
+            auto& list = regions_of_[node.solid];
+            if (list.empty() || list.back() != region) list.push_back(region);
+        }
+}
+
+// The tree's nodes stand in postfix order: an operator finds its operands' values on the stack.
+bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& solids) const {
+    std::vector<bool> values;
+    for (const FlatTree::Node& node : scene_.flat_trees[region].nodes) {
+        if (node.op == Operator::leaf) {
+            values.push_back(std::binary_search(solids.begin(), solids.end(), node.solid));
+            continue;
+        }
+        const std::size_t first = values.size() - node.arity;
+        bool value = values[first];
+        for (std::size_t i = first + 1; i < values.size(); ++i) {
+            const bool operand = values[i];
+            if (node.op == Operator::union_) value = value || operand;
+            if (node.op == Operator::intersection) value = value && operand;
+            if (node.op == Operator::difference) value = value && !operand;
+            if (node.op == Operator::xor_) value = value != operand;
+        }
+        if (node.op == Operator::not_) value = !value;
+        values.resize(first);
+        values.push_back(value);
+    }
+    return !values.empty() && values.back();
+}
+
+void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const {
+    claims.partitions.clear();
+    claims.woven = claims.overlaps = 0;
+    claims.first_seen = SIZE_MAX;
+    collect_ends(scene_, ray, frame.t_min, claims.ends);
+    if (claims.ends.empty()) return;
+    const std::vector<WovenPartition> woven = weave(claims.ends, frame.tolerance);
+    claims.woven = woven.size();
+
+    std::vector<std::uint32_t> solids, table, claimants;
+    for (const WovenPartition& partition : woven) {
+        solids.clear();
+        table.clear();
+        claimants.clear();
+        for (const std::uint32_t segment : partition.segments) solids.push_back(claims.ends[2 * segment].solid);
+        std::sort(solids.begin(), solids.end());
+        for (const std::uint32_t solid : solids)
+            for (const std::uint32_t region : regions_of_[solid])
+                if (std::find(table.begin(), table.end(), region) == table.end()) table.push_back(region);
+        std::sort(table.begin(), table.end());
+        for (const std::uint32_t region : table)
+            if (inside(region, solids)) claimants.push_back(region);
+
+        if (claimants.size() > 1) ++claims.overlaps;
+        if (claimants.empty()) continue;
+
+        ClaimedPartition claim;
+        claim.in = claims.ends[partition.in_end];
+        claim.out = claims.ends[partition.out_end];
+        claim.in.t = partition.in;
+        claim.out.t = partition.out;
+        claim.in_leaves = partition.in_end % 2 == 1;
+        claim.out_enters = partition.out_end % 2 == 0;
+        claim.region = claimants.front();
+        if (claimants.size() > 1) claim.claimants = claimants;
+        claims.partitions.push_back(std::move(claim));
+        if (claims.first_seen == SIZE_MAX && partition.out > frame.t_min) {
+            claims.first_seen = claims.partitions.size() - 1;
+            if (!frame.every_partition) return;
+        }
+    }
+}
+
+// Work is handed out in pieces of 64; which thread does a piece changes nothing in its result.
+template <class Work>
+void Reference::parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const {
+    constexpr std::size_t piece = 64;
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> stop{false};
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto run = [&](bool reports) {
+        try {
+            Claims claims;
+            for (;;) {
+                const std::size_t begin = next.fetch_add(piece);
+                if (begin >= count || stop) return;
+                work(begin, std::min(begin + piece, count), claims, mutex);
+                if (reports && progress && !progress(static_cast<double>(begin) / static_cast<double>(count)))
+                    throw Error(Status::interrupted, "interrupted");
+            }
+        } catch (...) {
+            stop = true;
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    for (unsigned i = 1; i < threads_; ++i) others.emplace_back(run, false);
+    run(true);
+    for (std::thread& thread : others) thread.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
+                                             ReferenceCounts& counts) const {
+    const kernel::Frame& frame = prepared.frame;
+    const kernel::Geometry g{scene_.solids.data(), scene_.reals.data(), scene_.planes.data(), scene_.plane_refs.data()};
+    std::vector<kernel::Pixel> pixels(std::size_t{frame.width} * frame.height);
+    parallel(pixels.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+        ReferenceCounts sum;
+        for (std::size_t i = begin; i < end; ++i) {
+            const kernel::pixel_position at{static_cast<std::uint32_t>(i % frame.width),
+                                            static_cast<std::uint32_t>(i / frame.width), 1};
+            const kernel::ray3 r = kernel::camera_ray(&frame, at);
+            evaluate(frame, {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}}, claims);
+            kernel::Pixel pixel;
+            if (claims.first_seen == SIZE_MAX) {
+                pixel = kernel::background_pixel(&frame);
+            } else {
+                const ClaimedPartition& hit = claims.partitions[claims.first_seen];
+                kernel::vec3 n = kernel::normal_at(g, scene_.solids[hit.in.solid], r, hit.in.t, hit.in.surface);
+                if (hit.in_leaves) n = kernel::scale(n, -1);
+                const kernel::MaterialRecord& material = scene_.materials[scene_.regions[hit.region].material];
+                pixel = kernel::hit_pixel(&frame, prepared.lights.data(), material, r, hit.in.t, n);
+                pixel.region = hit.region + 1;
+                pixel.solid = hit.in.solid + 1;
+            }
+            pixel.depth = static_cast<std::uint32_t>(claims.ends.size() / 2);
+            pixel.partitions = static_cast<std::uint32_t>(claims.woven);
+            pixel.overlap = static_cast<std::uint32_t>(claims.overlaps);
+            pixels[i] = pixel;
+            sum.hits += claims.ends.size();
+            sum.segments += claims.ends.size() / 2;
+            sum.partitions += claims.woven;
+            sum.overlaps += claims.overlaps;
+        }
+        const std::lock_guard lock(mutex);
+        counts.hits += sum.hits;
+        counts.segments += sum.segments;
+        counts.partitions += sum.partitions;
+        counts.overlaps += sum.overlaps;
+    });
+    return pixels;
+}
+
+std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
+                                            const std::function<bool(double)>& progress, ReferenceCounts& counts) const {
+    std::vector<RayPartitions> results(rays.size());
+    parallel(rays.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+        ReferenceCounts sum;
+        for (std::size_t i = begin; i < end; ++i) {
+            evaluate(prepared.frame, rays[i], claims);
+            results[i] = to_partitions(scene_, rays[i], claims.partitions);
+            sum.hits += claims.ends.size();
+            sum.segments += claims.ends.size() / 2;
+            sum.partitions += claims.woven;
+            sum.overlaps += claims.overlaps;
+        }
+        const std::lock_guard lock(mutex);
+        counts.hits += sum.hits;
+        counts.segments += sum.segments;
+        counts.partitions += sum.partitions;
+        counts.overlaps += sum.overlaps;
+    });
+    return results;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,39 @@
+// The CPU reference: every solid tried, unique lists, trees as the model gives them. It checks the device, bit by bit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "compile/claims.hpp"
+#include "compile/frame.hpp"
+
+namespace csgrt {
+
+struct ReferenceCounts {
+    std::uint64_t hits = 0, segments = 0, partitions = 0, overlaps = 0;
+};
+
+class Reference {
+public:
+    Reference(const CompiledScene& scene, unsigned threads);
+
+    /// Pixels by row from the top left. Throws Error (interrupted) if `progress` returns false.
+    std::vector<kernel::Pixel> render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
+                                      ReferenceCounts& counts) const;
+    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
+                                     const std::function<bool(double)>& progress, ReferenceCounts& counts) const;
+
+private:
+    struct Claims;
+    void evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const;
+    bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids) const;
+    template <class Work>
+    void parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const;
+
+    const CompiledScene& scene_;
+    unsigned threads_;
+    std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees here
+};
+
+}  // namespace csgrt

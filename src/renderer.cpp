@@ -1,0 +1,221 @@
+#include <csgrt/renderer.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <optional>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/frame.hpp"
+#include "pipeline/pipeline.hpp"
+#include "reference/reference.hpp"
+
+namespace csgrt {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct ChannelSource {
+    const char* name;
+    float (*value)(const kernel::Pixel&);
+};
+constexpr ChannelSource channels[] = {
+    {"R", [](const kernel::Pixel& p) { return p.rgba[0]; }},
+    {"G", [](const kernel::Pixel& p) { return p.rgba[1]; }},
+    {"B", [](const kernel::Pixel& p) { return p.rgba[2]; }},
+    {"A", [](const kernel::Pixel& p) { return p.rgba[3]; }},
+    {"Z", [](const kernel::Pixel& p) { return p.z; }},
+    {"N.X", [](const kernel::Pixel& p) { return p.normal[0]; }},
+    {"N.Y", [](const kernel::Pixel& p) { return p.normal[1]; }},
+    {"N.Z", [](const kernel::Pixel& p) { return p.normal[2]; }},
+    {"region", [](const kernel::Pixel& p) { return static_cast<float>(p.region); }},
+    {"solid", [](const kernel::Pixel& p) { return static_cast<float>(p.solid); }},
+    {"depth", [](const kernel::Pixel& p) { return static_cast<float>(p.depth); }},
+    {"partitions", [](const kernel::Pixel& p) { return static_cast<float>(p.partitions); }},
+    {"overlap", [](const kernel::Pixel& p) { return static_cast<float>(p.overlap); }},
+};
+
+// The camera for the picture's header, row-major, as graphics programs expect them: world to camera (x right, y up,
+// z to the viewer, eye at the origin), and camera to screen (-1..1 across the height).
+void describe_camera(const PreparedFrame& prepared, Image& image) {
+    const auto dot = [](Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    const Vec3 axes[3] = {prepared.right, prepared.up, prepared.back};
+    std::vector<float> world_to_camera(16, 0.0f), camera_to_screen(16, 0.0f);
+    for (std::size_t row = 0; row < 3; ++row) {
+        world_to_camera[4 * row + 0] = static_cast<float>(axes[row].x);
+        world_to_camera[4 * row + 1] = static_cast<float>(axes[row].y);
+        world_to_camera[4 * row + 2] = static_cast<float>(axes[row].z);
+        world_to_camera[4 * row + 3] =
+            static_cast<float>(-dot(axes[row], prepared.center) - (row == 2 ? prepared.eye_to_center : 0));
+    }
+    world_to_camera[15] = 1;
+    const double aspect = static_cast<double>(prepared.frame.width) / prepared.frame.height;
+    const double zoom = 2 / prepared.view_size;
+    if (prepared.frame.perspective) {
+        camera_to_screen[0] = static_cast<float>(prepared.eye_to_center * zoom / aspect);
+        camera_to_screen[5] = static_cast<float>(prepared.eye_to_center * zoom);
+        camera_to_screen[10] = -1;
+        camera_to_screen[14] = -1;
+    } else {
+        camera_to_screen[0] = static_cast<float>(zoom / aspect);
+        camera_to_screen[5] = static_cast<float>(zoom);
+        camera_to_screen[10] = static_cast<float>(-zoom);
+        camera_to_screen[15] = 1;
+    }
+    image.matrices["worldToCamera"] = std::move(world_to_camera);
+    image.matrices["cameraToScreen"] = std::move(camera_to_screen);
+}
+
+std::string hexadecimal(std::uint64_t value) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+    Settings settings;
+    CompiledScene scene;
+    std::string title;
+    std::unique_ptr<Device> device;
+    std::unique_ptr<Pipeline> pipeline;
+    std::optional<Reference> reference;
+    Statistics statistics;
+
+    void start_call(std::uint64_t rays, int width, int height) {
+        Statistics fresh;
+        fresh.device = statistics.device;
+        fresh.precision = statistics.precision;
+        fresh.method = statistics.method;
+        fresh.ms.compile = statistics.ms.compile;
+        fresh.ms.build = statistics.ms.build;
+        fresh.rays = rays;
+        fresh.width = width;
+        fresh.height = height;
+        statistics = fresh;
+    }
+    void take(const PipelineCounts& c) {
+        statistics.hits = c.hits;
+        statistics.segments = c.segments;
+        statistics.partitions_used = c.partitions_used;
+        statistics.partitions_allocated = c.partitions_allocated;
+        statistics.overlaps = c.overlaps;
+        statistics.segment_bytes = c.segment_bytes;
+        statistics.partition_bytes = c.partition_bytes;
+        statistics.tiles = c.tiles;
+        statistics.device_bytes = device->allocated();
+        statistics.ms.count_hits = c.count_hits;
+        statistics.ms.scan = c.scan;
+        statistics.ms.store_segments = c.store_segments;
+        statistics.ms.weave = c.weave;
+        statistics.ms.evaluate = c.evaluate;
+        statistics.ms.shade = c.shade;
+    }
+    void take(const ReferenceCounts& c) {
+        statistics.hits = c.hits;
+        statistics.segments = c.segments;
+        statistics.partitions_used = statistics.partitions_allocated = c.partitions;
+        statistics.overlaps = c.overlaps;
+        statistics.tiles = 1;
+    }
+};
+
+Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
+    : impl_(std::make_unique<Impl>()) {
+    Impl& impl = *impl_;
+    impl.settings = settings;
+    impl.title = scene.title;
+    auto start = Clock::now();
+    impl.scene = compile(scene, objects, {.air = settings.air});
+    impl.statistics.ms.compile = milliseconds_since(start);
+    impl.statistics.precision = "double";
+    if (settings.reference) {
+        impl.statistics.device = "reference";
+        impl.statistics.method = "every solid, unique lists";
+        impl.reference.emplace(impl.scene, settings.threads);
+        return;
+    }
+    start = Clock::now();
+    impl.device = std::make_unique<Device>(settings.device, settings.max_memory);
+    impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene);
+    impl.statistics.ms.build = milliseconds_since(start);
+    impl.statistics.device = impl.device->info().name;
+    impl.statistics.method = "five kernels, exact counts";
+}
+
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Image Renderer::render(const View& view) {
+    Impl& impl = *impl_;
+    const auto start = Clock::now();
+    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.settings.tolerance);
+    impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.width, view.height);
+    std::vector<kernel::Pixel> pixels;
+    if (impl.reference) {
+        ReferenceCounts counts;
+        pixels = impl.reference->render(prepared, impl.settings.progress, counts);
+        impl.take(counts);
+    } else {
+        PipelineCounts counts;
+        pixels = impl.pipeline->render(prepared, impl.settings.progress, counts);
+        impl.take(counts);
+    }
+    Image image;
+    image.width = view.width;
+    image.height = view.height;
+    for (const ChannelSource& channel : channels) {
+        std::vector<float> values(pixels.size());
+        for (std::size_t i = 0; i < pixels.size(); ++i) values[i] = channel.value(pixels[i]);
+        image.names.emplace_back(channel.name);
+        image.channels.push_back(std::move(values));
+    }
+    image.attributes["csgrt:version"] = version();
+    image.attributes["csgrt:title"] = impl.title;
+    image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
+    describe_camera(prepared, image);
+    impl.statistics.ms.frame = milliseconds_since(start);
+    return image;
+}
+
+std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
+    Impl& impl = *impl_;
+    const auto start = Clock::now();
+    if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
+        throw Error(Status::usage, "too many rays in one call: shoot them in parts of at most 2^31");
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray& r = rays[i];
+        const double sum = r.origin.x + r.origin.y + r.origin.z + r.direction.x + r.direction.y + r.direction.z;
+        const bool zero = r.direction.x == 0 && r.direction.y == 0 && r.direction.z == 0;
+        if (!(sum - sum == 0) || zero)
+            throw Error(Status::usage, "ray " + std::to_string(i) + ": needs six finite numbers and a direction other than 0");
+    }
+    const PreparedFrame prepared =
+        prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.settings.tolerance);
+    impl.start_call(rays.size(), 0, 0);
+    std::vector<RayPartitions> answers;
+    if (impl.reference) {
+        ReferenceCounts counts;
+        answers = impl.reference->shoot(prepared, rays, impl.settings.progress, counts);
+        impl.take(counts);
+    } else {
+        PipelineCounts counts;
+        answers = impl.pipeline->shoot(prepared, rays, impl.settings.progress, counts);
+        impl.take(counts);
+    }
+    impl.statistics.ms.frame = milliseconds_since(start);
+    return answers;
+}
+
+const Box& Renderer::bounds() const { return impl_->scene.bounds; }
+const std::vector<RegionInfo>& Renderer::regions() const { return impl_->scene.region_info; }
+const std::vector<SolidInfo>& Renderer::solids() const { return impl_->scene.solid_info; }
+const Statistics& Renderer::statistics() const { return impl_->statistics; }
+const std::vector<std::string>& Renderer::notes() const { return impl_->scene.notes; }
+
+}  // namespace csgrt

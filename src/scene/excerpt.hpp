@@ -1,0 +1,18 @@
+// The line of a file that a diagnostic shows, with a caret under the place.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+/// The part of a line around a column (in bytes, from 0) that a terminal shows, a newline, and a caret under the column.
+std::string excerpt(std::string_view line, std::size_t column);
+
+/// The same for a finding that is made after the file was read; empty if the place has no line or the file is gone.
+std::string excerpt(const Place& place);
+
+}  // namespace csgrt

@@ -1,0 +1,56 @@
+#include "scene/nearest.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+namespace csgrt {
+
+namespace {
+
+/// Longer names are not compared: the distance takes time by the product of the lengths.
+constexpr std::size_t longest = 64;
+
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+/// How many letters must be put in, left out, replaced or swapped with a neighbour, upper and lower case alike.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = last[j - 1] + (lower(a[i - 1]) != lower(b[j - 1]));
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+            const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+        }
+        before_last.swap(last);
+        last.swap(row);
+    }
+    return last[b.size()];
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view wrong, const std::vector<std::string_view>& known) {
+    if (wrong.size() > longest) return {};
+    const std::size_t allowed = std::max<std::size_t>(1, wrong.size() / 3);
+    std::string_view best;
+    std::size_t best_distance = allowed + 1;
+    for (const std::string_view candidate : known) {
+        const std::size_t difference = std::max(candidate.size(), wrong.size()) - std::min(candidate.size(), wrong.size());
+        if (difference >= best_distance) continue;  // the distance is no less than that
+        const std::size_t distance = edit_distance(wrong, candidate);
+        // A name of which every letter is replaced is another name, not a misspelt one.
+        if (distance < best_distance && distance < std::max(wrong.size(), candidate.size())) {
+            best = candidate;
+            best_distance = distance;
+        }
+    }
+    return best_distance > allowed ? std::string() : "did you mean '" + std::string(best) + "'?";
+}
+
+}  // namespace csgrt

@@ -1,0 +1,13 @@
+// The known name that a wrong one was probably meant to be.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace csgrt {
+
+/// "did you mean 'radius'?", or nothing if no known name is close.
+std::string did_you_mean(std::string_view wrong, const std::vector<std::string_view>& known);
+
+}  // namespace csgrt

@@ -1,0 +1,132 @@
+#include "scene/polytope.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+using Loop = std::vector<Vec3>;  // the corners of a face, in order around it
+
+/// Half the side of the first cube, in units of the farthest plane's distance.
+constexpr double reach_factor = 1e6;
+
+bool before(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// Where the edge from p to q meets the plane, given their distances from it. The two faces that share the edge walk it
+/// in opposite directions and must get the same bits, so the ends are put in order first.
+Vec3 cut(Vec3 p, double p_distance, Vec3 q, double q_distance) {
+    if (before(q, p)) {
+        std::swap(p, q);
+        std::swap(p_distance, q_distance);
+    }
+    return p + (p_distance / (p_distance - q_distance)) * (q - p);
+}
+
+std::vector<Loop> cube(const Vec3& center, double reach) {
+    const auto corner = [&](int i) {
+        return center + Vec3{i & 1 ? reach : -reach, i & 2 ? reach : -reach, i & 4 ? reach : -reach};
+    };
+    std::vector<Loop> faces;
+    for (const auto& face : {std::array{0, 1, 3, 2}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+                             std::array{2, 3, 7, 6}, std::array{0, 2, 6, 4}, std::array{1, 3, 7, 5}}) {
+        faces.push_back({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
+    }
+    return faces;
+}
+
+/// The face that a cut leaves: its corners in order around their middle.
+Loop cap(const Vec3& normal, Loop corners) {
+    std::sort(corners.begin(), corners.end(), before);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    Vec3 middle;
+    for (const Vec3& corner : corners) middle = middle + (1.0 / static_cast<double>(corners.size())) * corner;
+    const Vec3 across = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 u = unit(cross(normal, across)), v = cross(normal, u);
+    const auto angle = [&](const Vec3& p) { return std::atan2(dot(p - middle, v), dot(p - middle, u)); };
+    std::sort(corners.begin(), corners.end(), [&](const Vec3& a, const Vec3& b) { return angle(a) < angle(b); });
+    return corners;
+}
+
+void clip(std::vector<Loop>& faces, const Plane& plane) {
+    const auto distance = [&](const Vec3& p) { return dot(plane.normal, p) - plane.distance; };
+    Loop corners;
+    for (Loop& face : faces) {
+        if (std::none_of(face.begin(), face.end(), [&](const Vec3& p) { return distance(p) > 0; })) continue;
+        Loop kept;
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            const Vec3 &p = face[i], &q = face[(i + 1) % face.size()];
+            const double p_distance = distance(p), q_distance = distance(q);
+            if (p_distance <= 0) kept.push_back(p);
+            if ((p_distance <= 0) != (q_distance <= 0)) {
+                kept.push_back(cut(p, p_distance, q, q_distance));
+                corners.push_back(kept.back());
+            }
+        }
+        face = std::move(kept);
+    }
+    std::erase_if(faces, [](const Loop& face) { return face.size() < 3; });
+    Loop last = cap(plane.normal, std::move(corners));
+    if (last.size() >= 3) faces.push_back(std::move(last));
+}
+
+std::vector<Vec3> clipped_cube(const std::vector<Plane>& planes, const Vec3& center, double reach) {
+    std::vector<Loop> faces = cube(center, reach);
+    for (const Plane& plane : planes) clip(faces, plane);
+    std::vector<Vec3> vertices;
+    for (const Loop& face : faces) vertices.insert(vertices.end(), face.begin(), face.end());
+    return vertices;
+}
+
+}  // namespace
+
+Polytope intersect_half_spaces(const std::vector<Plane>& planes) {
+    double farthest = 0;
+    for (const Plane& plane : planes) farthest = std::max(farthest, std::abs(plane.distance));
+    const double reach = farthest > 0 ? reach_factor * farthest : 1;
+
+    Polytope result;
+    result.vertices = clipped_cube(planes, {}, reach);
+    if (result.vertices.empty()) return result;
+
+    Vec3 low = result.vertices.front(), high = low;
+    for (const Vec3& p : result.vertices) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const double edge = reach * (1 - 1e-6);
+    if (std::min({low.x, low.y, low.z}) <= -edge || std::max({high.x, high.y, high.z}) >= edge) {
+        result.kind = Polytope::Kind::unbounded;
+        result.vertices.clear();
+        return result;
+    }
+
+    // Once more, closely around the polytope, where the numbers are small.
+    const Vec3 center = 0.5 * (low + high);
+    std::vector<Plane> near = planes;
+    for (Plane& plane : near) plane.distance -= dot(plane.normal, center);
+    result.vertices = clipped_cube(near, {}, std::max(length(high - low), 1e-9 * farthest));
+    if (result.vertices.empty()) return result;
+
+    Vec3 middle;
+    for (Vec3& p : result.vertices) middle = middle + (1.0 / static_cast<double>(result.vertices.size())) * p;
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * farthest;
+    const bool inside = std::all_of(near.begin(), near.end(), [&](const Plane& plane) {
+        return dot(plane.normal, middle) < plane.distance - rounding;
+    });
+    if (!inside) {
+        result.vertices.clear();
+        return result;
+    }
+    for (Vec3& p : result.vertices) p = p + center;
+    result.kind = Polytope::Kind::bounded;
+    return result;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,24 @@
+// The corners of an intersection of half-spaces.
+#pragma once
+
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+struct Polytope {
+    enum class Kind {
+        empty,      ///< no point lies strictly inside all half-spaces
+        bounded,
+        unbounded,  ///< reaches farther than a million times the farthest plane's distance
+    };
+    Kind kind = Kind::empty;
+    std::vector<Vec3> vertices;  ///< of a bounded one; a corner may stand more than once
+};
+
+/// Clips a large cube by one half-space after the other; time grows with planes x faces. Normals are unit vectors.
+/// The vertices are good to about 1e-10 of the farthest plane's distance, then to 1e-15 of the polytope's size.
+Polytope intersect_half_spaces(const std::vector<Plane>& planes);
+
+}  // namespace csgrt

@@ -1,0 +1,54 @@
+#include <csgrt/scene.hpp>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace csgrt {
+
+const char* type_name(const Shape& shape) {
+    struct Name {
+        const char* operator()(const Ell&) const { return "ell"; }
+        const char* operator()(const Tgc&) const { return "tgc"; }
+        const char* operator()(const Arb&) const { return "arb8"; }
+        const char* operator()(const Arbn&) const { return "arbn"; }
+        const char* operator()(const Half&) const { return "half"; }
+        const char* operator()(const Tor&) const { return "tor"; }
+        const char* operator()(const Ehy&) const { return "ehy"; }
+        const char* operator()(const Unsupported& solid) const { return solid.type.c_str(); }
+    };
+    return std::visit(Name{}, shape);
+}
+
+const Object* Scene::find(const std::string& name) const {
+    const auto found =
+        std::find_if(objects.begin(), objects.end(), [&](const Object& object) { return name_of(object) == name; });
+    return found == objects.end() ? nullptr : &*found;
+}
+
+const std::string& name_of(const Object& object) {
+    return std::visit([](const auto& it) -> const std::string& { return it.name; }, object);
+}
+
+const Place& place_of(const Object& object) {
+    return std::visit([](const auto& it) -> const Place& { return it.place; }, object);
+}
+
+std::vector<std::string> top_objects(const Scene& scene) {
+    if (!scene.top.empty()) return scene.top;
+
+    std::unordered_set<std::string_view> used;
+    for (const Object& object : scene.objects) {
+        const auto* combination = std::get_if<Combination>(&object);
+        if (combination == nullptr) continue;
+        for (const TreeNode& node : combination->tree.nodes) {
+            if (node.op == Operator::leaf) used.insert(node.object);
+        }
+    }
+    std::vector<std::string> top;
+    for (const Object& object : scene.objects) {
+        if (used.count(name_of(object)) == 0) top.push_back(name_of(object));
+    }
+    return top;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,232 @@
+// One walk over everything that the rendered objects reach, depth first, each object once. The walk keeps its own
+// stack, and how many solids stand below an object is summed on the way back, so neither depth nor sharing costs.
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+
+#include <csgrt/scene.hpp>
+
+#include "scene/excerpt.hpp"
+#include "scene/nearest.hpp"
+#include "scene/object_faults.hpp"
+#include "scene/solid_faults.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// More than these help nobody.
+constexpr std::size_t most_findings = 50;
+
+constexpr std::uint64_t far_too_many = UINT64_MAX;
+
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
+    return a > far_too_many - b ? far_too_many : a + b;
+}
+
+std::string count_of_solids(std::uint64_t count) {
+    return count == far_too_many ? "more than 10^19 solids" : std::to_string(count) + " solids";
+}
+
+class Validation {
+public:
+    explicit Validation(const Scene& scene) : scene_(scene), objects_(scene.objects.size()) {}
+
+    std::vector<Diagnostic> run(const std::vector<std::string>& named) {
+        index_names();
+        check_settings(scene_, report_);
+        const std::vector<std::uint32_t> roots = find_roots(named);
+        std::uint64_t solids = 0;
+        for (const std::uint32_t root : roots) {
+            walk(root);
+            solids = saturating_sum(solids, objects_[root].solids);
+        }
+        report_unsupported();
+        if (found_.empty() && solids == 0) {
+            add({}, "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
+        }
+        if (solids > Limits::instances && !too_many_reported_) report_too_many({}, "the scene", solids);
+        return finish();
+    }
+
+private:
+    enum class State : std::uint8_t { unseen, open, done };
+    struct Reached {
+        State state = State::unseen;
+        std::uint32_t height = 0;  ///< combinations on the longest path downward, this one included
+        std::uint32_t users = 0;   ///< legs that lead here, each counted once
+        std::uint32_t first_user = 0;
+        std::uint64_t solids = 0;  ///< below, repeats counted
+    };
+    struct Frame {
+        std::uint32_t object;
+        std::size_t next_node;
+    };
+
+    void add(const Place& place, std::string message, std::string suggestion = {}) {
+        if (found_.size() < most_findings) found_.push_back({place, std::move(message), std::move(suggestion), {}});
+    }
+
+    void index_names() {
+        index_.reserve(scene_.objects.size());
+        for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) {
+            const std::string& name = name_of(scene_.objects[i]);
+            if (!index_.emplace(name, i).second) {
+                add(place_of(scene_.objects[i]), "there are two objects named '" + name + "'", "rename one of them");
+            }
+        }
+    }
+
+    std::string did_you_mean_object(const std::string& wrong) const {
+        std::vector<std::string_view> names;
+        for (const auto& [name, object] : index_) names.push_back(name);
+        std::sort(names.begin(), names.end());  // the answer does not hang on the order of a hash table
+        return did_you_mean(wrong, names);
+    }
+
+    std::vector<std::uint32_t> find_roots(const std::vector<std::string>& named) {
+        std::vector<std::uint32_t> roots;
+        for (const std::string& name : named.empty() ? top_objects(scene_) : named) {
+            if (const auto found = index_.find(name); found != index_.end()) {
+                roots.push_back(found->second);
+            } else {
+                add({}, "the scene has no object '" + name + "'", did_you_mean_object(name));
+            }
+        }
+        if (roots.empty() && named.empty() && scene_.top.empty()) {
+            // Every object is used by another: they form a cycle, which a walk from anywhere finds.
+            for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) roots.push_back(i);
+        }
+        return roots;
+    }
+
+    void walk(std::uint32_t root) {
+        enter(root);
+        while (!path_.empty()) {
+            Frame& frame = path_.back();
+            const auto* combination = std::get_if<Combination>(&scene_.objects[frame.object]);
+            if (combination != nullptr && frame.next_node < combination->tree.nodes.size()) {
+                const TreeNode& node = combination->tree.nodes[frame.next_node++];
+                if (node.op == Operator::leaf) follow(frame.object, *combination, node);
+            } else {
+                leave();
+            }
+        }
+    }
+
+    void enter(std::uint32_t object) {
+        if (objects_[object].state != State::unseen) return;
+        objects_[object].state = State::open;
+        path_.push_back({object, 0});
+        if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
+            for (const std::string& fault : solid_faults(solid->shape)) {
+                add(solid->place, "solid '" + solid->name + "' (" + type_name(solid->shape) + "): " + fault);
+            }
+        } else {
+            check_combination(std::get<Combination>(scene_.objects[object]), report_);
+        }
+    }
+
+    /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
+    void follow(std::uint32_t parent, const Combination& combination, const TreeNode& leg) {
+        const auto found = index_.find(leg.object);
+        if (found == index_.end()) {
+            add(leg.place, "'" + combination.name + "' uses '" + leg.object + "', which does not exist",
+                did_you_mean_object(leg.object));
+            return;
+        }
+        Reached& child = objects_[found->second];
+        if (child.users++ == 0) child.first_user = parent;
+        if (child.state == State::open) {
+            report_cycle(found->second, leg);
+        } else if (child.state == State::done) {
+            add_below(parent, child);
+        } else {
+            enter(found->second);
+        }
+    }
+
+    void leave() {
+        const std::uint32_t object = path_.back().object;
+        path_.pop_back();
+        Reached& reached = objects_[object];
+        reached.state = State::done;
+        const Place& place = place_of(scene_.objects[object]);
+        const std::string name = "'" + name_of(scene_.objects[object]) + "'";
+        if (std::holds_alternative<Solid>(scene_.objects[object])) {
+            reached.solids = 1;
+        } else if (++reached.height == Limits::nesting + 1) {
+            add(place, "below " + name + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
+                "join some of the combinations on the way");
+        }
+        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place, name, reached.solids);
+        if (!path_.empty()) add_below(path_.back().object, reached);
+    }
+
+    void add_below(std::uint32_t parent, const Reached& child) {
+        objects_[parent].solids = saturating_sum(objects_[parent].solids, child.solids);
+        objects_[parent].height = std::max(objects_[parent].height, child.height);
+    }
+
+    void report_too_many(const Place& place, const std::string& what, std::uint64_t solids) {
+        too_many_reported_ = true;
+        add(place, what + " expands to " + count_of_solids(solids) + "; at most " + std::to_string(Limits::instances) +
+                       " are possible",
+            "render fewer objects, or use fewer copies");
+    }
+
+    void report_cycle(std::uint32_t object, const TreeNode& leg) {
+        std::string cycle;
+        bool on_cycle = false;
+        for (const Frame& frame : path_) {
+            on_cycle = on_cycle || frame.object == object;
+            if (on_cycle) cycle += name_of(scene_.objects[frame.object]) + "/";
+        }
+        add(leg.place, "'" + leg.object + "' contains itself: " + cycle + leg.object, "take one of these legs out");
+    }
+
+    void report_unsupported() {
+        for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+            const auto* solid = std::get_if<Solid>(&scene_.objects[i]);
+            if (objects_[i].state == State::unseen || solid == nullptr) continue;
+            const auto* shape = std::get_if<Unsupported>(&solid->shape);
+            if (shape == nullptr) continue;
+            std::string message = "'" + solid->name + "' is a solid of type '" + shape->type +
+                                  "', which csgrt does not support";
+            if (objects_[i].users > 0) {
+                message += "; used by '" + name_of(scene_.objects[objects_[i].first_user]) + "'";
+                if (objects_[i].users > 1) message += " and on " + std::to_string(objects_[i].users - 1) + " other legs";
+            }
+            add(solid->place, std::move(message), "render objects that do not use it, or replace it");
+        }
+    }
+
+    std::vector<Diagnostic> finish() {
+        std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+            return std::tie(a.place.line, a.place.column, a.place.offset) <
+                   std::tie(b.place.line, b.place.column, b.place.offset);
+        });
+        for (Diagnostic& diagnostic : found_) diagnostic.excerpt = excerpt(diagnostic.place);
+        return std::move(found_);
+    }
+
+    const Scene& scene_;
+    std::vector<Reached> objects_;
+    std::unordered_map<std::string_view, std::uint32_t> index_;
+    std::vector<Frame> path_;
+    std::vector<Diagnostic> found_;
+    const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
+        add(place, std::move(message), std::move(suggestion));
+    };
+    bool too_many_reported_ = false;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects) {
+    return Validation(scene).run(objects);
+}
+
+}  // namespace csgrt

@@ -1,0 +1,42 @@
+// The little vector algebra that the model's checks and readers need.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+/// `a` scaled to length 1; `a` itself if its length is 0. hypot neither overflows nor underflows on the way.
+inline Vec3 unit(const Vec3& a) {
+    const double l = length(a);
+    return l == 0 ? a : Vec3{a.x / l, a.y / l, a.z / l};
+}
+
+/// The matrix that applies `inner`, then `outer`: each element summed from left to right, as BRL-CAD does it.
+inline Matrix compose(const Matrix& outer, const Matrix& inner) {
+    Matrix m{};
+    for (std::size_t row = 0; row < 4; ++row) {
+        for (std::size_t column = 0; column < 4; ++column) {
+            for (std::size_t k = 0; k < 4; ++k) m[4 * row + column] += outer[4 * row + k] * inner[4 * k + column];
+        }
+    }
+    return m;
+}
+
+/// A vector this close to unit length is taken for one, as it stands.
+inline constexpr double unit_slack = 1e-9;
+inline bool is_unit(const Vec3& a) { return std::abs(length(a) - 1) <= unit_slack; }
+
+}  // namespace csgrt

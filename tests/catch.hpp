@@ -1,0 +1,8 @@
+// Catch2 as Debian 12 (2.13) and as Ubuntu 24.04 (3) have it.
+#pragma once
+
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif

@@ -1,0 +1,89 @@
+#include "catch.hpp"
+
+#include "device/choice.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+DeviceInfo made_up(const char* name, const char* type, bool fp64) {
+    DeviceInfo info;
+    info.name = name;
+    info.platform = "Platform of " + info.name;
+    info.type = type;
+    info.fp64 = fp64;
+    return info;
+}
+
+const std::vector<DeviceInfo> several = {made_up("Slow CPU", "cpu", true), made_up("Toy GPU", "gpu", false),
+                                         made_up("Real GPU", "gpu", true), made_up("Other GPU", "gpu", true)};
+
+std::string refusal(const std::vector<DeviceInfo>& devices, const std::string& choice) {
+    try {
+        const std::size_t chosen = choose_device(devices, choice);
+        return "chose " + std::to_string(chosen);
+    } catch (const Error& error) {
+        CHECK(error.status() == Status::no_device);
+        return error.what();
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a device is chosen by nothing, type, number or part of a name", "[device]") {
+    CHECK(choose_device(several, "") == 2);  // a GPU, and one with double precision
+    CHECK(choose_device(several, "cpu") == 0);
+    CHECK(choose_device(several, "gpu") == 2);
+    CHECK(choose_device(several, "GPU") == 2);
+    CHECK(choose_device(several, "0") == 0);
+    CHECK(choose_device(several, "3") == 3);
+    CHECK(choose_device(several, "other") == 3);
+    CHECK(choose_device(several, "platform of slow") == 0);
+    CHECK(choose_device({several[1], several[0]}, "") == 1);  // no GPU will do: the first that will
+}
+
+TEST_CASE("a device that is not there is refused with a list of those that are", "[device]") {
+    const std::string unknown = refusal(several, "radeon");
+    CHECK(unknown.starts_with("no OpenCL device has \"radeon\" in its name\n"));
+    CHECK(unknown.find("0: Slow CPU (cpu, Platform of Slow CPU)") != std::string::npos);
+    CHECK(unknown.find("1: Toy GPU (gpu, Platform of Toy GPU, no double precision)") != std::string::npos);
+    CHECK(unknown.find("3: Other GPU") != std::string::npos);
+
+    CHECK(refusal(several, "4").starts_with("no OpenCL device has the number 4\n"));
+    CHECK(refusal(several, "99999999999999999999999").starts_with("no OpenCL device has the number 9999"));
+    CHECK(refusal(several, "accelerator").starts_with("no OpenCL device of the type accelerator was found\n"));
+}
+
+TEST_CASE("a device without double precision is refused for that", "[device]") {
+    CHECK(refusal(several, "1").starts_with("OpenCL device 1 has no double precision\n"));
+    CHECK(refusal(several, "toy").starts_with("no OpenCL device has \"toy\" in its name and double precision\n"));
+    CHECK(refusal({several[1]}, "gpu").starts_with("no OpenCL device of the type gpu has double precision\n"));
+    CHECK(refusal({several[1]}, "").starts_with("no OpenCL device has double precision\n"));
+}
+
+TEST_CASE("without any device, the package that brings one is named", "[device]") {
+    const std::string none = refusal({}, "");
+    CHECK(none.starts_with("no OpenCL device was found\n"));
+    CHECK(none.find("pocl-opencl-icd") != std::string::npos);
+    CHECK(refusal({}, "gpu") == none);
+}
+
+TEST_CASE("every device describes itself", "[device]") {
+    const std::vector<DeviceInfo> found = devices();
+    REQUIRE(!found.empty());
+    for (const DeviceInfo& info : found) {
+        CHECK(!info.name.empty());
+        CHECK(!info.platform.empty());
+        CHECK(info.version.starts_with("OpenCL "));
+        CHECK(!info.driver.empty());
+        CHECK((info.type == "cpu" || info.type == "gpu" || info.type == "accelerator"));
+        CHECK(info.memory >= info.max_allocation);
+        CHECK(info.max_allocation > 0);
+        CHECK(info.compute_units > 0);
+    }
+}
+
+TEST_CASE("without a driver there are no devices, and that is no failure", "[.no_driver]") {
+    CHECK(devices().empty());
+    CHECK(refusal(devices(), "").find("pocl-opencl-icd") != std::string::npos);
+}

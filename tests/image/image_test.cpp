@@ -1,0 +1,221 @@
+#include "catch.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include <unistd.h>
+
+#include <csgrt/image.hpp>
+
+#include "image/encode.hpp"
+
+using namespace csgrt;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// An empty folder that goes with the test.
+struct Folder {
+    fs::path path;
+    Folder() {
+        std::string name = (fs::temp_directory_path() / "csgrt-image-XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~Folder() { fs::remove_all(path); }
+    std::string operator/(const char* name) const { return (path / name).string(); }
+    std::size_t files() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+    }
+};
+
+Image full_picture() {
+    Image image;
+    image.width = 7;
+    image.height = 5;
+    image.names = {"R",   "G",      "B",     "A",     "Z",          "N.X",    "N.Y",
+                   "N.Z", "region", "solid", "depth", "partitions", "overlap"};
+    for (std::size_t c = 0; c < image.names.size(); ++c) {
+        std::vector<float>& channel = image.channels.emplace_back();
+        for (int i = 0; i < 35; ++i) channel.push_back(static_cast<float>(c) * 1000 + static_cast<float>(i) + 1 / 3.0f);
+    }
+    image.channels[4][6] = std::numeric_limits<float>::infinity();
+    image.channels[5][7] = -std::numeric_limits<float>::denorm_min();
+    image.channels[8][0] = 16777215;  // the largest odd whole number of a float
+    image.attributes = {{"csgrt:title", "a \"title\" \xc3\xa4"}, {"csgrt:version", "1"}};
+    image.matrices["worldToCamera"] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
+    image.matrices["cameraToScreen"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    return image;
+}
+
+Image gray(std::vector<float> values) {
+    Image image;
+    image.width = static_cast<int>(values.size());
+    image.height = 1;
+    image.names = {"R", "G", "B"};
+    image.channels = {values, values, values};
+    return image;
+}
+
+std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+template <class Act>
+std::string failure(Status status, Act act) {
+    try {
+        act();
+    } catch (const Error& error) {
+        CHECK(error.status() == status);
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+}  // namespace
+
+TEST_CASE("an EXR keeps every channel, bit by bit, and the header", "[image]") {
+    const Folder folder;
+    const Image written = full_picture();
+    write_image(written, folder / "picture.exr");
+    CHECK(folder.files() == 1);
+    const Image read = read_image(folder / "picture.exr");
+    CHECK(read.width == 7);
+    CHECK(read.height == 5);
+    CHECK(read.names == written.names);
+    REQUIRE(read.channels.size() == written.channels.size());
+    for (std::size_t c = 0; c < read.channels.size(); ++c) {
+        INFO(read.names[c]);
+        REQUIRE(read.channels[c].size() == 35);
+        CHECK(std::memcmp(read.channels[c].data(), written.channels[c].data(), 35 * sizeof(float)) == 0);
+    }
+    CHECK(read.attributes == written.attributes);
+    CHECK(read.matrices == written.matrices);
+}
+
+TEST_CASE("a matrix stands in the EXR as OpenEXR wants it, for row vectors", "[image]") {
+    const std::vector<unsigned char> bytes = encode(full_picture(), "exr", "test");
+    const std::string text(bytes.begin(), bytes.end());
+    const std::string key = std::string("worldToCamera") + '\0' + "m44f" + '\0';
+    const std::size_t at = text.find(key);
+    REQUIRE(at != std::string::npos);
+    float first[4];
+    std::memcpy(first, text.data() + at + key.size() + 4, sizeof first);
+    CHECK(std::vector<float>(first, first + 4) == std::vector<float>{1, 5, 9, 13});
+}
+
+TEST_CASE("channels that csgrt does not know keep their place after those it knows", "[image]") {
+    const Folder folder;
+    Image image = gray({0.5f});
+    image.names = {"extra", "Z", "G"};
+    write_image(image, folder / "a.exr");
+    CHECK(read_image(folder / "a.exr").names == std::vector<std::string>{"G", "Z", "extra"});
+}
+
+TEST_CASE("a PNG has 8 bits, rounded, clamped, linear", "[image]") {
+    // One row, so the file's only filter and the uncompressed bytes are told by the encoder's own reader: the picture of
+    // the quantized values must be the very same file.
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    const auto of = [](float v) { return encode(gray({v, 0.25f}), "png", "test"); };
+    CHECK(of(0.5f) == of(128 / 255.0f));
+    CHECK(of(0.5f) != of(127 / 255.0f));
+    CHECK(of(0.499f / 255) == of(0));
+    CHECK(of(0.501f / 255) == of(1 / 255.0f));
+    CHECK(of(254.6f / 255) == of(1));
+    CHECK(of(254.4f / 255) == of(254 / 255.0f));
+    CHECK(of(-3) == of(0));
+    CHECK(of(7) == of(1));
+    CHECK(of(infinity) == of(1));
+    CHECK(of(nan) == of(0));
+}
+
+TEST_CASE("the same picture gives the same bytes at any time", "[image]") {
+    const Image image = full_picture();
+    const std::vector<unsigned char> exr = encode(image, "exr", "test"), png = encode(image, "png", "test");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // dates have whole seconds
+    CHECK(encode(image, "exr", "test") == exr);
+    CHECK(encode(image, "png", "test") == png);
+}
+
+TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image]") {
+    const Folder folder;
+    std::ofstream(folder / "a.png") << "old";
+    write_image(gray({1, 0}), folder / "a.png");
+    CHECK(content(folder / "a.png").starts_with("\x89PNG"));
+    CHECK(folder.files() == 1);
+
+    std::ofstream(folder / "b.png") << "old";
+    Image broken = gray({1, 0});
+    broken.channels[1].pop_back();
+    CHECK_THROWS_AS(write_image(broken, folder / "b.png"), Error);
+    CHECK(content(folder / "b.png") == "old");
+
+    // A folder in the file's place: the temporary file is written, the rename fails, the temporary file goes.
+    fs::create_directory(folder / "c.png");
+    const std::string text = failure(Status::file, [&] { write_image(gray({1}), folder / "c.png"); });
+    CHECK(text == (folder / "c.png") + ": cannot replace: Is a directory");
+    CHECK(folder.files() == 3);
+}
+
+TEST_CASE("a file that cannot be written is named, with the reason", "[image]") {
+    const Folder folder;
+    const std::string path = folder / "none/a.exr";
+    CHECK(failure(Status::file, [&] { write_image(gray({1}), path); }) == path + ": cannot create: No such file or directory");
+}
+
+TEST_CASE("a picture that is not well formed is refused", "[image]") {
+    const auto refusal = [](Image image, const char* format = "exr") {
+        return failure(Status::usage, [&] { encode(image, format, "a"); });
+    };
+    Image image = gray({1, 2});
+    image.width = 0;
+    CHECK(refusal(image) == "a: the picture has the size 0 x 1");
+    image = gray({1, 2});
+    image.names.pop_back();
+    CHECK(refusal(image) == "a: the picture has 2 names for 3 channels");
+    image = gray({1, 2});
+    image.channels[2].push_back(0);
+    CHECK(refusal(image) == "a: the picture has 3 values in channel B, not 2");
+    image = gray({1, 2});
+    image.matrices["m"] = {1, 2};
+    CHECK(refusal(image) == "a: the picture has 2 numbers in matrix m, not 16");
+    image = gray({1, 2});
+    image.names[1] = "Z";
+    CHECK(refusal(image, "png") == "a: the picture has no channel G, which a PNG needs");
+    CHECK(refusal(gray({1}), "jpg") == "a: pictures are written as exr or png, not as \"jpg\"");
+    CHECK(failure(Status::usage, [] { write_image(gray({1}), "picture"); }) ==
+          "picture: pictures are written as exr or png, not as \"\"");
+}
+
+TEST_CASE("a file that is no EXR is refused by name", "[image]") {
+    const Folder folder;
+    CHECK(failure(Status::file, [&] { read_image(folder / "missing.exr"); }).starts_with((folder / "missing.exr") + ": cannot read: "));
+    std::ofstream(folder / "text.exr") << "not a picture";
+    CHECK(failure(Status::file, [&] { read_image(folder / "text.exr"); }).starts_with((folder / "text.exr") + ": cannot read: "));
+    write_image(gray({1}), folder / "a.png");
+    CHECK(failure(Status::file, [&] { read_image(folder / "a.png"); }) == (folder / "a.png") + ": is no EXR file");
+    // Cut off in the middle.
+    write_image(full_picture(), folder / "cut.exr");
+    fs::resize_file(folder / "cut.exr", fs::file_size(folder / "cut.exr") - 40);
+    CHECK(failure(Status::file, [&] { read_image(folder / "cut.exr"); }).starts_with((folder / "cut.exr") + ": "));
+}
+
+TEST_CASE("\"-\" is standard output", "[image]") {
+    const Folder folder;
+    const Image image = gray({0, 0.5f, 1});
+    std::fflush(stdout);
+    const int saved = dup(STDOUT_FILENO);
+    REQUIRE(std::freopen((folder / "out").c_str(), "w", stdout) != nullptr);
+    write_image(image, "-", "png");
+    std::fflush(stdout);
+    dup2(saved, STDOUT_FILENO);
+    close(saved);
+    write_image(image, folder / "file.png");
+    CHECK(content(folder / "out") == content(folder / "file.png"));
+    CHECK(!content(folder / "out").empty());
+}

@@ -1,0 +1,234 @@
+// The judge's answer for one ray and one solid: where the ray is inside, and how sure that is.
+//
+// For every polynomial of the solid the ray's restriction is solved in 113 bits, and three sets are kept: `exact`, where it
+// is not positive; `inner` and `outer`, where that stays so, or may become so, when the ray or the solid moves by up to
+// `margin` x delta. The solid's sets are the intersections. delta is the displacement that rounding the inputs can cause:
+//
+//     delta = ulps x 2^-53 x condition x (placement + |t_c d| + radius)
+//
+// with t_c the parameter of closest approach to the solid's centre (so |t_c d| + radius + |centre| bounds |o|), and
+// placement and condition as in solid.hpp. A root at slope f' can move by change(delta) / |f'|; a minimum or maximum within
+// change(delta) of 0 can gain or lose a pair of roots. The answer is decided if inner, exact and outer have the same number
+// of intervals, one in the other; otherwise rounding may decide either way, and the ray is a tie. A half-space is the one
+// unbounded solid: a ray that is parallel to it up to rounding is a tie wherever it runs, unless zeros keep it parallel.
+//
+// An end of a decided interval may be off by
+//
+//     tolerance = (1e-12 x condition x size + margin x delta + blur) / (|d| cos) + 4 x 2^-53 x |t|
+//
+// with cos = |n . d| / |d| between ray and normal: a surface that is displaced by e moves the hit by e / cos. blur is the
+// displacement by rounding in f itself, ulps x 2^-53 x terms / |gradient|: far below 1e-12 sizes, except next to an apex and
+// on slivers (solid.hpp). It bears on where ends are, not on how many there are. Close to an
+// edge the surface behind may decide instead, so the tolerance is no less than what inner and outer span, scaled to that
+// displacement; and never more than the solid's size, which counts where the normal is undefined, at an apex.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+#include "solid.hpp"
+#include "spans.hpp"
+
+namespace csgrt::oracle {
+
+inline constexpr double margin = 4;         ///< between what may move and what is decided
+inline constexpr double precision = 1e-12;  ///< of ends of segments, in sizes
+
+struct End {
+    double t = 0;          ///< may be infinite
+    Vec3 normal;           ///< unit, outward; undefined where the end is infinite
+    double cosine = 1;     ///< |normal . d| / |d|
+    double blur = 0;       ///< see above; millimetres
+    double tolerance = 0;  ///< along the ray, in units of its direction
+};
+struct Interval {
+    End in, out;
+};
+struct Answer {
+    std::vector<Interval> intervals;
+    Spans inner, outer;  ///< certainly inside, possibly inside; along the ray, in units of its direction
+    bool tie = false;
+    double delta = 0;    ///< millimetres
+};
+
+namespace detail {
+
+struct Sets {
+    Spans inner, exact, outer;
+};
+
+/// A ray in a parameter s of its own: t = t_c + s unit, so that the solid lies within |s| <= 1.
+struct ScaledRay {
+    QVec origin, direction;  ///< own frame of the solid
+    quad t_c = 0, unit = 1;
+    quad reach = 0;      ///< |s| up to which the solid can reach; infinity for unbounded ones
+    quad turn = 0;       ///< by how much the direction's end can move when s is 1, in deltas
+    QVec world_direction;
+
+    /// Is every product in normal . direction 0 by itself? Then no rounding can make the ray meet the plane.
+    bool crosses_no_axis_of(const QVec& normal) const {
+        const QVec n = componentwise_absolute(normal), d = componentwise_absolute(world_direction);
+        return dot(n, d) <= length(d) * quad(1e-25);
+    }
+};
+
+/// f <= 0 along the ray for surface k.
+inline Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad delta) {
+    const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
+    const Polynomial slope = f.derivative();
+    const auto change_at = [&](quad s) {
+        return quad(margin) * solid.change(k, ray.origin + s * ray.direction, delta * (1 + ray.turn * absolute(s)));
+    };
+    const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
+    Sets sets;
+    if (f.degree == 1) {
+        const quad e = change_at(0), c0 = f.c[0], c1 = f.c[1];
+        const bool parallel = absolute(c1) <= e * quad(1e-12);  // up to the rounding of 113 bits
+        const bool unsure_slope = parallel ? !ray.crosses_no_axis_of(solid.normal(k, solid.center))
+                                           : absolute(c1) <= e * ray.turn;
+        const quad end = parallel ? quad(0) : -c0 / c1;
+        if (parallel)
+            sets.exact = c0 <= 0 ? everything() : Spans{};
+        else if (c1 > 0)
+            sets.exact = {{{-infinity(), -1}, bound(end)}};
+        else
+            sets.exact = {{bound(end), {infinity(), -1}}};
+        Spans unsure;
+        if (!solid.bounded && unsure_slope) {
+            unsure = everything();  // turned by its last bits the ray runs into the plane elsewhere, or never
+        } else if (parallel) {
+            if (absolute(c0) <= e) unsure = everything();
+        } else {
+            const quad w = (solid.bounded ? e : change_at(end)) / absolute(c1);
+            unsure = {{bound(end - w), bound(end + w)}};
+        }
+        sets.inner = subtract(sets.exact, unsure);
+        sets.outer = unite(sets.exact, unsure);
+        return sets;
+    }
+
+    const Roots crossings = roots(f, -ray.reach, ray.reach), turns = roots(slope, -ray.reach, ray.reach);
+    quad from = -ray.reach;
+    const auto stretch = [&](quad to) {
+        if (from < to && f((from + to) / 2) <= 0) sets.exact.push_back({bound(from), bound(to)});
+        from = to;
+    };
+    for (const quad s : crossings) stretch(s);
+    stretch(ray.reach);
+    sets.exact = join(std::move(sets.exact));
+
+    // |f| <= e around s, where f stays within e of 0.
+    const auto zone = [&](quad at, quad e) {
+        Span span{bound(-ray.reach), bound(ray.reach)};
+        for (const quad level : {e, -e})
+            for (const quad x : roots(f - Polynomial(level), -ray.reach, ray.reach)) {
+                if (x <= at && x > span.in.at) span.in.at = x;
+                if (x >= at && x < span.out.at) span.out.at = x;
+            }
+        return span;
+    };
+    Spans unsure;
+    for (const quad s : crossings) {
+        const quad e = change_at(s), steep = absolute(slope(s));
+        const bool flat = e >= steep * ray.reach * quad(1e-3);
+        unsure.push_back(flat ? zone(s, e) : Span{bound(s - e / steep), bound(s + e / steep)});
+    }
+    // Where f comes near to 0 without crossing it, it turns or the range ends.
+    const auto look = [&](quad s) {
+        const quad e = change_at(s);
+        if (absolute(f(s)) <= e) unsure.push_back(zone(s, 2 * e));
+    };
+    for (const quad s : turns) look(s);
+    look(-ray.reach);
+    look(ray.reach);
+    unsure = join(std::move(unsure));
+    sets.inner = subtract(sets.exact, unsure);
+    sets.outer = unite(sets.exact, unsure);
+    return sets;
+}
+
+}  // namespace detail
+
+/// What the ray does to the solid, exactly. The ray's doubles are taken as they are.
+inline Answer intersect(const ImplicitSolid& solid, const Ray& ray) {
+    const QVec o = ray.origin, d = ray.direction;
+    const quad speed = length(d);
+    const QVec to_center = solid.center - o;
+
+    detail::ScaledRay scaled;
+    scaled.t_c = dot(to_center, d) / (speed * speed);
+    const quad way = absolute(scaled.t_c) * speed;
+    const quad span = solid.bounded ? quad(solid.radius) : larger(quad(solid.size), length(to_center));
+    scaled.unit = span / speed;
+    scaled.reach = solid.bounded ? quad(1.0625) : infinity();
+    scaled.origin = solid.to_local.point(o + scaled.t_c * d);
+    scaled.direction = solid.to_local.direction(scaled.unit * d);
+    const quad rounding = quad(ulps * double_epsilon * solid.condition);
+    const quad delta = rounding * (quad(solid.placement) + way + span);
+    scaled.world_direction = d;
+    // A bounded solid's delta covers the turn of the direction already: it is hit within its radius.
+    scaled.turn = solid.bounded ? quad(0) : quad(1);
+
+    Answer answer;
+    answer.delta = to_double(delta);
+    const quad miss = length(to_center - scaled.t_c * d);
+    if (solid.bounded && miss > quad(solid.radius) + quad(margin) * delta) return answer;
+
+    detail::Sets sets{everything(), everything(), everything()};
+    for (std::size_t k = 0; k < solid.surfaces.size() && !sets.outer.empty(); ++k) {
+        const detail::Sets one = detail::solve(solid, k, scaled, delta);
+        sets.inner = intersect(sets.inner, one.inner);
+        sets.exact = intersect(sets.exact, one.exact);
+        sets.outer = intersect(sets.outer, one.outer);
+    }
+    if (solid.bounded) {
+        const Spans within{{{-scaled.reach, -1}, {scaled.reach, -1}}};
+        sets = {intersect(sets.inner, within), intersect(sets.exact, within), intersect(sets.outer, within)};
+    }
+    answer.tie = !nested_one_to_one(sets.inner, sets.exact, sets.outer);
+
+    const auto along = [&](quad s) { return absolute(s) < infinity() ? scaled.t_c + s * scaled.unit : s; };
+    const auto end = [&](const Bound& bound) {
+        End e;
+        const quad t = along(bound.at);
+        e.t = to_double(t);
+        if (bound.surface < 0) return e;
+        const auto k = static_cast<std::size_t>(bound.surface);
+        const QVec n = solid.normal(k, o + t * d);
+        e.blur = to_double(solid.blur(k, o + t * d));
+        e.normal = to_vec3(n);
+        e.cosine = to_double(absolute(dot(n, d)) / speed);
+        return e;
+    };
+    const double moved = precision * solid.condition * solid.size + margin * answer.delta;
+    const auto set_tolerance = [&](End& e, quad exact, quad inner, quad outer) {
+        // By how much the end moves when every surface moves by margin x delta, and so by `moved`: also where a second
+        // surface that is more nearly along the ray takes over, close to an edge.
+        const quad gap = larger(absolute(exact - inner), absolute(exact - outer)) * scaled.unit * speed;
+        const double other = answer.tie ? 0 : to_double(gap) * moved / (margin * answer.delta);
+        double along_ray = std::max((moved + e.blur) / e.cosine, other);
+        if (solid.bounded) along_ray = std::min(along_ray, solid.size);
+        e.tolerance = along_ray / to_double(speed) + 4 * double_epsilon * std::abs(e.t);
+    };
+    for (std::size_t i = 0; i < sets.exact.size(); ++i) {
+        const Span& exact = sets.exact[i];
+        const Span& inner = answer.tie ? exact : sets.inner[i];
+        const Span& outer = answer.tie ? exact : sets.outer[i];
+        Interval interval{end(exact.in), end(exact.out)};
+        if (exact.in.surface >= 0) set_tolerance(interval.in, exact.in.at, inner.in.at, outer.in.at);
+        if (exact.out.surface >= 0) set_tolerance(interval.out, exact.out.at, inner.out.at, outer.out.at);
+        answer.intervals.push_back(interval);
+    }
+    for (Spans* spans : {&sets.inner, &sets.outer})
+        for (Span& s : *spans) {
+            s.in.at = along(s.in.at);
+            s.out.at = along(s.out.at);
+        }
+    answer.inner = std::move(sets.inner);
+    answer.outer = std::move(sets.outer);
+    return answer;
+}
+
+}  // namespace csgrt::oracle

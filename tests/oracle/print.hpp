@@ -1,0 +1,82 @@
+// Solids, matrices, rays and answers with 17 digits, so that a failure can be replayed.
+#pragma once
+
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <variant>
+
+#include "intersect.hpp"
+
+namespace csgrt::oracle {
+
+inline std::ostream& print(std::ostream& out, const Vec3& v) { return out << '(' << v.x << ' ' << v.y << ' ' << v.z << ')'; }
+
+inline void print(std::ostream& out, const char* name, const Vec3& v) { print(out << ' ' << name << ' ', v); }
+
+struct ShapePrinter {
+    std::ostream& out;
+    void operator()(const Ell& s) const {
+        out << "ell";
+        print(out, "v", s.v), print(out, "a", s.a), print(out, "b", s.b), print(out, "c", s.c);
+    }
+    void operator()(const Tgc& s) const {
+        out << "tgc";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a), print(out, "b", s.b);
+        print(out, "c", s.c), print(out, "d", s.d);
+    }
+    void operator()(const Arb& s) const {
+        out << "arb";
+        for (const Vec3& v : s.vertices) print(out << ' ', v);
+    }
+    void operator()(const Arbn& s) const {
+        out << "arbn";
+        for (const Plane& p : s.planes) print(out << " [", p.normal) << ' ' << p.distance << ']';
+    }
+    void operator()(const Half& s) const { print(out << "half ", s.plane.normal) << ' ' << s.plane.distance; }
+    void operator()(const Tor& s) const {
+        out << "tor";
+        print(out, "v", s.v), print(out, "h", s.h);
+        out << " r_a " << s.r_a << " r_h " << s.r_h;
+    }
+    void operator()(const Ehy& s) const {
+        out << "ehy";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
+        out << " r_1 " << s.r_1 << " r_2 " << s.r_2 << " c " << s.c;
+    }
+    void operator()(const Unsupported& s) const { out << s.type; }
+};
+
+inline std::string describe(const Shape& shape, const Matrix& matrix) {
+    std::ostringstream out;
+    out.precision(17);
+    std::visit(ShapePrinter{out}, shape);
+    out << "\n  matrix";
+    for (const double m : matrix) out << ' ' << m;
+    return out.str();
+}
+
+inline std::string describe(const Ray& ray) {
+    std::ostringstream out;
+    out.precision(17);
+    print(out << "ray from ", ray.origin);
+    print(out << " along ", ray.direction);
+    return out.str();
+}
+
+inline std::string describe(const Answer& answer) {
+    std::ostringstream out;
+    out.precision(17);
+    out << (answer.tie ? "tie" : "decided") << ", delta " << answer.delta;
+    for (const Interval& i : answer.intervals) {
+        out << "\n    [" << i.in.t << ", " << i.out.t << "] within " << i.in.tolerance << ", " << i.out.tolerance;
+        print(print(out << " normals ", i.in.normal) << ' ', i.out.normal);
+    }
+    for (const Span& s : answer.inner)
+        out << "\n    certainly [" << to_double(s.in.at) << ", " << to_double(s.out.at) << ']';
+    for (const Span& s : answer.outer)
+        out << "\n    possibly  [" << to_double(s.in.at) << ", " << to_double(s.out.at) << ']';
+    return out.str();
+}
+
+}  // namespace csgrt::oracle

@@ -1,0 +1,277 @@
+// Whole scenes by point membership: which regions hold which stretches of a ray, and how sure that is.
+//
+// Regions by BRL-CAD's rules: a combination with the region flag is one, with all that stands below it; a solid in no region
+// is one of its own. Above regions unions only collect; A - B and A + B apply to every region of A, the latter once
+// for every region of B; xor and complement make one region of all they hold. Such a region is called by the path of its
+// leftmost start.
+//
+// The matrices on the way down are multiplied in 113 bits; only their product reaches a solid.
+//
+// A ray's bounds in all solids are merged; between two neighbouring ones no membership changes, so each region's tree is
+// evaluated once there, by plain recursion, in three values: inside, outside, or within the solids' doubt (see
+// intersect.hpp), widened by `slack` for a weaver that takes ends so close to each other for one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "intersect.hpp"
+#include "solids/all.hpp"
+
+namespace csgrt::oracle {
+
+enum class Membership : std::uint8_t { outside, unsure, inside };
+
+inline Membership both(Membership a, Membership b) { return a < b ? a : b; }
+inline Membership either(Membership a, Membership b) { return a < b ? b : a; }
+inline Membership opposite(Membership a) { return static_cast<Membership>(2 - static_cast<int>(a)); }
+inline Membership one_of(Membership a, Membership b) { return either(both(a, opposite(b)), both(opposite(a), b)); }
+
+/// A Boolean expression over solids.
+struct Expression {
+    Operator op = Operator::union_;     ///< a union of nothing is the empty set
+    std::vector<Expression> operands;
+    std::size_t solid = 0;              ///< leaf: index into SceneOracle::solids()
+
+    /// `of(solid)` is the membership of a solid.
+    template <class Of>
+    Membership evaluate(const Of& of) const {
+        if (op == Operator::leaf) return of(solid);
+        if (operands.empty()) return Membership::outside;
+        Membership value = operands.front().evaluate(of);
+        if (op == Operator::not_) return opposite(value);
+        for (std::size_t i = 1; i < operands.size(); ++i) {
+            const Membership next = operands[i].evaluate(of);
+            switch (op) {
+                case Operator::intersection: value = both(value, next); break;
+                case Operator::difference: value = both(value, opposite(next)); break;
+                case Operator::xor_: value = one_of(value, next); break;
+                default: value = either(value, next);
+            }
+        }
+        return value;
+    }
+};
+
+struct OracleRegion {
+    std::string path;
+    Expression tree;
+};
+
+/// A stretch of a ray over which nothing changes, and the regions that hold it or may hold it, ascending.
+struct Piece {
+    struct Claim {
+        std::uint32_t region = 0;
+        bool certain = false;
+    };
+    double in = 0, out = 0;
+    std::vector<Claim> claims;
+};
+
+/// An end of a solid's interval.
+struct Event {
+    double t = 0, tolerance = 0;
+    Vec3 normal;  ///< outward from the solid
+};
+
+struct SceneAnswer {
+    std::vector<Spans> regions;  ///< for every region its spans, exactly
+    std::vector<Piece> pieces;   ///< the whole line, in order
+    std::vector<Event> events;   ///< of all solids, in no order
+    bool tie = false;            ///< rounding, or the slack, decides how many spans some region has
+};
+
+class SceneOracle {
+public:
+    /// `objects` of the scene, empty: its top objects. Air regions are left out.
+    explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {}) : scene_(scene) {
+        for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
+            for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
+    }
+
+    const std::vector<OracleRegion>& regions() const { return regions_; }
+    const std::vector<ImplicitSolid>& solids() const { return solids_; }
+
+    /// `slack` in millimetres.
+    SceneAnswer shoot(const Ray& ray, double slack) const {
+        const double speed = to_double(length(QVec(ray.direction)));
+        SceneAnswer answer;
+        std::vector<Sure> sets(solids_.size());
+        std::vector<quad> bounds;
+        for (std::size_t i = 0; i < solids_.size(); ++i) {
+            const Answer one = intersect(solids_[i], ray);
+            double widest = 0;
+            for (const Interval& interval : one.intervals) {
+                sets[i].exact.push_back({{interval.in.t, 0}, {interval.out.t, 0}});
+                for (const End& e : {interval.in, interval.out}) {
+                    if (!std::isfinite(e.t)) continue;
+                    answer.events.push_back({e.t, e.tolerance, e.normal});
+                    widest = std::max(widest, e.tolerance);
+                }
+            }
+            const quad by = quad(slack / speed) + quad(widest);
+            sets[i].inner = resized(one.inner, -by);
+            sets[i].outer = resized(one.outer, by);
+            for (const Spans* spans : {&sets[i].inner, &sets[i].exact, &sets[i].outer})
+                for (const Span& s : *spans)
+                    for (const quad t : {s.in.at, s.out.at})
+                        if (absolute(t) < infinity()) bounds.push_back(t);
+        }
+        std::sort(bounds.begin(), bounds.end());
+        bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+        weave(sets, bounds, answer);
+        return answer;
+    }
+
+private:
+    struct Sure {
+        Spans inner, exact, outer;
+    };
+
+    /// Every span longer by `by` at both ends (shorter if negative).
+    static Spans resized(Spans spans, quad by) {
+        for (Span& s : spans) {
+            s.in.at = s.in.at - by;
+            s.out.at = s.out.at + by;
+        }
+        std::erase_if(spans, [](const Span& s) { return !(s.in.at < s.out.at); });
+        return join(std::move(spans));
+    }
+    static bool holds(const Spans& spans, quad t) {
+        return std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.in.at < t && t < s.out.at; });
+    }
+
+    void weave(const std::vector<Sure>& sets, const std::vector<quad>& bounds, SceneAnswer& answer) const {
+        std::vector<Sure> found(regions_.size());
+        const auto extend = [](Spans& spans, quad in, quad out) {
+            if (!spans.empty() && spans.back().out.at == in)
+                spans.back().out.at = out;
+            else
+                spans.push_back({{in, 0}, {out, 0}});
+        };
+        std::vector<Membership> sure(sets.size()), exact(sets.size());
+        for (std::size_t i = 0; i <= bounds.size(); ++i) {
+            const quad in = i == 0 ? -infinity() : bounds[i - 1], out = i == bounds.size() ? infinity() : bounds[i];
+            quad middle = (in + out) / 2;
+            if (bounds.empty())
+                middle = 0;
+            else if (i == 0)
+                middle = out - (1 + absolute(out));
+            else if (i == bounds.size())
+                middle = in + (1 + absolute(in));
+            for (std::size_t s = 0; s < sets.size(); ++s) {
+                exact[s] = holds(sets[s].exact, middle) ? Membership::inside : Membership::outside;
+                sure[s] = holds(sets[s].inner, middle)   ? Membership::inside
+                          : holds(sets[s].outer, middle) ? Membership::unsure
+                                                         : Membership::outside;
+            }
+            Piece piece{to_double(in), to_double(out), {}};
+            for (std::size_t r = 0; r < regions_.size(); ++r) {
+                const Membership m = regions_[r].tree.evaluate([&](std::size_t s) { return sure[s]; });
+                if (m == Membership::inside) extend(found[r].inner, in, out);
+                if (m != Membership::outside) {
+                    extend(found[r].outer, in, out);
+                    piece.claims.push_back({static_cast<std::uint32_t>(r), m == Membership::inside});
+                }
+                if (regions_[r].tree.evaluate([&](std::size_t s) { return exact[s]; }) == Membership::inside)
+                    extend(found[r].exact, in, out);
+            }
+            answer.pieces.push_back(std::move(piece));
+        }
+        for (Sure& one : found) {
+            answer.tie = answer.tie || !nested_one_to_one(one.inner, one.exact, one.outer);
+            answer.regions.push_back(std::move(one.exact));
+        }
+    }
+
+    // ---- From the scene to expressions ----
+
+    const Object& object(const std::string& name) const {
+        if (const Object* found = scene_.find(name)) return *found;
+        throw Error(Status::scene, "there is no object '" + name + "'");
+    }
+
+    Expression leaf(const Solid& solid, const QAffine& place) {
+        solids_.push_back(implicit(solid.shape, place));
+        return {Operator::leaf, {}, solids_.size() - 1};
+    }
+
+    /// Everything below an object, as one expression.
+    Expression expression(const std::string& name, const QAffine& m) {
+        const Object& found = object(name);
+        if (const auto* solid = std::get_if<Solid>(&found)) return leaf(*solid, m);
+        std::vector<Expression> stack;
+        for (const TreeNode& node : std::get<Combination>(found).tree.nodes) {
+            if (node.op == Operator::leaf) {
+                stack.push_back(expression(node.object, m * to_affine(node.matrix)));
+                continue;
+            }
+            Expression e;
+            e.op = node.op;
+            e.operands.assign(stack.end() - node.arity, stack.end());
+            stack.resize(stack.size() - node.arity);
+            stack.push_back(std::move(e));
+        }
+        return stack.empty() ? Expression{} : stack.back();
+    }
+
+    using Starts = std::vector<OracleRegion>;
+
+    static Expression all_of(const Starts& starts) {
+        Expression e;
+        for (const OracleRegion& start : starts) e.operands.push_back(start.tree);
+        return e;
+    }
+    static Expression apply(Operator op, const Expression& a, const Expression& b) { return {op, {a, b}, 0}; }
+    static Starts combine(Operator op, const Starts& left, const Starts& right) {
+        Starts result;
+        if (op == Operator::union_) {
+            result = left;
+            result.insert(result.end(), right.begin(), right.end());
+        } else if (op == Operator::difference) {
+            for (const OracleRegion& a : left) result.push_back({a.path, apply(op, a.tree, all_of(right))});
+        } else if (op == Operator::intersection) {
+            for (const OracleRegion& a : left)
+                for (const OracleRegion& b : right) result.push_back({a.path, apply(op, a.tree, b.tree)});
+        } else if (left.empty() || right.empty()) {
+            result = left.empty() ? right : left;
+        } else {
+            result.push_back({left.front().path, apply(op, all_of(left), all_of(right))});
+        }
+        return result;
+    }
+
+    /// The regions below an object that stands in none.
+    Starts starts(const std::string& name, const QAffine& m, const std::string& above) {
+        const Object& found = object(name);
+        const std::string path = above + "/" + name;
+        const auto* combination = std::get_if<Combination>(&found);
+        if (combination == nullptr || combination->region) {
+            if (combination != nullptr && combination->air != 0) return {};
+            return {{path, expression(name, m)}};
+        }
+        std::vector<Starts> stack;
+        for (const TreeNode& node : combination->tree.nodes) {
+            if (node.op == Operator::leaf) {
+                stack.push_back(starts(node.object, m * to_affine(node.matrix), path));
+                continue;
+            }
+            const std::size_t first = stack.size() - node.arity;
+            Starts result = stack[first];
+            if (node.op == Operator::not_ && !result.empty())
+                result = {{result.front().path, Expression{Operator::not_, {all_of(result)}, 0}}};
+            for (std::size_t i = first + 1; i < stack.size(); ++i) result = combine(node.op, result, stack[i]);
+            stack.resize(first);
+            stack.push_back(std::move(result));
+        }
+        return stack.empty() ? Starts{} : stack.back();
+    }
+
+    const Scene& scene_;
+    std::vector<ImplicitSolid> solids_;
+    std::vector<OracleRegion> regions_;
+};
+
+}  // namespace csgrt::oracle

@@ -1,0 +1,119 @@
+// The oracle of whole scenes against answers that can be read off the numbers.
+#include "catch.hpp"
+
+#include "oracle/scene_oracle.hpp"
+
+using namespace csgrt;
+using namespace csgrt::oracle;
+
+namespace {
+
+using Intervals = std::vector<std::array<double, 2>>;
+
+Solid ball(const std::string& name, double x, double radius) {
+    return {name, Ell{{x, 0, 0}, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}};
+}
+TreeNode leaf(const std::string& object, const Matrix& matrix = identity) { return {Operator::leaf, 0, object, matrix, {}}; }
+TreeNode node(Operator op, std::uint32_t arity) { return {op, arity, {}, identity, {}}; }
+Combination combination(const std::string& name, bool region, std::vector<TreeNode> nodes) {
+    Combination c;
+    c.name = name;
+    c.region = region;
+    c.tree.nodes = std::move(nodes);
+    return c;
+}
+Matrix moved(double x) { return {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }
+
+const Ray along_x{{-10, 0, 0}, {2, 0, 0}};  // t = (x + 10) / 2
+
+/// x where the region is inside along the x axis.
+Intervals on_axis(const SceneOracle& oracle, std::size_t region) {
+    const SceneAnswer answer = oracle.shoot(along_x, 0);
+    CHECK_FALSE(answer.tie);
+    Intervals found;
+    for (const Span& s : answer.regions.at(region)) found.push_back({2 * to_double(s.in.at) - 10, 2 * to_double(s.out.at) - 10});
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("scene oracle: operators", "[oracle]") {
+    // a: -2..2, b: 0..4, c: 1..3 on the axis
+    const auto found = [](std::vector<TreeNode> nodes) {
+        Scene scene;
+        scene.objects = {ball("a", 0, 2), ball("b", 2, 2), ball("c", 2, 1), combination("r", true, std::move(nodes))};
+        const SceneOracle oracle(scene, {"r"});
+        REQUIRE(oracle.regions().size() == 1);
+        CHECK(oracle.regions()[0].path == "/r");
+        return on_axis(oracle, 0);
+    };
+    CHECK(found({leaf("a"), leaf("b"), node(Operator::union_, 2)}) == Intervals{{-2, 4}});
+    CHECK(found({leaf("a"), leaf("b"), node(Operator::intersection, 2)}) == Intervals{{0, 2}});
+    CHECK(found({leaf("a"), leaf("b"), node(Operator::difference, 2)}) == Intervals{{-2, 0}});
+    CHECK(found({leaf("b"), leaf("c"), node(Operator::difference, 2)}) == Intervals{{0, 1}, {3, 4}});
+    CHECK(found({leaf("a"), leaf("b"), node(Operator::xor_, 2)}) == Intervals{{-2, 0}, {2, 4}});
+    CHECK(found({leaf("a"), leaf("b"), leaf("c"), node(Operator::xor_, 3)}) == Intervals{{-2, 0}, {1, 2}, {3, 4}});
+    CHECK(found({leaf("b"), leaf("a"), leaf("c"), node(Operator::difference, 3)}) == Intervals{{3, 4}});
+    CHECK(found({leaf("b"), leaf("c"), node(Operator::not_, 1), node(Operator::intersection, 2)}) == Intervals{{0, 1}, {3, 4}});
+    CHECK(found({leaf("a"), leaf("b", moved(1)), node(Operator::intersection, 2)}) == Intervals{{1, 2}});
+    CHECK(found({}).empty());
+}
+
+TEST_CASE("scene oracle: matrices add up on the way down", "[oracle]") {
+    Scene scene;
+    scene.objects = {ball("a", 0, 1), combination("r", true, {leaf("a", moved(1))}),
+                     combination("g", false, {leaf("r", moved(2)), leaf("r", {2, 0, 0, 5, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}),
+                                              node(Operator::union_, 2)})};
+    const SceneOracle oracle(scene);
+    REQUIRE(oracle.regions().size() == 2);
+    CHECK(oracle.regions()[1].path == "/g/r");
+    CHECK(on_axis(oracle, 0) == Intervals{{2, 4}});
+    CHECK(on_axis(oracle, 1) == Intervals{{5, 9}});
+}
+
+TEST_CASE("scene oracle: operators above regions apply to each region", "[oracle]") {
+    Scene scene;
+    scene.objects = {ball("a", 0, 2), ball("b", 5, 2), ball("c", 2, 1.5), ball("d", 2, 3),
+                     combination("ra", true, {leaf("a")}), combination("rb", true, {leaf("b")}),
+                     combination("both", false, {leaf("ra"), leaf("rb"), node(Operator::union_, 2)}),
+                     combination("less", false, {leaf("both"), leaf("c"), node(Operator::difference, 2)}),
+                     combination("within", false, {leaf("d"), leaf("both"), node(Operator::intersection, 2)}),
+                     combination("apart", false, {leaf("both"), leaf("d"), node(Operator::xor_, 2)})};
+    const SceneOracle less(scene, {"less"});
+    REQUIRE(less.regions().size() == 2);
+    CHECK(less.regions()[0].path == "/less/both/ra");
+    CHECK(less.regions()[1].path == "/less/both/rb");
+    CHECK(on_axis(less, 0) == Intervals{{-2, 0.5}});
+    CHECK(on_axis(less, 1) == Intervals{{3.5, 7}});
+    const SceneOracle within(scene, {"within"});
+    REQUIRE(within.regions().size() == 2);
+    CHECK(within.regions()[0].path == "/within/d");
+    CHECK(on_axis(within, 0) == Intervals{{-1, 2}});
+    CHECK(on_axis(within, 1) == Intervals{{3, 5}});
+    const SceneOracle apart(scene, {"apart"});
+    REQUIRE(apart.regions().size() == 1);
+    CHECK(apart.regions()[0].path == "/apart/both/ra");
+    CHECK(on_axis(apart, 0) == Intervals{{-2, -1}, {2, 3}, {5, 7}});
+    CHECK(SceneOracle(scene, {"a", "rb"}).regions().size() == 2);  // a solid in no region is one
+    CHECK(SceneOracle(scene).regions().size() == 5);
+}
+
+TEST_CASE("scene oracle: a shared face and a sliver thinner than the slack are ties", "[oracle]") {
+    const auto box = [](const std::string& name, double low, double high) {
+        return Solid{name, Arb{{{{low, -1, -1}, {high, -1, -1}, {high, 1, -1}, {low, 1, -1},
+                                 {low, -1, 1}, {high, -1, 1}, {high, 1, 1}, {low, 1, 1}}}}, {}};
+    };
+    Scene scene;
+    scene.objects = {box("a", 0, 2), box("b", 2 - 1e-6, 3), box("c", 2, 3),
+                     combination("overlap", true, {leaf("a"), leaf("b"), node(Operator::intersection, 2)}),
+                     combination("touch", true, {leaf("a"), leaf("c"), node(Operator::union_, 2)}),
+                     combination("ra", true, {leaf("a")}), combination("rc", true, {leaf("c")})};
+    CHECK_FALSE(SceneOracle(scene, {"overlap"}).shoot(along_x, 1e-7).tie);
+    CHECK(SceneOracle(scene, {"overlap"}).shoot(along_x, 1e-5).tie);
+    CHECK(SceneOracle(scene, {"touch"}).shoot(along_x, 0).tie);
+    const SceneAnswer beside = SceneOracle(scene, {"ra", "rc"}).shoot(along_x, 0);
+    CHECK_FALSE(beside.tie);  // each region by itself is clear
+    bool seen = false;        // and where they meet, each may hold
+    for (const Piece& piece : beside.pieces) seen = seen || piece.claims.size() == 2;
+    CHECK(seen);
+}

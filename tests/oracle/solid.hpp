@@ -1,0 +1,136 @@
+// A solid as the judge sees it: an affine image of the set where every one of a few polynomials is not positive.
+//
+// Each polynomial is written once, from its textbook definition, as a function template of (x, y, z) in the solid's own
+// frame (solids/<solid>.hpp). Called with numbers it gives the value, with Jets the gradient, with Polynomials its
+// restriction to a ray.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "polynomial.hpp"
+#include "quad.hpp"
+
+namespace csgrt::oracle {
+
+/// A value and its gradient.
+struct Jet {
+    quad value = 0;
+    QVec gradient;
+
+    Jet() = default;
+    Jet(quad constant) : value(constant) {}
+    Jet(quad v, const QVec& g) : value(v), gradient(g) {}
+    friend Jet operator+(const Jet& a, const Jet& b) { return {a.value + b.value, a.gradient + b.gradient}; }
+    friend Jet operator-(const Jet& a, const Jet& b) { return {a.value - b.value, a.gradient - b.gradient}; }
+    friend Jet operator*(const Jet& a, const Jet& b) {
+        return {a.value * b.value, a.value * b.gradient + b.value * a.gradient};
+    }
+};
+
+/// One polynomial f of a solid; inside is f <= 0. Points are in the solid's own frame.
+class Surface {
+public:
+    virtual ~Surface() = default;
+    /// How large f's terms are near the surface before they cancel: evaluated in double, along a ray, f is in doubt by this
+    /// many units in the last place of 1, and the surface by that over the gradient's length. It matters where the gradient
+    /// all but vanishes: near an apex, on slivers. 0: planes, whose evaluation the displacement `delta` covers.
+    virtual quad terms() const = 0;
+    virtual quad value(const QVec& p) const = 0;
+    virtual QVec gradient(const QVec& p) const = 0;
+    virtual Polynomial along(const QVec& origin, const QVec& direction) const = 0;
+};
+
+template <class F>
+class SurfaceOf final : public Surface {
+public:
+    explicit SurfaceOf(F f) : f_(std::move(f)) {}
+    quad terms() const override { return f_.terms(); }
+    quad value(const QVec& p) const override { return f_(p.x, p.y, p.z); }
+    QVec gradient(const QVec& p) const override {
+        return f_(Jet(p.x, {1, 0, 0}), Jet(p.y, {0, 1, 0}), Jet(p.z, {0, 0, 1})).gradient;
+    }
+    Polynomial along(const QVec& o, const QVec& d) const override {
+        return f_(Polynomial::linear(o.x, d.x), Polynomial::linear(o.y, d.y), Polynomial::linear(o.z, d.z));
+    }
+
+private:
+    F f_;
+};
+
+/// normal . p <= distance.
+struct PlaneFunction {
+    QVec normal;
+    quad distance;
+    quad terms() const { return 0; }
+    template <class T>
+    T operator()(const T& x, const T& y, const T& z) const {
+        return T(normal.x) * x + T(normal.y) * y + T(normal.z) * z - T(distance);
+    }
+};
+
+inline constexpr double ulps = 16;  ///< roundings that a solver may add up
+
+struct ImplicitSolid {
+    QAffine to_world;  ///< own frame -> world
+    QAffine to_local;  ///< and back
+    std::vector<std::unique_ptr<Surface>> surfaces;
+    bool bounded = true;
+    QVec center;           ///< world; unbounded: a point of the boundary
+    double radius = 0;     ///< of a sphere around `center` that holds the solid; unbounded: 0
+    double size = 0;       ///< what errors are measured in, millimetres: `radius`, or the placement of an unbounded solid
+    double placement = 0;  ///< |M||v| + |translation|: how large the numbers were that gave the solid its place
+    double condition = 1;  ///< by how much the solid's shape amplifies the rounding of its parameters; see add_frame
+
+    template <class F>
+    void add(F f) {
+        surfaces.push_back(std::make_unique<SurfaceOf<F>>(std::move(f)));
+    }
+
+    /// Is the point inside, its boundary included? To the last bits of 113-bit arithmetic.
+    bool contains(const QVec& world) const {
+        const QVec p = to_local.point(world);
+        for (const auto& surface : surfaces)
+            if (surface->value(p) > 0) return false;
+        return true;
+    }
+    /// Unit normal of surface k at a point of the world, along the gradient: outward. Zero where the gradient vanishes.
+    QVec normal(std::size_t k, const QVec& world) const {
+        const QVec g = to_local.transposed(surfaces[k]->gradient(to_local.point(world)));
+        return dot(g, g) > 0 ? unit(g) : QVec{};
+    }
+    /// By how much rounding in the evaluation of f_k displaces surface k near a point of the world, millimetres.
+    quad blur(std::size_t k, const QVec& world) const {
+        const quad slope = length(to_local.transposed(surfaces[k]->gradient(to_local.point(world))));
+        const quad doubt = quad(ulps * double_epsilon) * surfaces[k]->terms();
+        return doubt < slope * quad(size) ? doubt / slope : quad(size);
+    }
+    /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes. Unlike
+    /// distance x |gradient| it holds at singular points (the apex of a cone), too.
+    quad change(std::size_t k, const QVec& local, quad distance) const {
+        const quad here = surfaces[k]->value(local);
+        quad most = 0;
+        for (const QVec& axis : {to_local.x, to_local.y, to_local.z})
+            for (const quad step : {distance, -distance})
+                most = larger(most, absolute(surfaces[k]->value(local + step * axis) - here));
+        return most * quad(1.75);  // sqrt(3), rounded up: from the axes to any direction
+    }
+};
+
+/// Places a solid whose own frame is `frame` (in the model's space) by the map `m`.
+/// condition = || |m| |F| |(m F)^-1| ||, the amplification of componentwise rounding of the map and the frame into
+/// displacements of the surface in the world (Skeel 1979): 1 to 3 for orthogonal axes of any lengths, larger under shears.
+inline void add_frame(ImplicitSolid& solid, const QAffine& m, const QAffine& frame) {
+    solid.to_world = m * frame;
+    solid.to_local = solid.to_world.inverse();
+    solid.center = solid.to_world.origin;
+    const QAffine rounding = componentwise_absolute(m) * componentwise_absolute(frame);
+    solid.placement = to_double(length(rounding.origin));
+    const QVec ones = componentwise_absolute(solid.to_local).direction({1, 1, 1});
+    const QVec most = rounding.direction(ones);
+    solid.condition = std::max(1.0, to_double(larger(larger(most.x, most.y), most.z)));
+}
+
+}  // namespace csgrt::oracle

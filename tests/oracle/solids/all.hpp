@@ -1,0 +1,24 @@
+// From the model's shapes to the judge's solids.
+#pragma once
+
+#include <stdexcept>
+#include <variant>
+
+#include "ehy.hpp"
+#include "ell.hpp"
+#include "half.hpp"
+#include "polyhedron.hpp"
+#include "tgc.hpp"
+#include "tor.hpp"
+
+namespace csgrt::oracle {
+
+inline ImplicitSolid implicit(const Unsupported& shape, const QAffine&) {
+    throw std::invalid_argument("the oracle knows no solid of type " + shape.type);
+}
+inline ImplicitSolid implicit(const Shape& shape, const QAffine& place) {
+    return std::visit([&](const auto& s) { return implicit(s, place); }, shape);
+}
+inline ImplicitSolid implicit(const Shape& shape, const Matrix& matrix) { return implicit(shape, to_affine(matrix)); }
+
+}  // namespace csgrt::oracle

@@ -1,0 +1,110 @@
+// arb4 to arb8 and arbn: the intersection of half-spaces.
+//
+// arb: each of the six faces (vertices 0123, 4567, 0347, 1265, 0154, 3267) lies in the plane through its first three
+// vertices that differ and are not in line; a face with fewer is none. Outward is away from the mean of the eight vertices.
+// A fourth vertex is only said to lie in that plane (BRL-CAD checks it, within a tolerance).
+// condition: a plane through three points that are rounded by e tilts by e / (height of their triangle), and over the
+// whole solid moves by e x radius / height.
+//
+// arbn: the half-spaces as given. Vertices are needed only for the bounding sphere.
+#pragma once
+
+#include <algorithm>
+
+#include "../solid.hpp"
+
+namespace csgrt::oracle {
+
+struct Face {
+    QVec normal;  ///< unit, of either side
+    QVec on;      ///< a point of the plane
+    quad height = 0;  ///< the least height of the triangle that gave it; 0: there is no face
+};
+
+/// Of arb's face with the four given vertices.
+inline Face arb_face(const Arb& arb, const std::array<std::size_t, 4>& corners) {
+    std::vector<QVec> points;
+    for (const std::size_t corner : corners) {
+        const QVec p = arb.vertices[corner];
+        const bool known = std::any_of(points.begin(), points.end(), [&](const QVec& q) { return dot(p - q, p - q) == 0; });
+        if (known) continue;
+        points.push_back(p);
+        if (points.size() < 3) continue;
+        const QVec u = points[1] - points[0], v = points[2] - points[0], w = points[2] - points[1];
+        const QVec n = cross(u, v);
+        const quad longest = root(larger(larger(dot(u, u), dot(v, v)), dot(w, w))), height = length(n) / longest;
+        if (height > longest * quad(1e-12)) return {unit(n), points[0], height};
+        points.pop_back();  // in line with the two before it
+    }
+    return {};
+}
+
+inline ImplicitSolid implicit(const Arb& arb, const QAffine& place) {
+    static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+        {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 3, 4, 7}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}}};
+    ImplicitSolid solid;
+    QVec mean;
+    for (const Vec3& vertex : arb.vertices) mean = mean + quad(0.125) * QVec(vertex);
+    add_frame(solid, place, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, mean});
+    quad reach = 0, own_reach = 0;
+    for (const Vec3& vertex : arb.vertices) {
+        own_reach = larger(own_reach, length(QVec(vertex) - mean));
+        reach = larger(reach, length(solid.to_world.direction(QVec(vertex) - mean)));
+    }
+    quad tilt = 1;
+    for (const auto& corners : faces) {
+        const Face face = arb_face(arb, corners);
+        if (!(face.height > 0)) continue;
+        tilt = larger(tilt, own_reach / face.height);
+        const quad distance = dot(face.normal, face.on - mean);
+        if (distance < 0)
+            solid.add(PlaneFunction{-face.normal, -distance});
+        else
+            solid.add(PlaneFunction{face.normal, distance});
+    }
+    solid.condition *= to_double(tilt);
+    solid.radius = 1.001 * to_double(reach);
+    solid.size = solid.radius;
+    return solid;
+}
+
+/// The vertices of a bounded intersection of half-spaces, each triple of planes tried.
+inline std::vector<QVec> vertices_of(const std::vector<Plane>& planes) {
+    std::vector<QVec> vertices;
+    for (std::size_t i = 0; i < planes.size(); ++i)
+        for (std::size_t j = i + 1; j < planes.size(); ++j)
+            for (std::size_t k = j + 1; k < planes.size(); ++k) {
+                const QVec a = planes[i].normal, b = planes[j].normal, c = planes[k].normal;
+                const quad volume = dot(a, cross(b, c));
+                if (absolute(volume) < quad(1e-12)) continue;
+                const QVec p = (1 / volume) * (quad(planes[i].distance) * cross(b, c) + quad(planes[j].distance) * cross(c, a) +
+                                               quad(planes[k].distance) * cross(a, b));
+                const quad slack = quad(1e-12) * (length(p) + 1);
+                const bool inside = std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+                    return dot(QVec(plane.normal), p) <= plane.distance + slack;
+                });
+                if (inside) vertices.push_back(p);
+            }
+    return vertices;
+}
+
+inline ImplicitSolid implicit(const Arbn& arbn, const QAffine& place) {
+    ImplicitSolid solid;
+    const std::vector<QVec> vertices = vertices_of(arbn.planes);
+    QVec mean;
+    for (const QVec& vertex : vertices) mean = mean + (1 / quad(static_cast<double>(vertices.size()))) * vertex;
+    add_frame(solid, place, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, mean});
+    quad reach = 0;
+    for (const QVec& vertex : vertices) reach = larger(reach, length(solid.to_world.direction(vertex - mean)));
+    for (const Plane& plane : arbn.planes) {
+        const QVec n = plane.normal;
+        solid.add(PlaneFunction{n, plane.distance - dot(n, mean)});
+        // The plane's own numbers are rounded, too: its distance from the origin counts like a placement.
+        solid.placement = std::max(solid.placement, std::abs(plane.distance) * to_double(length(solid.to_world.direction(n))));
+    }
+    solid.radius = 1.001 * to_double(reach);
+    solid.size = solid.radius;
+    return solid;
+}
+
+}  // namespace csgrt::oracle

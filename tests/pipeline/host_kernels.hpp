@@ -1,0 +1,108 @@
+// The five kernels compiled as C++ and run on the host, a work-item after the other, in buffers of the exact size: what
+// a sanitizer sees here, a device would do silently.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/frame.hpp"
+#include "kernel_geometry.hpp"
+
+namespace csgrt::kernel {
+
+inline thread_local std::size_t global_id = 0;
+inline std::size_t get_global_id(int) { return global_id; }
+inline u32 clz(u32 x) { return static_cast<u32>(std::countl_zero(x)); }
+inline float fmin(float a, float b) { return __builtin_fminf(a, b); }
+inline float fmax(float a, float b) { return __builtin_fmaxf(a, b); }
+using std::size_t;
+
+#define __kernel [[maybe_unused]] static inline
+#define __global
+#define CSGRT_TREE_STACK TREE_STACK
+// NOLINTBEGIN
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wzero-as-null-pointer-constant"
+#include "../../kernels/traverse.h"
+#include "../../kernels/1_count_hits.cl"
+#include "../../kernels/2_store_segments.cl"
+#include "../../kernels/3_weave.cl"
+#include "../../kernels/4_evaluate.cl"
+#include "../../kernels/5_shade.cl"
+#pragma GCC diagnostic pop
+// NOLINTEND
+#undef __kernel
+#undef __global
+#undef CSGRT_TREE_STACK
+
+}  // namespace csgrt::kernel
+
+namespace csgrt::test {
+
+/// Everything that the kernels leave behind for one frame, or for a list of rays.
+struct HostRun {
+    std::vector<kernel::RayCount> offsets;
+    std::vector<kernel::End> ends;
+    std::vector<kernel::PartitionNode> nodes;
+    std::vector<std::uint32_t> bits, candidates;
+    std::vector<kernel::RayResult> results;
+    std::vector<kernel::Pixel> pixels;
+};
+
+/// Runs all kernels; `rays` empty: the frame's camera. Pixels are in the order of the rays' numbers.
+inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
+                           const std::vector<kernel::RayRecord>& rays = {}) {
+    using namespace kernel;
+    Frame frame = prepared.frame;
+    frame.first_ray = 0;
+    frame.ray_count = static_cast<u32>(prepared.rays);
+    const std::size_t count = frame.ray_count;
+    HostRun run;
+    const auto each = [&](const auto& work) {
+        for (global_id = 0; global_id < count; ++global_id) work();
+    };
+    run.offsets.resize(count + 1);
+    each([&] {
+        count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
+                   scene.nodes.data(), rays.data(), run.offsets.data());
+    });
+    RayCount sum{};
+    for (RayCount& c : run.offsets) {
+        const RayCount own = c;
+        c = sum;
+        sum.segments += own.segments;
+        sum.words += own.words;
+        sum.regions += own.regions;
+    }
+    run.ends.resize(2 * std::size_t{sum.segments});
+    run.nodes.resize(run.ends.size());
+    run.bits.resize(sum.words);
+    run.candidates.resize(sum.regions);
+    run.results.resize(count);
+    run.pixels.resize(count);
+    each([&] {
+        store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
+                       scene.nodes.data(), rays.data(), run.offsets.data(), run.ends.data());
+    });
+    each([&] {
+        kernel::weave(&frame, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data());
+    });
+    each([&] {
+        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.region_lists.data(), scene.trees.data(),
+                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.candidates.data(),
+                 run.results.data());
+    });
+    if (!frame.listed) {
+        each([&] {
+            shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
+                  scene.regions.data(), scene.materials.data(), prepared.lights.data(), run.offsets.data(), run.ends.data(),
+                  run.nodes.data(), run.results.data(), run.pixels.data());
+        });
+    }
+    return run;
+}
+
+}  // namespace csgrt::test
