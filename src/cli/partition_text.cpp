@@ -31,8 +31,12 @@ void append_numbers(std::string& out, std::initializer_list<double> values) {
 
 void append_number(std::string& out, double value) {
     char text[64];
-    auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17).ptr;
-    out.append(text, end);
+    out.append(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17).ptr);
+}
+
+void append_shortest(std::string& out, double value) {
+    char text[64];
+    out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
 void append_name(std::string& out, std::string_view name) {

@@ -77,7 +77,7 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
                        std::to_string(arguments.height);
     auto option = [&text](const char* name, double value) {
         text += std::string(" ") + name + " ";
-        append_number(text, value);
+        append_shortest(text, value);
     };
     option("--azimuth", camera.azimuth);
     option("--elevation", camera.elevation);

@@ -48,8 +48,8 @@ std::vector<Member> members_of(const Tree& tree) {
             Member& first = members[stack[i].first];
             std::size_t end = i + 1 < stack.size() ? stack[i + 1].first : members.size();
             int inner = strength(stack[i].op), outer = strength(node.op);
-            bool same = stack[i].op == node.op;
-            bool clear = inner > outer || (inner == outer && same && (i == base || node.op != Operator::difference));
+            bool in_order = i == base || (stack[i].op == node.op && node.op != Operator::difference);
+            bool clear = inner > outer || (inner == outer && in_order);
             if (end - stack[i].first > 1 && !clear) {
                 first.before.insert(0, "(");
                 members[end - 1].behind += ")";

@@ -13,6 +13,9 @@ namespace csgrt {
 
 namespace {
 
+// Deep hierarchies hold more references than solids, though not many times more.
+constexpr std::uint64_t reference_limit = 16 * Limits::instances;
+
 /// A name list for a note: all of a few, the first few of many.
 std::string some(const std::vector<std::string>& names) {
     constexpr std::size_t shown = 5;
@@ -61,6 +64,7 @@ private:
         const Combination* combination;
         Matrix matrix;
         std::size_t next;
+        std::uint64_t first_leaf;  ///< number of the first leaf below
     };
 
     void expand(std::uint32_t object, const Matrix& matrix);
@@ -76,6 +80,7 @@ private:
     std::vector<Operand> operands_;
     std::vector<Frame> frames_;
     std::unordered_map<Instance, std::uint32_t, InstanceHash, InstanceEqual> known_;
+    std::unordered_map<const Combination*, Kind> hollow_;  ///< without solids below, and the constant that they are
     std::uint64_t references_ = 0, leaves_ = 0;
 };
 
@@ -112,6 +117,7 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
         const std::vector<TreeNode>& nodes = frame.combination->tree.nodes;
         if (frame.next == nodes.size()) {
             if (nodes.empty()) operands_.push_back({tree_->nodes.size(), Kind::nothing});
+            if (leaves_ == frame.first_leaf) hollow_.emplace(frame.combination, operands_.back().kind);
             frames_.pop_back();
             continue;
         }
@@ -125,12 +131,14 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
 }
 
 void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
-    // The second limit ends the doubling of combinations that hold nothing.
-    if (++references_ > 16 * Limits::instances || leaves_ > Limits::instances)
-        throw Error(Status::scene, "more than " + std::to_string(Limits::instances) +
-                                       " solids after following all combinations, repeats counted");
+    if (++references_ > reference_limit)
+        throw Error(Status::scene, "more than " + std::to_string(reference_limit) + " references to combinations and solids");
     if (const auto* combination = std::get_if<Combination>(&scene_.objects[object])) {
-        frames_.push_back({combination, matrix, 0});
+        if (const auto known = hollow_.find(combination); known != hollow_.end()) {
+            operands_.push_back({tree_->nodes.size(), known->second});
+        } else {
+            frames_.push_back({combination, matrix, 0, leaves_});
+        }
         return;
     }
     ++leaves_;
@@ -225,13 +233,21 @@ void drop_unused(FlatScene& flat) {
 
 FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
     FlatScene result;
-    const ObjectIndex index(scene);
+    ObjectIndex index(scene);
     Flattener flattener(scene, index, result);
     std::vector<std::string> air_regions, empty_regions;
     std::vector<Diagnostic> findings;
     const auto contains_space = [&](const std::string& what, const Place& place) {
         findings.push_back({place, what + " contains the empty space where no solid is",
                             "intersect the complement with something that bounds it", {}});
+    };
+
+    double solids = 0;
+    const auto check = [](const std::string& object, double count) {
+        if (count > static_cast<double>(Limits::instances)) {
+            throw Error(Status::scene, "with object " + object + ", the trees of all regions hold more than " +
+                                           std::to_string(Limits::instances) + " solids together");
+        }
     };
 
     std::unordered_set<std::string_view> seen;
@@ -242,7 +258,10 @@ FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, b
         }
         const std::size_t air_before = air_regions.size();
         const std::size_t regions_before = result.regions.size(), empty_before = empty_regions.size();
+        check(object, solids + index.solids_below(index.find(object)));
         RegionForest forest(scene, index, object, air, air_regions);
+        solids += forest.solids_in_terms();
+        check(object, solids);
         if (forest.is_everything()) contains_space("object " + object, place_of(scene.objects[index.find(object)]));
         forest.for_each_term([&](std::uint32_t term) {
             const RegionStart& start = forest.leftmost_start(term);

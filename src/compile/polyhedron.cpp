@@ -37,6 +37,20 @@ std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix) {
     return planes;
 }
 
+namespace {
+
+// The half-spaces of a concave arb's faces can meet far away from it. What lies outside the box of its own corners is no
+// part of it.
+void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& planes) {
+    Box box = empty_box;
+    for (const Vec3& corner : arb.vertices) extend(box, corner);
+    for (const Plane& side : {Plane{{1, 0, 0}, box.high.x}, Plane{{-1, 0, 0}, -box.low.x}, Plane{{0, 1, 0}, box.high.y},
+                              Plane{{0, -1, 0}, -box.low.y}, Plane{{0, 0, 1}, box.high.z}, Plane{{0, 0, -1}, -box.low.z}})
+        planes.push_back(transform_plane(matrix, side));
+}
+
+}  // namespace
+
 ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
     static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
         {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
@@ -92,6 +106,7 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
         }
     }
     if (result.planes.size() < 4) result.is_hull = false;
+    if (!result.is_hull) clip_to_corners(arb, matrix, result.planes);
     return result;
 }
 

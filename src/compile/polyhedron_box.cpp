@@ -1,4 +1,6 @@
-// Linear programming in three variables, after Seidel (1991): planes are added one by one in random order. A plane that the
+// A few planes: every pair of them meets in a line; what all others leave of it is an edge.
+//
+// Many planes: linear programming in three variables, after Seidel (1991). Planes are added one by one in random order. A plane that the
 // best point so far satisfies changes nothing; otherwise the new best point lies on it, and is found by the same method
 // in one dimension less. Everything starts inside a large cube; what still touches it at the end is not bounded.
 
@@ -13,6 +15,10 @@ namespace csgrt {
 
 namespace {
 
+// Up to this many planes, n^3 is less than what linear programming costs.
+constexpr std::size_t few = 16;
+// Relative to the distance from the origin: an edge this far outside a plane is on it.
+constexpr long double on_edge = 1e-13L;
 // Relative to the cube: a point this far outside a plane is on it.
 constexpr long double on_plane = 1e-15L;
 // Planes that meet at a smaller angle (radians) than this are parallel: where they meet is noise, and the box is the
@@ -35,24 +41,52 @@ long double dot(const std::array<long double, N>& a, const std::array<long doubl
     return sum;
 }
 
-/// What a constraint says on the border of `c`, with variable k of N eliminated.
+/// The border of a constraint, on which variable k, the one with the largest coefficient, follows from the others.
 template <std::size_t N>
-Constraint<N - 1> on_border(const Constraint<N>& c, std::size_t k, const Constraint<N>& other) {
-    Constraint<N - 1> result;
-    const long double factor = other.n[k] / c.n[k];
-    for (std::size_t j = 0, m = 0; j < N; ++j)
-        if (j != k) result.n[m++] = other.n[j] - factor * c.n[j];
-    result.d = other.d - factor * c.d;
-    return result;
-}
+struct Border {
+    Constraint<N> c;
+    std::size_t k = 0;
+    long double inverse;
 
-/// Appends a constraint with a unit normal. False if it cannot be satisfied; nothing is appended if it says nothing.
+    explicit Border(const Constraint<N>& constraint) : c(constraint) {
+        for (std::size_t j = 1; j < N; ++j)
+            if (std::fabs(c.n[j]) > std::fabs(c.n[k])) k = j;
+        inverse = 1 / c.n[k];
+    }
+
+    /// What another constraint says on this border.
+    Constraint<N - 1> operator()(const Constraint<N>& other) const {
+        Constraint<N - 1> result;
+        const long double factor = other.n[k] * inverse;
+        for (std::size_t j = 0, m = 0; j < N; ++j)
+            if (j != k) result.n[m++] = other.n[j] - factor * c.n[j];
+        result.d = other.d - factor * c.d;
+        return result;
+    }
+    Point<N> lift(const Point<N - 1>& p) const {
+        Point<N> result;
+        long double rest = c.d;
+        for (std::size_t j = 0, m = 0; j < N; ++j) {
+            if (j == k) continue;
+            result[j] = p[m++];
+            rest -= c.n[j] * result[j];
+        }
+        result[k] = rest * inverse;
+        return result;
+    }
+};
+
+/// Appends a constraint with a normal of about unit length. False if it cannot be satisfied; nothing is appended if it
+/// says nothing.
 template <std::size_t N>
 bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long double reach) {
-    const long double length = std::sqrt(dot(c.n, c.n));
-    if (length < parallel) return c.d >= -parallel * reach;
-    for (long double& n : c.n) n /= length;
-    c.d /= length;
+    const long double square = dot(c.n, c.n);
+    if (square < parallel * parallel) return c.d >= -parallel * reach;
+    if (square < 0.1L || square > 10) {
+        const long double inverse = 1 / std::sqrt(square);
+        for (long double& n : c.n) n *= inverse;
+        c.d *= inverse;
+    }
     constraints.push_back(c);
     return true;
 }
@@ -71,30 +105,21 @@ std::optional<Point<N>> farthest(const std::vector<Constraint<N>>& constraints, 
         if (low > high + on_plane * reach) return std::nullopt;
         best[0] = aim[0] < 0 ? std::min(low, high) : std::max(low, high);
     } else {
-        std::vector<Constraint<N - 1>> border;
+        std::vector<Constraint<N - 1>> there;
         for (std::size_t i = 0; i < constraints.size(); ++i) {
-            const Constraint<N>& c = constraints[i];
-            if (dot(c.n, best) <= c.d + on_plane * reach) continue;
-            std::size_t k = 0;
-            for (std::size_t j = 1; j < N; ++j)
-                if (std::fabs(c.n[j]) > std::fabs(c.n[k])) k = j;
-            border.clear();
+            if (dot(constraints[i].n, best) <= constraints[i].d + on_plane * reach) continue;
+            const Border<N> border(constraints[i]);
+            there.clear();
             for (std::size_t j = 0; j < i; ++j)
-                if (!append(border, on_border(c, k, constraints[j]), reach)) return std::nullopt;
+                if (!append(there, border(constraints[j]), reach)) return std::nullopt;
             for (const int side : {-1, 1}) {
                 Constraint<N> face{{}, reach};
-                face.n[k] = side;
-                if (!append(border, on_border(c, k, face), reach)) return std::nullopt;
+                face.n[border.k] = side;
+                if (!append(there, border(face), reach)) return std::nullopt;
             }
-            const auto lower = farthest<N - 1>(border, on_border(c, k, {aim, 0}).n, reach);
+            const auto lower = farthest<N - 1>(there, border({aim, 0}).n, reach);
             if (!lower) return std::nullopt;
-            long double rest = c.d;
-            for (std::size_t j = 0, m = 0; j < N; ++j) {
-                if (j == k) continue;
-                best[j] = (*lower)[m++];
-                rest -= c.n[j] * best[j];
-            }
-            best[k] = rest / c.n[k];
+            best = border.lift(*lower);
         }
     }
     return best;
@@ -120,9 +145,47 @@ std::optional<Box> box_within(const std::vector<Plane>& planes, const Wide& cent
     return Box{narrow(center + low), narrow(center + high)};
 }
 
+/// The box around all edges; nothing if there are none.
+std::optional<Box> box_of_edges(const std::vector<Plane>& planes) {
+    Box box = empty_box;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const Wide a = wide(planes[i].normal), b = wide(planes[j].normal);
+            const Wide across = glm::cross(a, b);
+            const long double square = glm::dot(across, across);
+            if (square < parallel * parallel) continue;
+            const Wide on = (static_cast<long double>(planes[i].distance) * glm::cross(b, across) + static_cast<long double>(planes[j].distance) * glm::cross(across, a)) / square;
+            const Wide along = across / std::sqrt(square);
+            const long double slack = on_edge * (std::sqrt(glm::dot(on, on)) + std::fabs(static_cast<long double>(planes[i].distance)));
+            long double low = -infinity, high = infinity;
+            for (std::size_t k = 0; k < planes.size() && low <= high + slack; ++k) {
+                if (k == i || k == j) continue;
+                const Wide n = wide(planes[k].normal);
+                const long double rate = glm::dot(n, along), above = glm::dot(n, on) - planes[k].distance;
+                if (rate > parallel) {
+                    high = std::min(high, -above / rate);
+                } else if (rate < -parallel) {
+                    low = std::max(low, -above / rate);
+                } else if (above > slack) {
+                    high = -infinity;
+                }
+            }
+            if (low > high + slack) continue;
+            if (low == -infinity || high == infinity) return whole_space;
+            extend(box, narrow(on + low * along));
+            extend(box, narrow(on + high * along));
+        }
+    }
+    if (is_empty(box)) return std::nullopt;
+    return box;
+}
+
 }  // namespace
 
 Box polyhedron_box(const std::vector<Plane>& planes) {
+    if (planes.size() <= few)
+        if (const std::optional<Box> box = box_of_edges(planes)) return *box;
+
     std::vector<Plane> shuffled = planes;
     std::uint64_t random = 0x9e3779b97f4a7c15u;  // a fixed start: the same planes, the same box
     for (std::size_t i = shuffled.size(); i > 1; --i) {

@@ -11,13 +11,12 @@ namespace {
 
 constexpr std::uint32_t no_path = 0xffffffff;
 
-// Groups of groups hold more references than solids, though not many times more. This ends the doubling of
-// combinations that hold nothing, of which Limits::instances takes no notice.
+// Groups of groups hold more references than solids, though not many times more.
 constexpr std::uint64_t reference_limit = 4 * Limits::instances;
 
 }  // namespace
 
-ObjectIndex::ObjectIndex(const Scene& scene) {
+ObjectIndex::ObjectIndex(const Scene& scene) : scene_(scene), solids_(scene.objects.size(), -1) {
     index_.reserve(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
         index_.emplace(name_of(scene.objects[i]), static_cast<std::uint32_t>(i));
@@ -29,15 +28,47 @@ std::uint32_t ObjectIndex::find(const std::string& name) const {
     return found->second;
 }
 
-RegionForest::RegionForest(const Scene& scene, const ObjectIndex& index, const std::string& object, bool air,
+double ObjectIndex::solids_below(std::uint32_t object) {
+    struct Frame {
+        std::uint32_t object;
+        std::size_t next;
+        double solids;
+    };
+    std::vector<Frame> frames{{object, 0, 0}};
+    while (!frames.empty()) {
+        Frame& frame = frames.back();
+        const auto* combination = std::get_if<Combination>(&scene_.objects[frame.object]);
+        if (combination == nullptr) {
+            solids_[frame.object] = 1;
+        } else if (frame.next < combination->tree.nodes.size()) {
+            const TreeNode& node = combination->tree.nodes[frame.next++];
+            if (node.op != Operator::leaf) continue;
+            const std::uint32_t child = find(node.object);
+            if (solids_[child] >= 0) {
+                frame.solids += solids_[child];
+            } else {
+                --frame.next;
+                frames.push_back({child, 0, 0});
+            }
+            continue;
+        } else {
+            solids_[frame.object] = frame.solids;
+        }
+        frames.pop_back();
+    }
+    return solids_[object];
+}
+
+RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const std::string& object, bool air,
                            std::vector<std::string>& dropped)
-    : scene_(scene), air_(air) {
+    : scene_(scene), index_(index), air_(air) {
     visit(index.find(object), identity, {}, no_path, dropped);
     while (!frames_.empty()) {
         Frame& frame = frames_.back();
         const std::vector<TreeNode>& nodes = frame.combination->tree.nodes;
         if (frame.next == nodes.size()) {
             if (nodes.empty()) operands_.push_back(nothing);
+            if (starts_.size() == frame.first_start) hollow_.emplace(frame.object, operands_.back());
             frames_.pop_back();
             continue;
         }
@@ -55,13 +86,17 @@ void RegionForest::visit(std::uint32_t object, const Matrix& matrix, Attributes 
                          std::vector<std::string>& dropped) {
     if (paths_.size() >= reference_limit)
         throw Error(Status::scene, "more than " + std::to_string(reference_limit) + " references above the regions");
+    if (const auto known = hollow_.find(object); known != hollow_.end()) {
+        operands_.push_back(known->second);
+        return;
+    }
     const auto path = static_cast<std::uint32_t>(paths_.size());
     paths_.push_back({above, object});
     const auto* combination = std::get_if<Combination>(&scene_.objects[object]);
     if (combination != nullptr) {
         attributes.apply(*combination);
         if (!combination->region) {
-            frames_.push_back({combination, matrix, attributes, path, 0});
+            frames_.push_back({combination, matrix, attributes, object, path, 0, starts_.size()});
             return;
         }
         if (combination->air != 0 && !air_) {
@@ -119,6 +154,31 @@ std::uint32_t RegionForest::complement(std::uint32_t operand) {
 std::uint32_t RegionForest::add_node(Operator op, std::uint32_t left, std::uint32_t right) {
     nodes_.push_back({op, left, right});
     return static_cast<std::uint32_t>(nodes_.size() - 1);
+}
+
+double RegionForest::solids_in_terms() const {
+    if (root_ == nothing || root_ == everything) return 0;
+    // Operands come before their operators.
+    struct Count {
+        double terms, solids_in_terms, solids;
+    };
+    std::vector<Count> counts;
+    counts.reserve(nodes_.size());
+    for (const Node& node : nodes_) {
+        if (node.op == Operator::leaf) {
+            const double solids = index_.solids_below(starts_[node.left].object);
+            counts.push_back({1, solids, solids});
+            continue;
+        }
+        const Count a = counts[node.left], b = node.op == Operator::not_ ? Count{0, 0, 0} : counts[node.right];
+        Count c{1, a.solids + b.solids, a.solids + b.solids};
+        if (node.op == Operator::union_) c = {a.terms + b.terms, a.solids_in_terms + b.solids_in_terms, c.solids};
+        if (node.op == Operator::difference) c = {a.terms, a.solids_in_terms + a.terms * b.solids, c.solids};
+        if (node.op == Operator::intersection)
+            c = {a.terms * b.terms, a.solids_in_terms * b.terms + b.solids_in_terms * a.terms, c.solids};
+        counts.push_back(c);
+    }
+    return counts[root_].solids_in_terms;
 }
 
 void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call) {

@@ -27,9 +27,13 @@ public:
     explicit ObjectIndex(const Scene& scene);
     /// Throws Error (scene) if there is none.
     std::uint32_t find(const std::string& name) const;
+    /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
+    double solids_below(std::uint32_t object);
 
 private:
+    const Scene& scene_;
     std::unordered_map<std::string_view, std::uint32_t> index_;
+    std::vector<double> solids_;  ///< negative: not counted yet
 };
 
 /// Where a region starts: a combination with the region flag, or a solid outside all regions.
@@ -45,8 +49,11 @@ class RegionForest {
 public:
     /// Walks down from an object. The paths of air regions that are left out are appended to `dropped`.
     /// Throws Error (scene) if there are more references than any model has.
-    RegionForest(const Scene& scene, const ObjectIndex& index, const std::string& object, bool air,
+    RegionForest(const Scene& scene, ObjectIndex& index, const std::string& object, bool air,
                  std::vector<std::string>& dropped);
+
+    /// How many solids the trees of all terms hold together. Pulling unions up may multiply them.
+    double solids_in_terms() const;
 
     /// leaf: `left` is a start. Complement: `left` is the operand.
     struct Node {
@@ -72,8 +79,9 @@ private:
         const Combination* combination;
         Matrix matrix;
         Attributes attributes;
-        std::uint32_t path;
+        std::uint32_t object, path;
         std::size_t next;
+        std::size_t first_start;  ///< number of the first start below
     };
     struct PathStep {
         std::uint32_t above, object;
@@ -87,7 +95,9 @@ private:
     std::uint32_t add_node(Operator op, std::uint32_t left, std::uint32_t right = 0);
 
     const Scene& scene_;
+    ObjectIndex& index_;
     bool air_;
+    std::unordered_map<std::uint32_t, std::uint32_t> hollow_;  ///< combinations without starts, and the constant they are
     std::vector<Frame> frames_;
     std::vector<std::uint32_t> operands_;
     std::uint32_t root_ = nothing;

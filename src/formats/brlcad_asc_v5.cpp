@@ -7,15 +7,14 @@
 //     attr set {name} {key} {value} ...       what else belongs to an object, or to _GLOBAL, the database
 //
 // Lengths are millimetres; the unit is for display.
-#include <algorithm>
-#include <cctype>
+#include <span>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "formats/brlcad_asc.hpp"
 #include "formats/brlcad_objects.hpp"
-#include "formats/brlcad_shader.hpp"
+#include "formats/brlcad_v5_attributes.hpp"
 #include "formats/brlcad_v5_solids.hpp"
 #include "formats/brlcad_v5_tree.hpp"
 #include "formats/brlcad_values.hpp"
@@ -24,80 +23,6 @@
 namespace csgrt {
 
 namespace {
-
-constexpr int any_low = -2'147'483'647, any_high = 2'147'483'647;
-
-std::string in_lower_case(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
-
-bool read_flag(const TclWord& word) {
-    const std::string text = in_lower_case(word.text);
-    for (const char* yes : {"1", "yes", "y", "true", "on"}) {
-        if (text == yes) return true;
-    }
-    for (const char* no : {"", "0", "no", "n", "false", "off"}) {
-        if (text == no) return false;
-    }
-    throw Fault{word.offset, quoted(word.text) + " is neither yes nor no", {}};
-}
-
-/// R is a region; P and V are regions of FASTGEN, a plate and a volume.
-bool read_region_flag(const TclWord& word) {
-    return word.text == "R" || word.text == "P" || word.text == "V" || read_flag(word);
-}
-
-int read_any_integer(const TclWord& word) {
-    return read_integer(word.text, word.offset, any_low, any_high);
-}
-
-/// "r/g/b" or "r g b".
-Vec3 read_color(const TclWord& word) {
-    constexpr std::string_view separators = "/ \t,";
-    int components[3];
-    std::size_t at = 0;
-    for (int& component : components) {
-        at = std::min(word.text.find_first_not_of(separators, at), word.text.size());
-        const std::size_t end = std::min(word.text.find_first_of(separators, at), word.text.size());
-        if (at == end) {
-            throw Fault{word.offset, quoted(word.text) + " is no colour", "write red/green/blue, each 0 to 255"};
-        }
-        component = read_integer(word.text.substr(at, end - at), word.offset_at(at), 0, 255);
-        at = end;
-    }
-    if (word.text.find_first_not_of(separators, at) != std::string_view::npos) {
-        throw Fault{word.offset_at(at), "a colour has three components", {}};
-    }
-    return color_of_bytes(components[0], components[1], components[2]);
-}
-
-/// Sets what the key stands for, in any of BRL-CAD's spellings; false if it is not one that csgrt knows.
-bool set_attribute(Combination& combination, std::string_view name, const TclWord& value) {
-    const std::string key = in_lower_case(name);
-    if (key == "region") {
-        combination.region = read_region_flag(value);
-    } else if (key == "region_id" || key == "id") {
-        combination.region_id = read_any_integer(value);
-    } else if (key == "air" || key == "aircode") {
-        combination.air = read_any_integer(value);
-    } else if (key == "material_id" || key == "giftmater" || key == "mat") {
-        combination.material_id = read_any_integer(value);
-    } else if (key == "los") {
-        combination.los = read_any_integer(value);
-    } else if (key == "rgb" || key == "color") {
-        combination.color = read_color(value);
-    } else if (key == "shader" || key == "oshader") {
-        combination.finish.reset();
-        if (Finish finish = read_finish(value.text); !finish.shader.empty()) combination.finish = std::move(finish);
-    } else if (key == "inherit") {
-        combination.color_inherits = combination.finish_inherits = read_flag(value);
-    } else {
-        return false;
-    }
-    return true;
-}
 
 class V5Reader {
 public:
@@ -144,7 +69,7 @@ private:
         const std::string_view command = words_[0].text;
         if (command == "put") return read_put();
         if (command == "attr") return read_attributes();
-        if (command == "color") return read_color_range();
+        if (command == "color") return read_color_command();
         if (command == "title") return read_title();
         if (command == "units") return set_units(word(1, "the unit"));
         throw Fault{words_[0].offset, quoted(command) + " is no command of a database",
@@ -168,19 +93,10 @@ private:
         scene_.unit_length = length;
     }
 
-    void read_color_range() {
+    void read_color_command() {
         word(5, "the colour's blue");
         if (words_.size() > 6) throw Fault{words_[6].offset, "the command should end here, but goes on", {}};
-        add_color_range(words_, 1);
-    }
-
-    void add_color_range(const std::vector<TclWord>& values, std::size_t first) {
-        int numbers[5];
-        for (std::size_t i = 0; i < 5; ++i) {
-            const TclWord& value = values[first + i];
-            numbers[i] = i < 2 ? read_any_integer(value) : read_integer(value.text, value.offset, 0, 255);
-        }
-        scene_.region_colors.push_back({numbers[0], numbers[1], color_of_bytes(numbers[2], numbers[3], numbers[4])});
+        scene_.region_colors.push_back(read_region_color(std::span<const TclWord, 5>(&words_[1], 5)));
     }
 
     void read_put() {
@@ -207,7 +123,7 @@ private:
             const TclWord& value = rest[i + 1];
             if (key.text == "tree") {
                 combination.tree = read_v5_tree(value, source_, object_, store_);
-            } else if (!set_attribute(combination, key.text, value)) {
+            } else if (!set_attribute(combination, {key.text, value})) {
                 throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
             }
         }
@@ -222,7 +138,12 @@ private:
         if (words_.size() % 2 == 0) {
             throw Fault{words_.back().offset, "attribute " + quoted(words_.back().text) + " has no value", {}};
         }
-        if (object_ == "_GLOBAL") return read_global_attributes();
+        std::vector<Attribute> attributes;
+        for (std::size_t i = 3; i < words_.size(); i += 2) attributes.push_back({words_[i].text, words_[i + 1]});
+        if (object_ == "_GLOBAL") {
+            for (const Attribute& attribute : attributes) set_global_attribute(scene_, attribute);
+            return;
+        }
         Object* object = objects_.find(object_);
         if (object == nullptr) {
             if (broken_.count(object_) > 0) return;
@@ -230,39 +151,7 @@ private:
         }
         auto* combination = std::get_if<Combination>(object);
         if (combination == nullptr) return;  // those of a solid do not matter to its shape
-        for (std::size_t i = 3; i < words_.size(); i += 2) set_attribute(*combination, words_[i].text, words_[i + 1]);
-    }
-
-    void read_global_attributes() {
-        for (std::size_t i = 3; i < words_.size(); i += 2) {
-            const TclWord& value = words_[i + 1];
-            if (words_[i].text == "title") {
-                scene_.title = tcl_name(value);
-            } else if (words_[i].text == "units") {
-                set_unit_length(value);
-            } else if (words_[i].text == "regionid_colortable") {
-                read_color_table(value);
-            }
-        }
-    }
-
-    /// Here the unit is its length in millimetres.
-    void set_unit_length(const TclWord& value) {
-        const std::string name = unit_name(read_number(value.text, value.offset));
-        if (name.empty()) throw Fault{value.offset, "no unit is " + quoted(value.text) + " mm long", {}};
-        scene_.units = name;
-        scene_.unit_length = unit_in_millimetres(name);
-    }
-
-    void read_color_table(const TclWord& value) {
-        TclList entries(value, store_);
-        for (TclWord entry; entries.next(entry);) {
-            TclList elements(entry, store_);
-            std::vector<TclWord> numbers;
-            for (TclWord number; elements.next(number);) numbers.push_back(number);
-            if (numbers.size() != 5) throw Fault{entry.offset, "an entry is five numbers: low high red green blue", {}};
-            add_color_range(numbers, 0);
-        }
+        set_attributes(*combination, attributes);
     }
 
     const TextSource& source_;

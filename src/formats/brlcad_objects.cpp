@@ -9,7 +9,9 @@ void BrlcadObjects::add(Object object, std::size_t offset) {
     const auto [found, is_new] = index_.try_emplace(name, objects_.size());
     if (!is_new) {
         const Place& first = place_of(objects_[found->second]);
-        findings_.add(offset, name, "this name is taken by the object on line " + std::to_string(first.line),
+        const std::string where = first.line > 0 ? "on line " + std::to_string(first.line)
+                                                 : "at byte " + std::to_string(first.offset);
+        findings_.add(offset, name, "this name is taken by the object " + where,
                       "rename one of them: combinations refer to objects by name");
         return;
     }

@@ -8,7 +8,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "formats/text_source.hpp"
+#include "formats/source.hpp"
 
 namespace csgrt {
 

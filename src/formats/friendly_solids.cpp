@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "scene/vector.hpp"
 
@@ -61,14 +60,5 @@ std::vector<Vec3> arb_vertices(const Arb& solid) {
     }
     return {solid.vertices.begin(), solid.vertices.end()};
 }
-
-template <class Solid>
-bool same_bits(const Solid& a, const Solid& b) {
-    static_assert(sizeof(Solid) % sizeof(double) == 0, "only numbers, and no gaps between them");
-    return std::memcmp(&a, &b, sizeof(Solid)) == 0;
-}
-template bool same_bits(const Ell&, const Ell&);
-template bool same_bits(const Tgc&, const Tgc&);
-template bool same_bits(const Arb&, const Arb&);
 
 }  // namespace csgrt

@@ -27,8 +27,4 @@ Arb arb(const std::vector<Vec3>& vertices);
 /// The vertices from which `arb` builds this one, as few as possible.
 std::vector<Vec3> arb_vertices(const Arb& solid);
 
-/// Whether all numbers of two solids are the same bit by bit, signs of zeros too.
-template <class Solid>
-bool same_bits(const Solid& a, const Solid& b);
-
 }  // namespace csgrt

@@ -44,7 +44,7 @@ std::vector<JsonForm> solid_forms() {
 std::vector<JsonForm> all_forms() {
     std::vector<JsonForm> forms = {
         {"scene",
-         {{"csgrt", required}, {"title"}, {"units"}, {"model_units"}, {"camera"}, {"lights"}, {"ambient"}, {"background"},
+         {{"csgrt", required}, {"$schema"}, {"title"}, {"units"}, {"model_units"}, {"camera"}, {"lights"}, {"ambient"}, {"background"},
           {"tolerance"}, {"materials"}, {"solids"}, {"combinations"}, {"objects"}, {"order"}, {"region_colors"}}},
         {"model_units", {{"name", required}, {"millimetres", required}}},
         {"camera", {{"azimuth"}, {"elevation"}, {"perspective"}, {"center"}, {"size"}}},

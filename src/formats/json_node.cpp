@@ -30,6 +30,14 @@ const T* JsonNode::expect(const char* what) const {
     return data;
 }
 
+bool JsonNode::is_vector() const {
+    if (!is_array()) return false;
+    const JsonArray& array = std::get<JsonArray>(value_->data);
+    return array.size() == 3 && std::all_of(array.begin(), array.end(), [](const JsonValue& item) {
+        return std::holds_alternative<double>(item.data);
+    });
+}
+
 bool JsonNode::boolean(bool otherwise) const {
     const bool* data = expect<bool>("true or false");
     return data == nullptr ? otherwise : *data;
@@ -137,6 +145,7 @@ std::vector<JsonNode::Member> JsonNode::members() const {
     if (members == nullptr) return nodes;
     nodes.reserve(members->size());
     for (const JsonMember& member : *members) {
+        if (member.repeated) continue;
         const std::string pointer = child_pointer(pointer_, member.name);
         nodes.push_back({member.name, JsonNode(*file_, &member.value, pointer),
                          file_->source.place(member.offset, pointer), member.offset});

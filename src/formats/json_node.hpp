@@ -38,6 +38,7 @@ public:
     bool is_string() const { return holds<std::string>(); }
     bool is_array() const { return holds<JsonArray>(); }
     bool is_object() const { return holds<JsonMembers>(); }
+    bool is_vector() const;  ///< three numbers
 
     bool boolean(bool otherwise = false) const;
     double number(double otherwise = 0) const;
@@ -57,7 +58,7 @@ public:
     /// `count` numbers.
     std::vector<double> numbers(std::size_t count) const;
 
-    /// The items of an array, the members of an object (name by name), or nothing but a finding.
+    /// The items of an array, the members of an object (each name once), or nothing but a finding.
     std::vector<JsonNode> items() const;
     struct Member;
     std::vector<Member> members() const;

@@ -1,5 +1,6 @@
 #include "formats/json_placement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -37,12 +38,13 @@ Matrix rotation(const Vec3& axis, double degrees) {
 Matrix read_rotation(const JsonNode& node) {
     const JsonObject o(node, json_form("rotation"));
     const Vec3 axis = o["axis"].vector();
-    if (o.has("axis") && length(axis) == 0) o["axis"].fault("must not be of length 0");
+    if (o["axis"].is_vector() && length(axis) == 0) o["axis"].fault("must not be of length 0");
     return rotation(axis, o["angle"].number());
 }
 
 Matrix read_scale(const JsonNode& node) {
     const Vec3 s = node.is_array() ? node.vector() : node.number(1) * Vec3{1, 1, 1};
+    if (node.is_array() && !node.is_vector()) return identity;  // a finding already
     if (s.x == 0 || s.y == 0 || s.z == 0) node.fault("a scale must not be 0: it would flatten the object");
     return {s.x, 0, 0, 0, 0, s.y, 0, 0, 0, 0, s.z, 0, 0, 0, 0, 1};
 }

@@ -61,6 +61,7 @@ public:
         }
         // In the order of the file, which is the order of the regions.
         for (const JsonMember& section : std::get<JsonMembers>(value.data)) {
+            if (section.repeated) continue;
             if (section.name == "solids") read_solids(o["solids"]);
             if (section.name == "combinations") read_combinations(o["combinations"]);
         }

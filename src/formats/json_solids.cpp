@@ -13,11 +13,11 @@ namespace csgrt {
 namespace {
 
 Vec3 nonzero(const JsonNode& node, Vec3 v) {
-    if (node.present() && length(v) == 0) node.fault("must not be of length 0");
+    if (node.is_vector() && length(v) == 0) node.fault("must not be of length 0");
     return v;
 }
 
-/// As it stands if it is whole: a radius that may be 0 at one end of a cone, not at both.
+/// May be 0 at one end of a cone, not at both.
 double radius_of_cone(const JsonNode& node) {
     return node.file().unit * node.not_negative(0);
 }
@@ -50,7 +50,7 @@ Shape read_tgc(const JsonObject& o) {
 
 Shape read_box(const JsonObject& o) {
     const Vec3 low = o["low"].lengths(), high = o["high"].lengths();
-    if (o.has("low") && o.has("high") && !(low.x < high.x && low.y < high.y && low.z < high.z)) {
+    if (o["low"].is_vector() && o["high"].is_vector() && !(low.x < high.x && low.y < high.y && low.z < high.z)) {
         o["high"].fault("each number of 'high' must be greater than that of 'low'");
     }
     return box(low, high);

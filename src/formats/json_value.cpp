@@ -83,7 +83,7 @@ public:
             findings_.add(offset, child_pointer(here(), name), "the key '" + name + "' stands twice in this object",
                           "the first one stands in line " + std::to_string(source_.place(earlier->second).line));
         }
-        std::get<JsonMembers>(level.container->data).push_back({std::move(name), offset, {}});
+        std::get<JsonMembers>(level.container->data).push_back({std::move(name), offset, {}, !is_new});
         token_end_ = consumed_;
         return true;
     }

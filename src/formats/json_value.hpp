@@ -14,7 +14,7 @@ namespace csgrt {
 struct JsonValue;
 struct JsonMember;
 using JsonArray = std::vector<JsonValue>;
-using JsonMembers = std::vector<JsonMember>;  // in the order of the file; names are unique
+using JsonMembers = std::vector<JsonMember>;  // in the order of the file
 
 struct JsonValue {
     std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonMembers> data;
@@ -24,9 +24,10 @@ struct JsonMember {
     std::string name;
     std::size_t offset = 0;  ///< of the name's first quote
     JsonValue value;
+    bool repeated = false;  ///< the object has the name already, and a finding says so
 };
 
-/// The value with a name that is given, or nullptr.
+/// The first value of that name, or nullptr.
 const JsonValue* find_member(const JsonMembers& members, std::string_view name);
 
 /// Parses the whole text. Syntax errors, numbers beyond a double's range, brackets nested deeper than

@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::size_t group = 64;           // work-items: one size for all kernels, so that each is compiled once
 constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
+// What a ray needs on the device whatever it hits, pictured or listed, with its share of the scan's sums.
+constexpr std::uint64_t ray_bytes =
+    sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + std::max(sizeof(kernel::Pixel), sizeof(kernel::RayRecord)) + 4;
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
 
 std::vector<std::string> defines_of(const CompiledScene& scene) {
@@ -83,17 +86,27 @@ double Pipeline::scan(std::uint32_t size) {
     return sum;
 }
 
+// Gives back what holds segments and partitions: memory that another use of the budget wants.
+void Pipeline::release_counted() {
+    for (Buffer* buffer : {&ends_, &partitions_, &bits_, &candidates_}) *buffer = Buffer(device_, buffer->name());
+}
+
 // Returns false if the tile's segments do not fit; nothing is lost then, the caller takes a smaller tile.
 bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured, PipelineCounts& counts) {
     kernel::Frame frame = prepared.frame;
     frame.first_ray = tile.first_ray;
     frame.ray_count = tile.rays;
-    frame_.upload(&frame, sizeof frame);
-
     const std::size_t entries = std::size_t{tile.rays} + 1;
+    if (tile.rays * ray_bytes > device_.available()) release_counted();
     counts_.reserve(entries * sizeof(kernel::RayCount));
     results_.reserve(tile.rays * sizeof(kernel::RayResult));
     if (pictured) pixels_.reserve(tile.rays * sizeof(kernel::Pixel));
+    if (frame.listed) {  // the device holds this tile's part of the list only
+        frame.first_ray = 0;
+        rays_.reserve(tile.rays * sizeof(kernel::RayRecord));
+        rays_.upload(list_.data() + tile.first_ray, tile.rays * sizeof(kernel::RayRecord));
+    }
+    frame_.upload(&frame, sizeof frame);
 
     const SceneBuffers& s = buffers_;
     const kernel::RayCount zero{};
@@ -112,13 +125,17 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
     const std::uint64_t bit_bytes = std::uint64_t{total.words} * sizeof(std::uint32_t);
     const std::uint64_t candidate_bytes = std::uint64_t{total.regions} * sizeof(std::uint32_t);
     const std::uint64_t largest = std::max({end_bytes, node_bytes, bit_bytes, candidate_bytes});
+    // Buffers only grow, unless that would not fit.
     const std::uint64_t held = ends_.size() + partitions_.size() + bits_.size() + candidates_.size();
-    const std::uint64_t wanted = std::max<std::uint64_t>(end_bytes, ends_.size()) +
-                                 std::max<std::uint64_t>(node_bytes, partitions_.size()) +
-                                 std::max<std::uint64_t>(bit_bytes, bits_.size()) +
-                                 std::max<std::uint64_t>(candidate_bytes, candidates_.size());
+    const std::uint64_t grown = std::max<std::uint64_t>(end_bytes, ends_.size()) +
+                                std::max<std::uint64_t>(node_bytes, partitions_.size()) +
+                                std::max<std::uint64_t>(bit_bytes, bits_.size()) +
+                                std::max<std::uint64_t>(candidate_bytes, candidates_.size());
+    if (grown > device_.available() + held) release_counted();
     const bool saturated = total.segments >= NONE / 2 || total.words == COUNT_MAX || total.regions == COUNT_MAX;
-    if (saturated || largest > device_.max_buffer() || wanted > device_.available() + held) return false;
+    if (saturated || largest > device_.max_buffer()) return false;
+    const std::uint64_t free = device_.available() + ends_.size() + partitions_.size() + bits_.size() + candidates_.size();
+    if (end_bytes + node_bytes + bit_bytes + candidate_bytes > free) return false;
     ends_.reserve(end_bytes);
     partitions_.reserve(node_bytes);
     bits_.reserve(bit_bytes);
@@ -152,9 +169,11 @@ void Pipeline::for_each_tile(const PreparedFrame& prepared, bool pictured, const
     lights_.reserve(prepared.lights.size() * sizeof(kernel::LightRecord));
     if (!prepared.lights.empty()) lights_.upload(prepared.lights);
 
-    // What a ray needs whatever it hits; a quarter of the budget goes to that, the rest to segments and partitions.
-    constexpr std::uint64_t ray_bytes = sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + sizeof(kernel::Pixel) + 4;
-    const std::uint64_t held = counts_.size() + results_.size() + pixels_.size();
+    // A quarter of the budget goes to what every ray needs, the rest to segments and partitions.
+    if (pictured) rays_ = Buffer(device_, rays_.name());
+    if (!pictured) pixels_ = Buffer(device_, pixels_.name());
+    const std::uint64_t held = counts_.size() + results_.size() + pixels_.size() + rays_.size() + ends_.size() +
+                               partitions_.size() + bits_.size() + candidates_.size();
     const std::uint64_t fitting = std::min((device_.available() + held) / (4 * ray_bytes), device_.max_buffer() / ray_bytes);
     std::uint64_t size = std::max<std::uint64_t>(1, std::min({fitting, most_rays, prepared.rays}));
 
@@ -240,12 +259,10 @@ std::vector<ClaimedPartition> Pipeline::claims_of(const std::vector<kernel::End>
 
 std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
                                            const Progress& progress, PipelineCounts& counts) {
-    std::vector<kernel::RayRecord> records;
-    records.reserve(rays.size());
+    list_.clear();
+    list_.reserve(rays.size());
     for (const Ray& r : rays)
-        records.push_back({r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z});
-    rays_.reserve(records.size() * sizeof(kernel::RayRecord));
-    if (!records.empty()) rays_.upload(records);
+        list_.push_back({r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z});
 
     std::vector<RayPartitions> answers(rays.size());
     for_each_tile(prepared, false, progress, counts, [&](const Tile& tile) {

@@ -46,6 +46,7 @@ private:
     void for_each_tile(const PreparedFrame& prepared, bool pictured, const Progress& progress, PipelineCounts& counts,
                        const std::function<void(const Tile&)>& finish);
     bool run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured, PipelineCounts& counts);
+    void release_counted();
     double scan(std::uint32_t size);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
                                             const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
@@ -61,6 +62,7 @@ private:
     Buffer counts_, results_, pixels_;             // one entry a ray
     Buffer ends_, partitions_, bits_, candidates_;  // by what was counted
     std::vector<std::unique_ptr<Buffer>> sums_;    // of the scan, a level each
+    std::vector<kernel::RayRecord> list_;          // the rays that are being shot, on the host
 };
 
 }  // namespace csgrt

@@ -9,7 +9,7 @@ namespace csgrt {
 namespace {
 
 /// Bytes of a long line that are shown before and after the place.
-constexpr std::size_t shown_before = 60, shown_after = 40;
+constexpr std::size_t shown_before = 60, shown_after = 50;
 
 bool continues_character(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;

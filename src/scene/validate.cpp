@@ -66,7 +66,11 @@ private:
     };
 
     void add(const Place& place, std::string message, std::string suggestion = {}) {
-        if (found_.size() < most_findings) found_.push_back({place, std::move(message), std::move(suggestion), {}});
+        if (found_.size() < most_findings) {
+            found_.push_back({place, std::move(message), std::move(suggestion), {}});
+        } else {
+            ++left_out_;
+        }
     }
 
     void index_names() {
@@ -209,6 +213,7 @@ private:
                    std::tie(b.place.line, b.place.column, b.place.offset);
         });
         for (Diagnostic& diagnostic : found_) diagnostic.excerpt = excerpt(diagnostic.place);
+        if (left_out_ > 0) found_.push_back({{}, "and " + std::to_string(left_out_) + " more findings", {}, {}});
         return std::move(found_);
     }
 
@@ -217,6 +222,7 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> index_;
     std::vector<Frame> path_;
     std::vector<Diagnostic> found_;
+    std::size_t left_out_ = 0;
     const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
         add(place, std::move(message), std::move(suggestion));
     };

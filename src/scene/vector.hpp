@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 
 #include <csgrt/scene.hpp>
 
@@ -22,6 +24,13 @@ inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinit
 inline Vec3 unit(const Vec3& a) {
     const double l = length(a);
     return l == 0 ? a : Vec3{a.x / l, a.y / l, a.z / l};
+}
+
+/// Whether all numbers of two vectors, matrices or solids are the same bit by bit, signs of zeros too.
+template <class Numbers>
+bool same_bits(const Numbers& a, const Numbers& b) {
+    static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) % sizeof(double) == 0);
+    return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 /// The matrix that applies `inner`, then `outer`: each element summed from left to right, as BRL-CAD does it.

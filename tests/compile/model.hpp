@@ -70,4 +70,17 @@ inline Matrix askew(double angle, const Vec3& offset = {}) {
             0,                 1};
 }
 
+/// What a call throws as Error; empty if it does not.
+template <class Call>
+std::string error_of(const Call& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool near(double a, double b, double slack = 1e-12) { return std::abs(a - b) <= slack; }
+
 }  // namespace csgrt::test

@@ -127,10 +127,10 @@ TEST_CASE("oracle: polyhedra and half-spaces", "[oracle]") {
     check_normal(a.intervals[0].in.normal, {-1, 0, 0});
     check_ends(shoot(box, {{-1, -1, 1}, {1, 1, 0}}), {{1, 3}});
     const Shape pyramid = Arb{{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}};
-    CHECK(implicit(pyramid, identity).surfaces.size() == 5);
+    CHECK(implicit(pyramid, identity).surfaces.size() == 5 + 6);  // its faces and its box
     check_ends(shoot(pyramid, {{-5, 0.1, 0.5}, {1, 0, 0}}), {{4.5, 5.5}});
     const Shape tetrahedron = Arb{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}}};
-    CHECK(implicit(tetrahedron, identity).surfaces.size() == 4);
+    CHECK(implicit(tetrahedron, identity).surfaces.size() == 4 + 6);
     check_ends(shoot(tetrahedron, {{0.25, 0.25, -1}, {0, 0, 1}}), {{1, 1.5}});
     const Shape arbn = Arbn{{{{1, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{0, 1, 0}, 1}, {{0, -1, 0}, 1}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}, {{0.6, 0, 0.8}, 1}}};
     check_ends(shoot(arbn, {{0.75, 0, -5}, {0, 0, 1}}), {{4, 5.6875}});  // 0.45 + 0.8 z = 1

@@ -8,7 +8,9 @@
 //
 // with t_c the parameter of closest approach to the solid's centre (so |t_c d| + radius + |centre| bounds |o|), and
 // placement and condition as in solid.hpp. A root at slope f' can move by change(delta) / |f'|; a minimum or maximum within
-// change(delta) of 0 can gain or lose a pair of roots. The answer is decided if inner, exact and outer have the same number
+// change(delta) of 0 can gain or lose a pair of roots. For quartics change(delta) includes the rounding of f itself, ulps x
+// 2^-53 x terms (solid.hpp), which is more than that only where the gradient all but vanishes: where a torus touches itself,
+// on the ends of a wedge. The answer is decided if inner, exact and outer have the same number
 // of intervals, one in the other; otherwise rounding may decide either way, and the ray is a tie. A half-space is the one
 // unbounded solid: a ray that is parallel to it up to rounding is a tie wherever it runs, unless zeros keep it parallel.
 //
@@ -78,8 +80,10 @@ struct ScaledRay {
 inline Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad delta) {
     const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
     const Polynomial slope = f.derivative();
+    const quad noise = f.degree > 2 ? solid.noise(k) : quad(0);
     const auto change_at = [&](quad s) {
-        return quad(margin) * solid.change(k, ray.origin + s * ray.direction, delta * (1 + ray.turn * absolute(s)));
+        const QVec p = ray.origin + s * ray.direction;
+        return quad(margin) * (solid.change(k, p, delta * (1 + ray.turn * absolute(s))) + noise);
     };
     const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
     Sets sets;

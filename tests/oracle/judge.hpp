@@ -38,7 +38,7 @@ inline double displacement(const ImplicitSolid& solid, const Answer& answer) {
 
 /// How far f_k may be from 0, or from its sign, at a point whose surface may be displaced by `distance`.
 inline quad doubt(const ImplicitSolid& solid, std::size_t k, const QVec& local, quad distance) {
-    return solid.change(k, local, distance) + quad(ulps * double_epsilon) * solid.surfaces[k]->terms();
+    return solid.change(k, local, distance) + quad(margin) * solid.noise(k);
 }
 inline bool on_surface(const ImplicitSolid& solid, std::size_t k, const QVec& local, quad distance) {
     return absolute(solid.surfaces[k]->value(local)) <= doubt(solid, k, local, distance);

@@ -7,11 +7,14 @@
 //
 // The matrices on the way down are multiplied in 113 bits; only their product reaches a solid.
 //
+// A region holds only where at least one of its solids does: the complement of nothing is no material.
+//
 // A ray's bounds in all solids are merged; between two neighbouring ones no membership changes, so each region's tree is
 // evaluated once there, by plain recursion, in three values: inside, outside, or within the solids' doubt (see
 // intersect.hpp), widened by `slack` for a weaver that takes ends so close to each other for one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -35,6 +38,14 @@ struct Expression {
     std::vector<Expression> operands;
     std::size_t solid = 0;              ///< leaf: index into SceneOracle::solids()
 
+    /// In any of the solids?
+    template <class Of>
+    Membership any(const Of& of) const {
+        if (op == Operator::leaf) return of(solid);
+        Membership value = Membership::outside;
+        for (const Expression& operand : operands) value = either(value, operand.any(of));
+        return value;
+    }
     /// `of(solid)` is the membership of a solid.
     template <class Of>
     Membership evaluate(const Of& of) const {
@@ -58,6 +69,12 @@ struct Expression {
 struct OracleRegion {
     std::string path;
     Expression tree;
+
+    template <class Of>
+    Membership evaluate(const Of& of) const {
+        const Membership value = tree.evaluate(of);
+        return value == Membership::outside ? value : both(value, tree.any(of));
+    }
 };
 
 /// A stretch of a ray over which nothing changes, and the regions that hold it or may hold it, ascending.
@@ -90,6 +107,9 @@ public:
         for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
             for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
     }
+
+    // Keeps the scene by reference; so a temporary will not do.
+    explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}) = delete;
 
     const std::vector<OracleRegion>& regions() const { return regions_; }
     const std::vector<ImplicitSolid>& solids() const { return solids_; }
@@ -169,13 +189,13 @@ private:
             }
             Piece piece{to_double(in), to_double(out), {}};
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                const Membership m = regions_[r].tree.evaluate([&](std::size_t s) { return sure[s]; });
+                const Membership m = regions_[r].evaluate([&](std::size_t s) { return sure[s]; });
                 if (m == Membership::inside) extend(found[r].inner, in, out);
                 if (m != Membership::outside) {
                     extend(found[r].outer, in, out);
                     piece.claims.push_back({static_cast<std::uint32_t>(r), m == Membership::inside});
                 }
-                if (regions_[r].tree.evaluate([&](std::size_t s) { return exact[s]; }) == Membership::inside)
+                if (regions_[r].evaluate([&](std::size_t s) { return exact[s]; }) == Membership::inside)
                     extend(found[r].exact, in, out);
             }
             answer.pieces.push_back(std::move(piece));

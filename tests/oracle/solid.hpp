@@ -101,10 +101,12 @@ struct ImplicitSolid {
         const QVec g = to_local.transposed(surfaces[k]->gradient(to_local.point(world)));
         return dot(g, g) > 0 ? unit(g) : QVec{};
     }
-    /// By how much rounding in the evaluation of f_k displaces surface k near a point of the world, millimetres.
+    /// Rounding in the evaluation of f_k.
+    quad noise(std::size_t k) const { return quad(ulps * double_epsilon) * surfaces[k]->terms(); }
+    /// By how much it displaces surface k near a point of the world, millimetres.
     quad blur(std::size_t k, const QVec& world) const {
         const quad slope = length(to_local.transposed(surfaces[k]->gradient(to_local.point(world))));
-        const quad doubt = quad(ulps * double_epsilon) * surfaces[k]->terms();
+        const quad doubt = noise(k);
         return doubt < slope * quad(size) ? doubt / slope : quad(size);
     }
     /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes. Unlike

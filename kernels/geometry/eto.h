@@ -1,0 +1,82 @@
+// Elliptical torus: an ellipse turned about the local z axis, its centre on the circle of radius 1 in z = 0.
+// Parameters: affine (12), alpha, beta, gamma, half height, outer radius. Surface 0.
+//
+//   F(rho) = alpha (rho - 1)^2 + 2 beta (rho - 1) z + gamma z^2 - 1 < 0
+//
+// With F(rho) = P - rho Q (P and Q free of rho's odd powers), F(rho) F(-rho) = P^2 - rho^2 Q^2 is a quartic along the ray,
+// and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Each root is polished once on F itself.
+#ifndef CSGRT_ETO_H
+#define CSGRT_ETO_H
+
+#include "affine.h"
+#include "polynomial.h"
+
+#define ETO_MARGIN REAL(1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
+
+FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
+    vec3 at = add_scaled(o, u, d);
+    real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
+    real radial = rho - REAL(1);
+    real rate = real_fma(at.x, d.x, at.y * d.y) / rho;
+    real by_radial = real_fma(p[12], radial, p[13] * at.z), by_z = real_fma(p[13], radial, p[14] * at.z);
+    real value = real_fma(by_radial, radial, by_z * at.z) - REAL(1);
+    real slope = REAL(2) * real_fma(by_radial, rate, by_z * d.z);
+    real step = value / slope;
+    return real_abs(step) < REAL(1e-7) * p[15] ? u - step : u;
+}
+
+FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
+    local_ray l = to_local(p, r);
+    real alpha = p[12], beta = p[13], gamma = p[14];
+    real height = p[15] * ETO_MARGIN, outer = p[16] * ETO_MARGIN;
+    real length = real_sqrt(dot3(l.d, l.d));
+    vec3 d = scale(l.d, REAL(1) / length);
+    real reach2 = real_fma(outer, outer, height * height) - dot3(l.o, l.o);
+    span s = whole_line();
+    real low, high;
+    quartic g;
+    real roots[4];
+    int count, i;
+    if (!(reach2 > 0)) return no_hits();
+    high = real_sqrt(reach2) * ETO_MARGIN;
+    low = -high;
+    if (d.z != 0) {
+        real z0 = (-height - l.o.z) / d.z, z1 = (height - l.o.z) / d.z;
+        low = real_max(low, real_min(z0, z1));
+        high = real_min(high, real_max(z0, z1));
+    } else if (real_abs(l.o.z) > height) {
+        return no_hits();
+    }
+    if (!(low < high)) return no_hits();
+    {
+        // rho^2 = r0 + r1 u + r2 u^2, z = z0 + z1 u
+        real r0 = real_fma(l.o.x, l.o.x, l.o.y * l.o.y);
+        real r1 = REAL(2) * real_fma(l.o.x, d.x, l.o.y * d.y);
+        real r2 = real_fma(d.x, d.x, d.y * d.y);
+        real z0 = l.o.z, z1 = d.z;
+        // P = alpha rho^2 + gamma z^2 - 2 beta z + alpha - 1,  Q = 2 alpha - 2 beta z
+        real p0 = real_fma(alpha, r0, z0 * real_fma(gamma, z0, REAL(-2) * beta)) + (alpha - REAL(1));
+        real p1 = real_fma(alpha, r1, z1 * (REAL(2) * real_fma(gamma, z0, -beta)));
+        real p2 = real_fma(alpha, r2, gamma * z1 * z1);
+        real q0 = REAL(2) * real_fma(-beta, z0, alpha), q1 = REAL(-2) * beta * z1;
+        real s0 = q0 * q0, s1 = REAL(2) * q0 * q1, s2 = q1 * q1;
+        g.c[0] = difference_of_products(p0, p0, r0, s0);
+        g.c[1] = REAL(2) * p0 * p1 - real_fma(r0, s1, r1 * s0);
+        g.c[2] = real_fma(p1, p1, REAL(2) * p0 * p2) - real_fma(r0, s2, real_fma(r1, s1, r2 * s0));
+        g.c[3] = REAL(2) * p1 * p2 - real_fma(r1, s2, r2 * s1);
+        g.c[4] = difference_of_products(p2, p2, r2, s2);
+    }
+    count = sign_changes(g, low, high, roots);
+    for (i = 0; i < count; ++i) roots[i] = l.shift + eto_polish(p, l.o, d, roots[i]) / length;
+    return spans_between(s, 0, roots, count & ~1, 0);
+}
+
+FN vec3 eto_normal(GLOBAL const real* p, ray3 r, real t) {
+    vec3 at = local_point(to_local(p, r), t);
+    real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
+    real radial = rho - REAL(1);
+    real by_radial = real_fma(p[12], radial, p[13] * at.z) / rho;
+    return affine_normal(p, make_vec3(at.x * by_radial, at.y * by_radial, real_fma(p[13], radial, p[14] * at.z)));
+}
+
+#endif

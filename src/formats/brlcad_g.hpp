@@ -1,0 +1,19 @@
+// BRL-CAD's binary databases of release 5.
+#pragma once
+
+#include <string>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+class ByteSource;
+
+/// Reads a .g file. Throws Error: file if it cannot be read, scene with every finding if it is wrong, out_of_memory if
+/// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
+Scene read_brlcad_g(const std::string& path);
+
+/// The same for a database in memory.
+Scene parse_brlcad_g(const ByteSource& source);
+
+}  // namespace csgrt

@@ -1,0 +1,63 @@
+// The bytes of a binary database, and a reader of big-endian values in them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <csgrt/scene.hpp>
+
+#include "formats/source.hpp"
+
+namespace csgrt {
+
+class ByteSource : public Source {
+public:
+    /// `name` is what diagnostics call the file.
+    ByteSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
+
+    std::string_view bytes() const noexcept { return bytes_; }
+
+    Place place(std::size_t offset, std::string object = {}) const override;
+    std::string excerpt(std::size_t) const override { return {}; }
+
+private:
+    std::string name_;
+    std::string bytes_;
+};
+
+/// Reads one value after another from a part of a file. What is missing or wrong is a Fault that names it (`what`).
+class ByteReader {
+public:
+    ByteReader(std::string_view bytes, std::size_t offset) : bytes_(bytes), offset_(offset) {}
+
+    std::size_t left() const noexcept { return bytes_.size(); }
+    std::size_t offset() const noexcept { return offset_; }
+
+    std::string_view take(std::uint64_t count, const char* what);
+    std::uint8_t byte(const char* what) { return static_cast<std::uint8_t>(take(1, what)[0]); }
+
+    /// A whole number of 1, 2, 4 or 8 bytes: `width` is 0, 1, 2 or 3.
+    std::uint64_t number(unsigned width, const char* what);
+    /// The same, where the highest bit is a sign.
+    std::int64_t signed_number(unsigned width, const char* what);
+
+    /// A finite double.
+    double real(const char* what);
+    Vec3 vec3(const char* what);
+
+    /// The next byte, which must be there; it stays.
+    char peek() const { return bytes_.front(); }
+
+    /// A text without the zero byte that ends it.
+    std::string_view text(const char* what);
+    /// The same, if it must not be empty.
+    std::string_view name(const char* what);
+
+private:
+    std::string_view bytes_;
+    std::size_t offset_;
+};
+
+}  // namespace csgrt

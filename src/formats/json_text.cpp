@@ -1,0 +1,69 @@
+#include "formats/json_text.hpp"
+
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+namespace csgrt {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t widest = 118;
+constexpr std::size_t step = 2;
+
+/// On one line. Stops, half done, once the text is longer than `limit`.
+void append_flat(std::string& out, const ordered_json& value, std::size_t limit) {
+    if (value.is_structured()) {
+        const bool object = value.is_object();
+        out += object ? '{' : '[';
+        bool first = true;
+        for (const auto& [key, child] : value.items()) {
+            if (out.size() > limit) return;
+            if (!first) out += ", ";
+            first = false;
+            if (object) out += json_string(key) + ": ";
+            append_flat(out, child, limit);
+        }
+        out += object ? '}' : ']';
+    } else if (value.is_number_float()) {
+        out += json_number(value.get<double>());
+    } else {
+        out += value.dump();
+    }
+}
+
+}  // namespace
+
+void append_json(std::string& out, const ordered_json& value, std::size_t indent, std::size_t column) {
+    const std::size_t room = column < widest ? widest - column : 0;
+    std::string flat;
+    append_flat(flat, value, room);
+    if (!value.is_structured() || flat.size() <= room) {
+        out += flat;
+        return;
+    }
+    const bool object = value.is_object();
+    out += object ? '{' : '[';
+    bool first = true;
+    for (const auto& [key, child] : value.items()) {
+        const std::string label = object ? json_string(key) + ": " : "";
+        out += (first ? "\n" : ",\n") + std::string(indent + step, ' ') + label;
+        first = false;
+        append_json(out, child, indent + step, indent + step + label.size());
+    }
+    out += '\n' + std::string(indent, ' ') + (object ? '}' : ']');
+}
+
+std::string json_string(const std::string& text) {
+    return nlohmann::json(text).dump();
+}
+
+std::string json_number(double value) {
+    if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" is a whole number to many readers, and loses its sign
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+}  // namespace csgrt

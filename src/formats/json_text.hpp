@@ -1,0 +1,21 @@
+// Prints JSON for people: what fits stands on one line, what does not is broken into its parts.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace csgrt {
+
+/// Appends a value whose first line begins at `column` and whose later lines are indented by `indent` blanks. Numbers are
+/// the shortest that read back to the same double; they must be finite, and strings UTF-8.
+void append_json(std::string& out, const nlohmann::ordered_json& value, std::size_t indent, std::size_t column);
+
+/// A string in quotes.
+std::string json_string(const std::string& text);
+
+/// The shortest number that reads back to the same double, -0 as "-0.0".
+std::string json_number(double value);
+
+}  // namespace csgrt

@@ -1,0 +1,20 @@
+// One solid, one combination as JSON.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+class JsonUnit;
+
+/// {"type": ...}: a friendly type where that reads back to the same bits.
+nlohmann::ordered_json json_of(const Shape& shape, JsonUnit& unit);
+
+/// {"tree": ...} with the attributes that differ from their defaults. A tree that is not one sets `fault`.
+nlohmann::ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault);
+
+}  // namespace csgrt

@@ -1,0 +1,60 @@
+// A file in memory, how places in it are told, and what a reader found wrong in it. Shared by every format.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+/// Largest file that is read. Real scenes are a hundred times smaller; an endless device must not fill the memory.
+inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
+
+/// The bytes of a file. Throws Error (file) if it cannot be read or is larger than max_file_bytes.
+std::string read_file(const std::string& path);
+
+/// What a finding needs to know of its file. Offsets are bytes from the file's start.
+class Source {
+public:
+    virtual Place place(std::size_t offset, std::string object = {}) const = 0;
+    /// What stands at the offset, for a person to see; empty if that would help nobody.
+    virtual std::string excerpt(std::size_t offset) const = 0;
+
+protected:
+    ~Source() = default;
+};
+
+/// Thrown inside a reader to give up one record. The reader turns it into a finding and goes on with the next record;
+/// it never leaves the reader.
+struct Fault {
+    std::size_t offset = 0;
+    std::string message;
+    std::string suggestion;
+};
+
+/// What is wrong in one file, reported all at once.
+class Findings {
+public:
+    /// More than these help nobody; a reader stops when `full`.
+    static constexpr std::size_t limit = 50;
+
+    explicit Findings(const Source& source) : source_(source) {}
+
+    void add(std::size_t offset, std::string object, std::string message, std::string suggestion = {});
+    void add(Fault fault, std::string object) {
+        add(fault.offset, std::move(object), std::move(fault.message), std::move(fault.suggestion));
+    }
+    bool empty() const noexcept { return diagnostics_.empty(); }
+    bool full() const noexcept { return diagnostics_.size() >= limit; }
+
+    /// Throws Error (scene) with every finding, in the order of the file; does nothing if there is none.
+    void throw_if_any();
+
+private:
+    const Source& source_;
+    std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,137 @@
+// Runs the built command as a user would, and keeps what it prints.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "catch.hpp"
+
+namespace command_test {
+
+namespace fs = std::filesystem;
+
+/// The executable, from the environment; empty if it is not set.
+inline std::string command() {
+    const char* path = std::getenv("CSGRT_COMMAND");
+    return path ? path : "";
+}
+
+#define NEEDS_COMMAND()                                     \
+    if (command_test::command().empty()) {                  \
+        WARN("CSGRT_COMMAND names no executable: skipped"); \
+        return;                                             \
+    }
+
+/// A folder that is gone when the test is.
+class Folder {
+public:
+    Folder() {
+        std::string name = (fs::temp_directory_path() / "csgrt-cli-XXXXXX").string();
+        REQUIRE(mkdtemp(name.data()) != nullptr);
+        path_ = name;
+    }
+    ~Folder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(*this / name, std::ios::binary) << text;
+        return *this / name;
+    }
+
+    std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename().string());
+        return names;
+    }
+
+private:
+    fs::path path_;
+};
+
+inline std::string read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Result {
+    int status = -1;  ///< 128 + the signal that killed it
+    std::string out, err;
+};
+
+struct How {
+    std::string input = {};         ///< file to be standard input; empty: nothing
+    std::string output = {};        ///< file to be standard output, e.g. /dev/full; empty: kept in Result::out
+    rlim_t address_space = 0;  ///< bytes; 0: no limit
+};
+
+/// Starts the command in a child; the caller waits for it.
+inline pid_t start(const std::vector<std::string>& arguments, const std::string& input, const std::string& output,
+                   const std::string& errors, rlim_t address_space = 0) {
+    std::string program = command();
+    std::vector<std::string> words = arguments;
+    std::vector<char*> pointers = {program.data()};
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    pid_t child = fork();
+    if (child != 0) return child;
+    const auto redirect = [](const std::string& path, int flags, int descriptor) {
+        const int file = open(path.c_str(), flags, 0600);
+        if (file < 0 || dup2(file, descriptor) < 0) _exit(126);
+    };
+    redirect(input, O_RDONLY, STDIN_FILENO);
+    redirect(output, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+    redirect(errors, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+    const rlimit limit{address_space, address_space};
+    if (address_space > 0 && setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
+    execv(program.c_str(), pointers.data());
+    _exit(127);
+}
+
+inline int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+inline Result run(const std::vector<std::string>& arguments, const How& how = {}) {
+    const Folder folder;
+    const std::string out = how.output.empty() ? folder / "out" : how.output, err = folder / "err";
+    const std::string input = how.input.empty() ? "/dev/null" : how.input;
+    Result result;
+    result.status = wait_for(start(arguments, input, out, err, how.address_space));
+    if (how.output.empty()) result.out = read_file(out);
+    result.err = read_file(err);
+    return result;
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+/// Two balls that overlap, radius 10 about the origin and about (15, 0, 0), and a cube of 4 cut out of the first.
+inline constexpr const char* two_balls =
+    "title {two balls}\n"
+    "units mm\n"
+    "put left.s ell V {0 0 0} A {10 0 0} B {0 10 0} C {0 0 10}\n"
+    "put right.s ell V {15 0 0} A {10 0 0} B {0 10 0} C {0 0 10}\n"
+    "put hole.s arb8 V1 {2 -2 -2} V2 {2 2 -2} V3 {2 2 2} V4 {2 -2 2} V5 {-2 -2 -2} V6 {-2 2 -2} V7 {-2 2 2} "
+    "V8 {-2 -2 2}\n"
+    "put left.r comb region yes id 1001 tree {- {l left.s} {l hole.s}}\n"
+    "put right.r comb region yes id 1002 tree {l right.s}\n"
+    "put all.g comb region no tree {u {l left.r} {l right.r}}\n";
+
+}  // namespace command_test

@@ -1,0 +1,60 @@
+#include <limits>
+
+#include "catch.hpp"
+#include "cli/partition_text.hpp"
+#include "cli/values.hpp"
+
+using namespace csgrt::cli;
+
+TEST_CASE("sizes") {
+    CHECK(parse_size("1024") == std::pair{1024, 1024});
+    CHECK(parse_size("1920x1080") == std::pair{1920, 1080});
+    CHECK(parse_size("1x32768") == std::pair{1, 32768});
+    for (const char* wrong :
+         {"", "x", "0", "32769", "1x", "x1", "1x2x3", "1 x2", "-1", "+1", "1.5", "0x10", "99999999999"}) {
+        CAPTURE(wrong);
+        CHECK(!parse_size(wrong));
+    }
+}
+
+TEST_CASE("amounts of memory") {
+    CHECK(parse_memory("800000") == 800'000u);
+    CHECK(parse_memory("3K") == 3072u);
+    CHECK(parse_memory("512M") == std::uint64_t{512} << 20);
+    CHECK(parse_memory("2G") == std::uint64_t{2} << 30);
+    CHECK(parse_memory("16777215T") == std::uint64_t{16'777'215} << 40);
+    for (const char* wrong : {"", "M", "0", "0G", "2g", "2GB", "1.5G", "-1", "16777216T", "18446744073709551616"}) {
+        CAPTURE(wrong);
+        CHECK(!parse_memory(wrong));
+    }
+}
+
+TEST_CASE("numbers") {
+    CHECK(parse_number("+2.5e-3") == 2.5e-3);
+    CHECK(parse_number("-0") == 0.0);
+    for (const char* wrong : {"", "+", "+-1", "inf", "nan", "1e999", "1,5", "1 ", "0x1p3", "--1"}) {
+        CAPTURE(wrong);
+        CHECK(!parse_number(wrong));
+    }
+}
+
+TEST_CASE("numbers are written so that they read back") {
+    std::string text;
+    append_number(text, 0.1);
+    CHECK(text == "0.10000000000000001");
+    text.clear();
+    append_shortest(text, 0.1);
+    CHECK(text == "0.1");
+    text.clear();
+    append_number(text, -std::numeric_limits<double>::infinity());
+    CHECK(text == "-inf");
+}
+
+TEST_CASE("names are one word") {
+    std::string text;
+    append_name(text, "a b\\c\td");
+    CHECK(text == "a\\040b\\134c\\011d");
+    text.clear();
+    append_name(text, "");
+    CHECK(text == "-");
+}

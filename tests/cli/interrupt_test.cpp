@@ -1,0 +1,126 @@
+// Ctrl-C and what is shown while it is awaited, on a terminal of the test's own.
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <poll.h>
+#include <pty.h>
+
+#include "cli/command.hpp"
+
+using namespace command_test;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto patience = std::chrono::seconds(60);
+
+/// A frame that takes the reference far longer than any test waits.
+std::vector<std::string> endless(const std::string& scene) {
+    return {scene, "all.g", "--reference", "--size", "64", "--repeat", "1000000"};
+}
+
+struct Screen {
+    int status = -1;
+    std::string text;
+};
+
+/// Runs the command with a terminal as its standard error and output; presses Ctrl-C once `awaited` is on it.
+Screen run_on_terminal(std::vector<std::string> words, const std::string& awaited) {
+    std::string program = command();
+    std::vector<char*> pointers = {program.data()};
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        setenv("TERM", "xterm", 1);
+        execv(program.c_str(), pointers.data());
+        _exit(127);
+    }
+    Screen screen;
+    bool pressed = false;
+    for (const auto begin = Clock::now(); Clock::now() - begin < patience;) {
+        pollfd waiting{terminal, POLLIN, 0};
+        poll(&waiting, 1, 100);
+        char bytes[4096];
+        if (waiting.revents != 0) {
+            const ssize_t count = read(terminal, bytes, sizeof bytes);
+            if (count <= 0) break;  // the command has closed its end
+            screen.text.append(bytes, static_cast<std::size_t>(count));
+        }
+        if (!pressed && !awaited.empty() && contains(screen.text, awaited)) {
+            REQUIRE(write(terminal, "\x03", 1) == 1);
+            pressed = true;
+        }
+    }
+    kill(child, SIGKILL);  // if it still runs, the test fails
+    screen.status = wait_for(child);
+    close(terminal);
+    return screen;
+}
+
+}  // namespace
+
+TEST_CASE("a terminal shows progress with the time left, and Ctrl-C exits with 130 and leaves nothing") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    auto words = endless(folder.write("balls.asc", two_balls));
+    words.insert(words.end(), {"--stats", folder / "stats.json"});
+    const Screen screen = run_on_terminal(words, " left");
+    INFO(screen.text);
+    CHECK(screen.status == 130);
+    CHECK(contains(screen.text, "\r\033[Krendering  0 %  "));
+    CHECK(contains(screen.text, "\r\033[Kcsgrt: \033[1;31merror:\033[0m interrupted\r\n"));
+    CHECK(folder.files().size() == 1);
+}
+
+TEST_CASE("NO_COLOR is honoured, and short work shows nothing") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls);
+    const Screen quick = run_on_terminal({scene, "--reference", "--size", "16", "--stats", folder / "stats.json"}, "");
+    CHECK(quick.status == 0);
+    CHECK(quick.text.empty());
+    setenv("NO_COLOR", "1", 1);
+    const Screen plain = run_on_terminal({scene}, "");
+    unsetenv("NO_COLOR");
+    CHECK(plain.status == 2);
+    CHECK(plain.text.starts_with("csgrt: error: nothing to write\r\n"));
+    CHECK(run_on_terminal({scene}, "").text.starts_with("csgrt: \033[1;31merror:\033[0m nothing to write\r\n"));
+}
+
+#ifdef CSGRT_HAVE_IMAGE
+TEST_CASE("no picture is written to a terminal") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const Screen screen = run_on_terminal({folder.write("balls.asc", two_balls), "--reference", "-o", "-"}, "");
+    CHECK(screen.status == 2);
+    CHECK(contains(screen.text, "a terminal cannot show a picture"));
+}
+#endif
+
+TEST_CASE("SIGINT and SIGTERM end a render, a shot and a wait for rays with 130, and leave no file") {
+    NEEDS_COMMAND();
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Folder folder;
+        const std::string scene = folder.write("balls.asc", two_balls);
+        REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+        const int held = open((folder / "pipe").c_str(), O_RDWR);  // someone who might still write: no end of file
+        REQUIRE(held >= 0);
+        auto render = endless(scene);
+        render.insert(render.end(), {"--stats", folder / "stats.json"});
+        const std::vector<std::string> shoot = {"shoot", scene, "--rays", folder / "pipe", "-o", folder / "out.txt"};
+        for (const auto& words : {render, shoot}) {
+            const pid_t child = start(words, "/dev/null", "/dev/null", folder / "err");
+            std::this_thread::sleep_for(std::chrono::milliseconds(700));
+            REQUIRE(kill(child, signal) == 0);
+            CHECK(wait_for(child) == 130);
+            CHECK(read_file(folder / "err") == "csgrt: error: interrupted\n");
+            CHECK(folder.files().size() == 3);  // the scene, the pipe and the messages
+        }
+        close(held);
+    }
+}

@@ -1,0 +1,125 @@
+// Every message about the command line itself: exit status 2, the option named, the nearest one suggested.
+#include "cli/command.hpp"
+
+using namespace command_test;
+
+namespace {
+
+struct Mistake {
+    std::vector<std::string> words;
+    const char* said;  ///< part of the message
+};
+
+}  // namespace
+
+TEST_CASE("a wrong command line exits with 2 and names what is wrong") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls);
+    const Mistake mistakes[] = {
+        {{}, "csgrt SCENE [OBJECT...] -o FILE.exr"},
+        {{scene}, "-o FILE.exr"},
+        {{scene, "--size", "0", "--stats", "-"}, "--size: '0' is not a size"},
+        {{scene, "--size", "32769", "--stats", "-"}, "--size"},
+        {{scene, "--size", "10x", "--stats", "-"}, "--size"},
+        {{scene, "--size", "-5", "--stats", "-"}, "--size"},
+        {{scene, "--size=", "--stats", "-"}, "--size"},
+        {{scene, "--size", "--stats", "-"}, "--size: a value is missing: N|WxH"},
+        {{scene, "--stats"}, "--stats: a value is missing"},
+        {{scene, "--size", "4", "--size", "5", "--stats", "-"}, "--size: given more than once"},
+        {{scene, "--azimuth", "inf", "--stats", "-"}, "--azimuth: 'inf' is not an angle"},
+        {{scene, "--elevation", "up", "--stats", "-"}, "--elevation: 'up' is not an angle"},
+        {{scene, "--perspective", "180", "--stats", "-"}, "--perspective: '180'"},
+        {{scene, "--perspective", "-1", "--stats", "-"}, "--perspective: '-1'"},
+        {{scene, "--max-memory", "2X", "--stats", "-"}, "--max-memory: '2X'"},
+        {{scene, "--max-memory", "0", "--stats", "-"}, "--max-memory: '0'"},
+        {{scene, "--max-memory", "16777216T", "--stats", "-"}, "--max-memory"},
+        {{scene, "--tolerance", "-1", "--stats", "-"}, "--tolerance: '-1'"},
+        {{scene, "--repeat", "0", "--stats", "-"}, "--repeat: '0'"},
+        {{scene, "--threads", "2", "--stats", "-"}, "--threads: has a meaning only with --reference"},
+        {{scene, "--device", "cpu", "--reference", "--stats", "-"}, "--device: cannot be combined with --reference"},
+        {{scene, "--air=yes", "--stats", "-"}, "--air: takes no value"},
+        {{scene, "--siez", "4", "--stats", "-"}, "--siez: no such option\n  did you mean '--size'?"},
+        {{scene, "-azimuth", "4", "--stats", "-"}, "did you mean '--azimuth'?"},
+        {{scene, "--persp", "4", "--stats", "-"}, "did you mean '--perspective'?"},
+        {{scene, "", "--stats", "-"}, "OBJECT: '' is not a name"},
+        {{"--stats", "-"}, "SCENE: missing"},
+        {{"shot"}, "no command and no file 'shot'\n  did you mean 'shoot'?"},
+        {{"help", "devcies"}, "did you mean 'devices'?"},
+        {{"help", "zzzzzzz"}, "'csgrt --help' lists the commands"},
+        {{"devices", "all"}, "'all' is one argument too many"},
+        {{"shoot", scene}, "--rays: missing"},
+        {{"compare", scene}, "B: missing"},
+        {{"info", scene, "--depth", "many"}, "--depth: 'many'"},
+        {{"convert", scene}, "OUT: missing"},
+        {{"convert", scene, "balls.g"}, "must end in .json"},
+    };
+    for (const Mistake& mistake : mistakes) {
+        const Result result = run(mistake.words);
+        INFO(result.err);
+        CAPTURE(mistake.words);
+        CHECK(result.status == 2);
+        CHECK(result.out.empty());
+        CHECK(result.err.starts_with("csgrt: error: "));
+        CHECK(contains(result.err, mistake.said));
+    }
+}
+
+TEST_CASE("all mistakes of a command line are told in one run") {
+    NEEDS_COMMAND();
+    const Result result = run({"--size", "big", "--azimuth", "east", "--colour"});
+    CHECK(result.status == 2);
+    for (const char* part : {"--size: 'big'", "--azimuth: 'east'", "--colour: no such option", "SCENE: missing"})
+        CHECK(contains(result.err, part));
+}
+
+TEST_CASE("help lists every option, and every option listed is understood") {
+    NEEDS_COMMAND();
+    struct Table {
+        const char* command;
+        std::vector<std::string> options;
+    };
+    const Table tables[] = {
+        {"",
+         {"-o, --output FILE", "--format exr|png", "--size N|WxH", "--azimuth DEG", "--elevation DEG",
+          "--perspective DEG", "--device NAME|cpu|gpu|N", "--reference", "--stats FILE", "--repeat N",
+          "--max-memory SIZE", "--tolerance MM", "--air", "--threads N", "--first-hit", "-h, --help"}},
+        {"shoot",
+         {"--rays FILE", "-o, --output FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
+          "--tolerance MM", "--air", "--threads N", "-h, --help"}},
+        {"compare", {"--tolerance X", "-h, --help"}},
+        {"devices", {"-h, --help"}},
+        {"info", {"--air", "--depth N", "-h, --help"}},
+        {"convert", {"-h, --help"}},
+    };
+    for (const Table& table : tables) {
+        const std::string name = table.command;
+        const Result help = name.empty() ? run({"--help"}) : run({"help", name});
+        CAPTURE(name);
+        REQUIRE(help.status == 0);
+        CHECK(help.err.empty());
+        std::size_t listed = 0;
+        for (std::size_t at = 0; (at = help.out.find("\n  -", at)) != help.out.npos; ++at) ++listed;
+        CHECK(listed == table.options.size());
+        for (const std::string& option : table.options) {
+            CAPTURE(option);
+            CHECK(contains(help.out, "\n  " + option));
+            const std::string word =
+                option.substr(option.find("--"), option.find(' ', option.find("--")) - option.find("--"));
+            std::vector<std::string> words = {word};
+            if (!name.empty()) words.insert(words.begin(), name);
+            CHECK(!contains(run(words).err, "no such option"));
+        }
+        const Result inside = name.empty() ? run({"scene.json", "-h"}) : run({name, "--help"});
+        CHECK(inside.status == 0);
+        CHECK(inside.out == help.out);
+    }
+}
+
+TEST_CASE("--version prints one line") {
+    NEEDS_COMMAND();
+    const Result result = run({"--version"});
+    CHECK(result.status == 0);
+    CHECK(result.out.starts_with("csgrt "));
+    CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 1);
+}

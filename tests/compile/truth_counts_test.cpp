@@ -1,0 +1,146 @@
+// BRL-CAD's own models: as many solids and regions as its library counts, the same paths, the same box.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <csgrt/scene_io.hpp>
+
+#include "catch.hpp"
+#include "compile/bounds.hpp"
+#include "compile/flatten.hpp"
+#include "compile/linear.hpp"
+#include "compile/linearize.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+std::string folder(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && std::filesystem::is_directory(value) ? value : "";
+}
+
+/// What a set of truth says of its model.
+struct Truth {
+    std::size_t solids = 0, regions = 0;
+    double box[6] = {};
+    std::set<std::string> paths;  ///< of the regions that a ray hit
+};
+
+Truth read_truth(const std::string& file) {
+    Truth truth;
+    std::FILE* pipe = popen(("gzip -dc '" + file + "'").c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    char* line = nullptr;
+    std::size_t capacity = 0;
+    while (getline(&line, &capacity, pipe) > 0) {
+        std::istringstream words(line);
+        std::string word;
+        if (line[0] == '/') {
+            words >> word;
+            truth.paths.insert(word);
+        } else if (line[0] == '#') {
+            words >> word >> word;
+            if (word == "box")
+                for (double& side : truth.box) words >> side;
+            if (word == "rays") words >> word >> word >> truth.solids >> word >> truth.regions;
+        }
+    }
+    std::free(line);
+    REQUIRE(pclose(pipe) == 0);
+    return truth;
+}
+
+/// BRL-CAD looks for an identical solid only while a solid has fewer than 100 instances. As many as it then counts:
+std::size_t solids_as_brlcad_counts(const FlatScene& flat) {
+    std::map<std::uint32_t, int> uses;
+    std::set<std::uint32_t> seen;
+    std::size_t count = 0;
+    for (const FlatRegion& region : flat.regions) {
+        for (const FlatTree::Node& node : region.tree.nodes) {
+            if (node.op != Operator::leaf) continue;
+            int& used = uses[flat.instances[node.solid].object];
+            if (used < 100 && seen.count(node.solid) != 0) continue;
+            seen.insert(node.solid);
+            ++used;
+            ++count;
+        }
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it finds itself") {
+    const std::string truths = folder("CSGRT_TRUTH"), models = folder("CSGRT_BRLCAD");
+    if (truths.empty() || models.empty()) {
+        WARN("CSGRT_TRUTH and CSGRT_BRLCAD name no folders: skipped");
+        return;
+    }
+    std::ifstream list(truths + "/objects.txt");
+    int sets = 0;
+    for (std::string line; std::getline(list, line);) {
+        if (line.empty() || line[0] == '#') continue;
+        std::istringstream words(line);
+        std::string set, base;
+        words >> set;
+        base = set.substr(0, set.find('.'));
+        std::vector<std::string> objects;
+        for (std::string object; words >> object;) objects.push_back(object);
+        INFO(set);
+        std::string model = models + "/" + base + ".asc";
+        if (!std::filesystem::exists(model)) model = truths + "/solids/" + base + ".asc";
+        std::string truth_file = truths + "/" + set + ".txt.gz";
+        if (!std::filesystem::exists(truth_file)) truth_file = truths + "/" + set + ".v1.txt.gz";
+        REQUIRE(std::filesystem::exists(model));
+        REQUIRE(std::filesystem::exists(truth_file));
+        const Truth truth = read_truth(truth_file);
+        const Scene scene = load_scene(model);
+        const FlatScene flat = flatten(scene, objects, false);
+        ++sets;
+
+        // Regions of nothing but solids that BRL-CAD refused are its own affair; there are none.
+        CHECK(flat.regions.size() == truth.regions);
+        std::set<std::string> paths;
+        for (const FlatRegion& region : flat.regions) paths.insert(region.info.path);
+        for (const std::string& path : truth.paths) CHECK(paths.count(path) == 1);
+        if (set == "goliath") {
+            // Walked by several threads at once: which solids come within the first 100 is chance.
+            CHECK(flat.instances.size() == 3336);
+            CHECK(flat.instances.size() < truth.solids);
+        } else {
+            CHECK(solids_as_brlcad_counts(flat) == truth.solids);
+        }
+
+        std::vector<Box> boxes;
+        bool all_known = true;
+        for (const Instance& instance : flat.instances) {
+            const Shape& shape = std::get<Solid>(scene.objects[instance.object]).shape;
+            all_known = all_known && !std::holds_alternative<Unsupported>(shape);
+            boxes.push_back(brlcad_box(shape, instance.matrix));
+        }
+        if (!all_known) continue;
+        Box box = empty_box;
+        std::vector<std::uint32_t> trees;
+        for (const FlatRegion& region : flat.regions) {
+            const Box own = tree_box(region.tree, boxes);
+            if (is_finite(own) && !is_empty(own)) box = united(box, own);
+            CHECK(linearize(region.tree, trees).stack <= 4);
+        }
+        // Rounded outward to whole units there, from numbers with roundings of their own.
+        const double sides[] = {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z};
+        const double slack = 1e-9 * diagonal(box);
+        for (int i = 0; i < 6; ++i) {
+            INFO("side " << i << ": " << sides[i] << ", there " << truth.box[i]);
+            const double outward = i < 3 ? sides[i] - truth.box[i] : truth.box[i] - sides[i];
+            CHECK(outward >= -slack);
+            CHECK(outward <= 1 + slack);
+        }
+    }
+    CHECK(sets >= 20);
+}

@@ -1,0 +1,174 @@
+// Puts the partitions of a ray before the scene oracle.
+//
+// Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one that
+// may be there is; where several are, the overlap is listed with all of them. On rays without a tie and without overlaps,
+// each region's partitions are the oracle's spans, end for end. Normals are unit vectors, and at an end that belongs
+// to one solid's surface alone they are that surface's, turned against the ray on the way in and along it on the way out.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+#include "print.hpp"
+#include "scene_oracle.hpp"
+
+namespace csgrt::oracle {
+
+class SceneJudge {
+public:
+    /// `regions`: the renderer's, by index. `slack` in millimetres: ends this close together may be one.
+    SceneJudge(const SceneOracle& oracle, const std::vector<RegionInfo>& regions, double slack)
+        : oracle_(oracle), slack_(slack) {
+        // The n-th region of a path is the oracle's n-th of it.
+        std::map<std::string, std::vector<std::uint32_t>> known;
+        for (std::size_t i = 0; i < oracle.regions().size(); ++i)
+            known[oracle.regions()[i].path].push_back(static_cast<std::uint32_t>(i));
+        std::map<std::string, std::size_t> used;
+        for (const RegionInfo& region : regions) {
+            const std::vector<std::uint32_t>& same = known[region.path];
+            const std::size_t n = used[region.path]++;
+            if (n < same.size())
+                to_oracle_.push_back(same[n]);
+            else
+                unknown_ += "the oracle has no region " + region.path + "; ";
+        }
+    }
+
+    /// Regions that the renderer has and the oracle has not; empty: none.
+    const std::string& unknown_regions() const { return unknown_; }
+
+    /// What is wrong; empty: nothing. Adds 1 to `ties` if rounding, or the slack, decides something on this ray.
+    std::string judge(const Ray& ray, const RayPartitions& found, std::size_t& ties) const {
+        const SceneAnswer answer = oracle_.shoot(ray, slack_);
+        std::ostringstream wrong;
+        wrong.precision(17);
+        ties += answer.tie ? 1 : 0;
+        check_order(found, wrong);
+        bool overlaps = false;
+        for (const Piece& piece : answer.pieces) {
+            check_piece(piece, found, wrong);
+            overlaps = overlaps || certain(piece) > 1;  // also behind the start: they cut what reaches across it
+        }
+        if (!answer.tie && !overlaps) check_spans(ray, answer, found, wrong);
+        check_normals(ray, answer, found, wrong);
+        if (wrong.str().empty()) return {};
+        wrong << "\n  " << describe(ray) << "\n  found:";
+        for (const Partition& p : found.partitions)
+            print(print(wrong << "\n    [" << p.in << ", " << p.out << "] " << name(to_oracle_[p.region]) << ' ', p.in_normal) << ' ',
+                  p.out_normal);
+        for (const Overlap& o : found.overlaps) {
+            wrong << "\n    overlap [" << o.in << ", " << o.out << ']';
+            for (const std::uint32_t r : o.regions) wrong << ' ' << name(to_oracle_[r]);
+        }
+        wrong << "\n  oracle" << (answer.tie ? ", a tie:" : ":");
+        for (const Piece& piece : answer.pieces) {
+            if (piece.claims.empty()) continue;
+            wrong << "\n    [" << piece.in << ", " << piece.out << ']';
+            for (const Piece::Claim& c : piece.claims) wrong << ' ' << name(c.region) << (c.certain ? "" : "?");
+        }
+        return wrong.str();
+    }
+
+private:
+    const std::string& name(std::uint32_t region) const { return oracle_.regions()[region].path; }
+    static std::size_t certain(const Piece& piece) {
+        return static_cast<std::size_t>(
+            std::count_if(piece.claims.begin(), piece.claims.end(), [](const Piece::Claim& c) { return c.certain; }));
+    }
+    static bool claimed(const Piece& piece, std::uint32_t region) {
+        return std::any_of(piece.claims.begin(), piece.claims.end(), [&](const Piece::Claim& c) { return c.region == region; });
+    }
+
+    static void check_order(const RayPartitions& found, std::ostream& wrong) {
+        for (std::size_t i = 0; i < found.partitions.size(); ++i) {
+            if (!(found.partitions[i].in < found.partitions[i].out)) wrong << "partition " << i << " has no length; ";
+            if (i > 0 && !(found.partitions[i - 1].out <= found.partitions[i].in)) wrong << "partition " << i << " overlaps; ";
+        }
+    }
+
+    void check_piece(const Piece& piece, const RayPartitions& found, std::ostream& wrong) const {
+        const double in = std::max(piece.in, 0.0), out = piece.out;
+        if (!(out - in > 1e-13 * std::abs(in))) return;
+        const double t = std::isinf(out) ? in + 1 + std::abs(in) : in + 0.5 * (out - in);
+        const Partition* here = nullptr;
+        for (const Partition& p : found.partitions)
+            if (p.in <= t && t <= p.out) here = &p;
+        const Overlap* overlap = nullptr;
+        for (const Overlap& o : found.overlaps)
+            if (o.in <= t && t <= o.out) overlap = &o;
+
+        if (here && !claimed(piece, to_oracle_[here->region])) wrong << name(to_oracle_[here->region]) << " is not at " << t << "; ";
+        const std::size_t sure = certain(piece);
+        if (!here && sure > 0) wrong << "nothing found at " << t << "; ";
+        if (overlap) {
+            for (const std::uint32_t r : overlap->regions)
+                if (!claimed(piece, to_oracle_[r])) wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
+            for (const Piece::Claim& c : piece.claims) {
+                bool listed = false;
+                for (const std::uint32_t r : overlap->regions) listed = listed || to_oracle_[r] == c.region;
+                if (c.certain && !listed) wrong << name(c.region) << " is missing from the overlap at " << t << "; ";
+            }
+        } else if (sure > 1) {
+            wrong << "no overlap listed at " << t << "; ";
+        }
+    }
+
+    void check_spans(const Ray& ray, const SceneAnswer& answer, const RayPartitions& found, std::ostream& wrong) const {
+        const double speed = to_double(length(QVec(ray.direction)));
+        double widest = 0;
+        for (const Event& e : answer.events) widest = std::max(widest, e.tolerance);
+        const double allowed = slack_ / speed + widest;
+        for (std::size_t r = 0; r < answer.regions.size(); ++r) {
+            std::vector<const Partition*> mine;
+            for (const Partition& p : found.partitions)
+                if (to_oracle_[p.region] == r && p.out > allowed) mine.push_back(&p);
+            std::size_t next = 0;
+            for (const Span& span : answer.regions[r]) {
+                const double in = to_double(span.in.at), out = to_double(span.out.at);
+                if (out <= allowed) continue;  // behind the start, or at it
+                const auto close = [&](double a, double b) { return a == b || std::abs(a - b) <= allowed; };
+                if (next == mine.size() || !close(mine[next]->in, in) || !close(mine[next]->out, out))
+                    wrong << name(static_cast<std::uint32_t>(r)) << " should be at [" << in << ", " << out << "]; ";
+                else
+                    ++next;
+            }
+            if (next < mine.size()) wrong << name(static_cast<std::uint32_t>(r)) << " has too many partitions; ";
+        }
+    }
+
+    void check_normals(const Ray& ray, const SceneAnswer& answer, const RayPartitions& found, std::ostream& wrong) const {
+        const QVec d = ray.direction;
+        const double speed = to_double(length(d));
+        const auto check = [&](double t, const Vec3& normal, double turned) {
+            if (!std::isfinite(t)) return;
+            if (std::abs(to_double(length(normal)) - 1) > 1e-12) wrong << "the normal at " << t << " is no unit vector; ";
+            const Event* only = nullptr;
+            for (const Event& e : answer.events) {
+                if (std::abs(e.t - t) > 3 * slack_ / speed + e.tolerance) continue;
+                if (only) return;
+                only = &e;
+            }
+            // Where the hit itself may be displaced, curvature turns the normal: left to the judge of single solids.
+            if (!only || only->tolerance * speed > 1e-8) return;
+            const double side = to_double(dot(only->normal, d)) * turned > 0 ? 1 : -1;
+            if (to_double(length(quad(side) * QVec(only->normal) - QVec(normal))) > 1e-6)
+                wrong << "the normal at " << t << " is not the surface's; ";
+        };
+        for (const Partition& p : found.partitions) {
+            check(p.in, p.in_normal, -1);
+            check(p.out, p.out_normal, 1);
+        }
+    }
+
+    const SceneOracle& oracle_;
+    double slack_;
+    std::vector<std::uint32_t> to_oracle_;
+    std::string unknown_;
+};
+
+}  // namespace csgrt::oracle
