@@ -7,7 +7,8 @@
 
 namespace csgrt {
 
-/// Reads .json (csgrt's own format, scenes/csgrt.schema.json) or .asc (BRL-CAD text, v4 and v5), by extension.
+/// Reads .json (csgrt's own format, scenes/csgrt.schema.json), .g (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5),
+/// by extension.
 /// Throws Error: Status::file if it cannot be read, Status::scene with every finding if it is wrong.
 /// The result is syntactically sound; `validate` checks the model.
 CSGRT_API Scene load_scene(const std::string& path);

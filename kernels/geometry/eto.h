@@ -67,7 +67,10 @@ FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
         g.c[4] = difference_of_products(p2, p2, r2, s2);
     }
     count = sign_changes(g, low, high, roots);
-    for (i = 0; i < count; ++i) roots[i] = l.shift + eto_polish(p, l.o, d, roots[i]) / length;
+    for (i = 0; i < count; ++i) {
+        roots[i] = l.shift + eto_polish(p, l.o, d, roots[i]) / length;
+        if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
+    }
     return spans_between(s, 0, roots, count & ~1, 0);
 }
 

@@ -1,7 +1,7 @@
 // Truncated general cone: cylinders and cones, right or oblique, circular or elliptical, with one or two different
 // tapers. Parameters: affine (12), a0, a1, b0, b1, kind, radius2. Planes: 0 base, 1 top. Surfaces: 0 side, 1 base, 2 top.
 //
-//   local z = -1 at the base, +1 at the top; semi-axes a(z) = a0 + a1 z along x, b(z) = b0 + b1 z along y
+//   local z = -1 at the base, +1 at the top (a cone with an apex: 0 at the apex); semi-axes a(z) = a0 + a1 z along x, b(z) = b0 + b1 z along y
 //   kind 0 (a = b):  x^2 + y^2 - a^2 < 0             a quadric
 //   kind 1:          x^2 b^2 + y^2 a^2 - a^2 b^2 < 0  a quartic
 //   radius2: the square of a radius, local, around everything
@@ -17,7 +17,10 @@
 #define TGC_TOP 2
 
 // x^2 + y^2 = m^2 with m = m0 + m1 u. Its discriminant b^2 - a c equals |m0 d - m1 o|^2 - (o x d)^2 (all in x, y),
-// which does not cancel where b^2 and a c do.
+// which does not cancel where b^2 and a c do. A ray steeper than the cone (a < 0) meets both of its nappes, one root on
+// each, and m changes sign between them: the piece on which m > 0 is the cone's.
+//
+// A cone with a true apex has it as its local origin (m0 = m1 z / d.z exactly), so that rays past the apex keep their digits.
 FN hits cone_inside(local_ray l, real m0, real m1, span s) {
     real wx = difference_of_products(m0, l.d.x, m1, l.o.x);
     real wy = difference_of_products(m0, l.d.y, m1, l.o.y);
@@ -27,6 +30,24 @@ FN hits cone_inside(local_ray l, real m0, real m1, span s) {
     real a = real_fma(l.d.x, l.d.x, l.d.y * l.d.y) - m1 * m1;
     real b = real_fma(l.o.x, l.d.x, l.o.y * l.d.y) - m0 * m1;
     real c = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - m0 * m0;
+    if (a < 0) {
+        real u = -m0 / m1;
+        if (discriminant > 0) {
+            real root = real_sqrt(discriminant);
+            real q = b > 0 ? -(b + root) : root - b;
+            real u1 = q / a, u2 = c / q;
+            u = m1 > 0 ? real_max(u1, u2) : real_min(u1, u2);
+        }
+        u = l.shift + u;
+        if (m1 > 0 && u > s.low) {
+            s.low = u;
+            s.low_surface = TGC_SIDE;
+        } else if (m1 < 0 && u < s.high) {
+            s.high = u;
+            s.high_surface = TGC_SIDE;
+        }
+        return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+    }
     return quadratic_inside(a, b, c, discriminant, l.shift, s, TGC_SIDE);
 }
 

@@ -56,7 +56,10 @@ FN hits tor_intersect(GLOBAL const real* p, ray3 r) {
     g.c[1] = REAL(4) * real_fma(beta, m, REAL(2) * l.o.z * d.z);
     g.c[0] = real_fma(m, m, REAL(4) * (l.o.z - ratio) * (l.o.z + ratio));
     count = sign_changes(g, low, high, roots);
-    for (i = 0; i < count; ++i) roots[i] = l.shift + tor_polish(l.o, d, roots[i], ratio) / length;
+    for (i = 0; i < count; ++i) {
+        roots[i] = l.shift + tor_polish(l.o, d, roots[i], ratio) / length;
+        if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
+    }
     return spans_between(s, 0, roots, count & ~1, 0);
 }
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,25 +24,24 @@ LineReader::LineReader(const std::string& path, Passes passes)
     : name_(path == "-" ? "standard input" : path), buffer_(first_buffer, '\0') {
     file_.reset(path == "-" ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
     if (!file_) fail("cannot read", errno);
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // the buffer here is large enough
     struct stat about {};
     bool regular = fstat(fileno(file_.get()), &about) == 0 && S_ISREG(about.st_mode);
     if (passes == Passes::several && (!regular || path == "-")) spool();
 }
 
 void LineReader::fail(const std::string& what, int code) const {
+    check_interrupt();  // a signal may be why
     throw Error(Status::file, name_ + ": " + what + ": " + std::strerror(code));
 }
 
 std::size_t LineReader::read(char* into, std::size_t size) {
-    check_interrupt();
-    errno = 0;
-    std::size_t count = std::fread(into, 1, size, file_.get());
-    if (std::ferror(file_.get())) {
-        check_interrupt();
-        fail("cannot read", errno);
-    }
-    return count;
+    // Waits in short turns, because a signal that comes just before a wait does not end it.
+    const int file = fileno(file_.get());
+    pollfd waiting{file, POLLIN, 0};
+    for (int ready = 0; ready == 0 || (ready < 0 && errno == EINTR); ready = poll(&waiting, 1, 200)) check_interrupt();
+    const ssize_t count = ::read(file, into, size);
+    if (count < 0) fail("cannot read", errno);
+    return static_cast<std::size_t>(count);
 }
 
 void LineReader::spool() {
@@ -56,7 +56,7 @@ void LineReader::spool() {
 }
 
 void LineReader::rewind() {
-    if (std::fseek(file_.get(), 0, SEEK_SET) != 0) fail("cannot read again", errno);
+    if (lseek(fileno(file_.get()), 0, SEEK_SET) != 0) fail("cannot read again", errno);
     begin_ = end_ = 0;
     line_number_ = 0;
 }

@@ -45,7 +45,7 @@ struct Tight {
     }
     Box operator()(const Arb& s) const {
         const ArbFaces faces = arb_faces(s, m);
-        return faces.is_hull ? corners_box(s, m) : around_planes(faces.planes);
+        return faces.is_hull ? corners_box(s, m) : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
     }
     Box operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
     Box operator()(const Half&) const { return whole_space; }
@@ -67,8 +67,8 @@ struct Tight {
     }
     Box operator()(const Unsupported&) const { return {}; }
 
-    static Box around_planes(const std::vector<Plane>& planes) {
-        const Box box = polyhedron_box(planes);
+    static Box around_planes(const std::vector<Plane>& planes, const Vec3& near = {}) {
+        const Box box = polyhedron_box(planes, near);
         if (!is_finite(box)) return box;
         if (is_empty(box)) {
             // Never hit; any place will do.

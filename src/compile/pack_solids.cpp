@@ -71,12 +71,15 @@ struct Packer {
         const Wide half = 0.5L * wide(s.h);
         const Taper a = taper(s.a, s.c);
         Taper b = taper(s.b, s.d);
-        frame(wide(s.v) + half, {a.axis, b.axis, half});
         // |A||D| = |B||C|, in units of the larger ends.
         const long double ad = (a.p0 - a.p1) * (b.p0 + b.p1), bc = (b.p0 - b.p1) * (a.p0 + a.p1);
         const bool quadric = std::fabs(ad - bc) <= same_taper * std::max(ad, bc);
         if (quadric) b = {b.axis, a.p0, a.p1};
-        real(a.p0);
+        // The origin is the middle of the axis, or the apex of a cone that has one.
+        const bool apex = quadric && a.p0 == std::fabs(a.p1);
+        const Wide middle = wide(s.v) + half;
+        frame(!apex ? middle : a.p1 < 0 ? middle + half : middle - half, {a.axis, b.axis, half});
+        real(apex ? 0 : a.p0);
         real(a.p1);
         real(b.p0);
         real(b.p1);

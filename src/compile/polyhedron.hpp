@@ -27,8 +27,8 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix);
 /// The faces of an arbn in the world.
 std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix);
 
-/// The box around the intersection of half-spaces; infinite where that is not bounded, empty if there is none.
-/// Expected time is linear in the number of planes.
-Box polyhedron_box(const std::vector<Plane>& planes);
+/// The box around the intersection of half-spaces; the whole space if that is not bounded, empty if there is none.
+/// Expected time is linear in the number of planes. A point nearby, if one is known, helps precision.
+Box polyhedron_box(const std::vector<Plane>& planes, const Vec3& near = {});
 
 }  // namespace csgrt

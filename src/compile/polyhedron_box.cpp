@@ -17,13 +17,13 @@ namespace {
 
 // Up to this many planes, n^3 is less than what linear programming costs.
 constexpr std::size_t few = 16;
-// Relative to the distance from the origin: an edge this far outside a plane is on it.
-constexpr long double on_edge = 1e-13L;
+// Relative to distances: an edge this far outside a plane is on it.
+constexpr double on_edge = 1e-12;
 // Relative to the cube: a point this far outside a plane is on it.
 constexpr long double on_plane = 1e-15L;
 // Planes that meet at a smaller angle (radians) than this are parallel: where they meet is noise, and the box is the
 // larger for it.
-constexpr long double parallel = 1e-10L;
+constexpr double parallel = 1e-10;
 
 /// sum n_i x_i <= d over N variables.
 template <std::size_t N>
@@ -81,7 +81,7 @@ struct Border {
 template <std::size_t N>
 bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long double reach) {
     const long double square = dot(c.n, c.n);
-    if (square < parallel * parallel) return c.d >= -parallel * reach;
+    if (square < static_cast<long double>(parallel * parallel)) return c.d >= -parallel * reach;
     if (square < 0.1L || square > 10) {
         const long double inverse = 1 / std::sqrt(square);
         for (long double& n : c.n) n *= inverse;
@@ -145,23 +145,31 @@ std::optional<Box> box_within(const std::vector<Plane>& planes, const Wide& cent
     return Box{narrow(center + low), narrow(center + high)};
 }
 
-/// The box around all edges; nothing if there are none.
-std::optional<Box> box_of_edges(const std::vector<Plane>& planes) {
+/// The box around all edges, if there are any. Distances are taken from `near`.
+std::optional<Box> box_of_edges(const std::vector<Plane>& planes, const Vec3& near) {
+    struct Side {
+        glm::dvec3 n;
+        double d;
+    };
+    std::vector<Side> sides;
+    for (const Plane& plane : planes) {
+        const glm::dvec3 n(plane.normal.x, plane.normal.y, plane.normal.z);
+        sides.push_back({n, static_cast<double>(plane.distance - glm::dot(wide(plane.normal), wide(near)))});
+    }
     Box box = empty_box;
-    for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t i = 0; i < sides.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            const Wide a = wide(planes[i].normal), b = wide(planes[j].normal);
-            const Wide across = glm::cross(a, b);
-            const long double square = glm::dot(across, across);
+            const auto &a = sides[i], &b = sides[j];
+            const glm::dvec3 across = glm::cross(a.n, b.n);
+            const double square = glm::dot(across, across);
             if (square < parallel * parallel) continue;
-            const Wide on = (static_cast<long double>(planes[i].distance) * glm::cross(b, across) + static_cast<long double>(planes[j].distance) * glm::cross(across, a)) / square;
-            const Wide along = across / std::sqrt(square);
-            const long double slack = on_edge * (std::sqrt(glm::dot(on, on)) + std::fabs(static_cast<long double>(planes[i].distance)));
-            long double low = -infinity, high = infinity;
-            for (std::size_t k = 0; k < planes.size() && low <= high + slack; ++k) {
+            const glm::dvec3 on = (a.d * glm::cross(b.n, across) + b.d * glm::cross(across, a.n)) / square;
+            const glm::dvec3 along = across / std::sqrt(square);
+            const double slack = on_edge * (glm::length(on) + std::fabs(a.d) + std::fabs(b.d));
+            double low = -infinity, high = infinity;
+            for (std::size_t k = 0; k < sides.size() && low <= high + slack; ++k) {
                 if (k == i || k == j) continue;
-                const Wide n = wide(planes[k].normal);
-                const long double rate = glm::dot(n, along), above = glm::dot(n, on) - planes[k].distance;
+                const double rate = glm::dot(sides[k].n, along), above = glm::dot(sides[k].n, on) - sides[k].d;
                 if (rate > parallel) {
                     high = std::min(high, -above / rate);
                 } else if (rate < -parallel) {
@@ -170,10 +178,12 @@ std::optional<Box> box_of_edges(const std::vector<Plane>& planes) {
                     high = -infinity;
                 }
             }
-            if (low > high + slack) continue;
+            if (!(low <= high + slack)) continue;
             if (low == -infinity || high == infinity) return whole_space;
-            extend(box, narrow(on + low * along));
-            extend(box, narrow(on + high * along));
+            for (const double t : {low, high}) {
+                const glm::dvec3 p = on + t * along;
+                extend(box, {near.x + p.x, near.y + p.y, near.z + p.z});
+            }
         }
     }
     if (is_empty(box)) return std::nullopt;
@@ -182,9 +192,9 @@ std::optional<Box> box_of_edges(const std::vector<Plane>& planes) {
 
 }  // namespace
 
-Box polyhedron_box(const std::vector<Plane>& planes) {
+Box polyhedron_box(const std::vector<Plane>& planes, const Vec3& near) {
     if (planes.size() <= few)
-        if (const std::optional<Box> box = box_of_edges(planes)) return *box;
+        if (const std::optional<Box> box = box_of_edges(planes, near)) return *box;
 
     std::vector<Plane> shuffled = planes;
     std::uint64_t random = 0x9e3779b97f4a7c15u;  // a fixed start: the same planes, the same box

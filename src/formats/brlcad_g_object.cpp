@@ -41,6 +41,7 @@ std::string read_name(ByteReader& bytes, std::uint8_t flags) {
 
 GBlock read_block(ByteReader& bytes, std::uint8_t flags, const char* what) {
     GBlock block;
+    block.offset = bytes.offset();  // where it would stand
     if ((flags & is_present) == 0) return block;
     const std::uint64_t length = bytes.number(width_of(flags), what);
     block.offset = bytes.offset();

@@ -157,9 +157,11 @@ JsonObject::JsonObject(const JsonNode& node, const JsonForm& form) : node_(node)
     if (!node.present()) return;
     std::vector<std::string_view> known;
     for (const JsonKey& key : form.keys) known.push_back(key.name);
+    std::string suggested;  // a key that is missing because it is misspelt is reported once
     for (const JsonNode::Member& member : node.members()) {
         if (std::find(known.begin(), known.end(), member.name) != known.end()) continue;
         std::string suggestion = did_you_mean(member.name, known);
+        suggested += suggestion;
         if (suggestion.empty()) {
             for (const std::string_view name : known) suggestion += (suggestion.empty() ? "known: " : ", ") + std::string(name);
         }
@@ -167,7 +169,8 @@ JsonObject::JsonObject(const JsonNode& node, const JsonForm& form) : node_(node)
     }
     if (!node.is_object()) return;
     for (const JsonKey& key : form.keys) {
-        if (key.required && !has(key.name)) node.fault("the key '" + std::string(key.name) + "' is missing");
+        const bool misspelt = suggested.find("'" + std::string(key.name) + "'") != std::string::npos;
+        if (key.required && !has(key.name) && !misspelt) node.fault("the key '" + std::string(key.name) + "' is missing");
     }
 }
 

@@ -128,6 +128,7 @@ private:
     }
 
     std::string hint(std::size_t offset) const {
+        if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) return "the file is empty";
         const std::string_view rest = text_.substr(std::min(offset, text_.size()));
         const std::size_t before = text_.substr(0, offset).find_last_not_of(" \t\r\n");
         const char previous = before == std::string_view::npos ? '\0' : text_[before];

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "formats/brlcad_asc.hpp"
+#include "formats/brlcad_g.hpp"
 #include "formats/json_reader.hpp"
 #include "formats/json_writer.hpp"
 
@@ -77,10 +78,8 @@ Scene load_scene(const std::string& path) {
     const std::string extension = extension_of(path);
     if (extension == ".json") return read_json(path);
     if (extension == ".asc") return read_brlcad_asc(path);
-    if (extension == ".g") {
-        refuse(path, "binary databases of BRL-CAD are not read", "convert it with BRL-CAD's `g2asc FILE.g FILE.asc`");
-    }
-    refuse(path, "this is no scene by its name", "scenes end in .json (csgrt) or .asc (BRL-CAD text)");
+    if (extension == ".g") return read_brlcad_g(path);
+    refuse(path, "this is no scene by its name", "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
 }
 
 void save_scene(const Scene& scene, const std::string& path) {

@@ -8,8 +8,8 @@ namespace csgrt {
 
 namespace {
 
-/// Bytes of a long line that are shown before and after the place.
-constexpr std::size_t shown_before = 60, shown_after = 50;
+/// Bytes of a line that are shown, and how many of them stand before a place that is farther to the right.
+constexpr std::size_t shown = 110, shown_before = 70;
 
 bool continues_character(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
@@ -19,21 +19,21 @@ bool continues_character(char c) {
 
 std::string excerpt(std::string_view line, std::size_t column) {
     column = std::min(column, line.size());
-    std::size_t begin = column > shown_before ? column - shown_before : 0;
-    std::size_t end = std::min(line.size(), column + shown_after);
+    std::size_t begin = line.size() <= shown || column <= shown_before ? 0 : column - shown_before;
+    std::size_t end = std::min(line.size(), begin + shown);
     while (begin > 0 && continues_character(line[begin])) --begin;
     while (end < line.size() && continues_character(line[end])) ++end;
 
-    std::string shown = begin > 0 ? "..." : "";
-    std::string caret(shown.size(), ' ');
+    std::string text = begin > 0 ? "..." : "";
+    std::string caret(text.size(), ' ');
     for (std::size_t i = begin; i < end; ++i) {
         // A control character in the file must not act on the terminal that shows the message.
         const auto c = static_cast<unsigned char>(line[i]);
-        shown += c < 0x20 || c == 0x7F ? ' ' : line[i];
+        text += c < 0x20 || c == 0x7F ? ' ' : line[i];
         if (i < column && !continues_character(line[i])) caret += ' ';
     }
-    if (end < line.size()) shown += "...";
-    return shown + '\n' + caret + '^';
+    if (end < line.size()) text += "...";
+    return text + '\n' + caret + '^';
 }
 
 std::string excerpt(const Place& place) {

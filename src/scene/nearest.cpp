@@ -33,14 +33,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return last[b.size()];
 }
 
+/// "tor" and "torus", "intersect" and "intersection".
+bool is_start(std::string_view start, std::string_view whole) {
+    return start.size() >= 3 && whole.starts_with(start);
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string_view>& known) {
     if (wrong.size() > longest) return {};
     const std::size_t allowed = std::max<std::size_t>(1, wrong.size() / 3);
-    std::string_view best;
+    std::string_view best, same_start;
     std::size_t best_distance = allowed + 1;
     for (const std::string_view candidate : known) {
+        if (is_start(candidate, wrong) || is_start(wrong, candidate)) same_start = candidate;
         const std::size_t difference = std::max(candidate.size(), wrong.size()) - std::min(candidate.size(), wrong.size());
         if (difference >= best_distance) continue;  // the distance is no less than that
         const std::size_t distance = edit_distance(wrong, candidate);
@@ -50,7 +56,8 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string_v
             best_distance = distance;
         }
     }
-    return best_distance > allowed ? std::string() : "did you mean '" + std::string(best) + "'?";
+    if (best.empty()) best = same_start;
+    return best.empty() ? std::string() : "did you mean '" + std::string(best) + "'?";
 }
 
 }  // namespace csgrt

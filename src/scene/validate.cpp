@@ -45,7 +45,8 @@ public:
         }
         report_unsupported();
         if (found_.empty() && solids == 0) {
-            add({}, "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
+            add(roots.empty() ? Place{} : place_of(scene_.objects[roots.front()]),
+                "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
         }
         if (solids > Limits::instances && !too_many_reported_) report_too_many({}, "the scene", solids);
         return finish();
@@ -126,7 +127,7 @@ private:
         path_.push_back({object, 0});
         if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
             for (const std::string& fault : solid_faults(solid->shape)) {
-                add(solid->place, "solid '" + solid->name + "' (" + type_name(solid->shape) + "): " + fault);
+                add(solid->place, "solid '" + solid->name + "': " + fault);
             }
         } else {
             check_combination(std::get<Combination>(scene_.objects[object]), report_);

@@ -1,6 +1,7 @@
 // Runs the built command as a user would, and keeps what it prints.
 #pragma once
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -75,8 +76,8 @@ struct Result {
 };
 
 struct How {
-    std::string input = {};         ///< file to be standard input; empty: nothing
-    std::string output = {};        ///< file to be standard output, e.g. /dev/full; empty: kept in Result::out
+    std::string input = {};    ///< file to be standard input; empty: nothing
+    std::string output = {};   ///< file to be standard output, e.g. /dev/full; empty: kept in Result::out
     rlim_t address_space = 0;  ///< bytes; 0: no limit
 };
 
@@ -97,6 +98,7 @@ inline pid_t start(const std::vector<std::string>& arguments, const std::string&
     redirect(input, O_RDONLY, STDIN_FILENO);
     redirect(output, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
     redirect(errors, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+    std::signal(SIGINT, SIG_DFL);  // a script in the background passes it on ignored
     const rlimit limit{address_space, address_space};
     if (address_space > 0 && setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
     execv(program.c_str(), pointers.data());

@@ -21,6 +21,19 @@ std::vector<std::string> endless(const std::string& scene) {
     return {scene, "all.g", "--reference", "--size", "64", "--repeat", "1000000"};
 }
 
+/// Waits until the process has a handler for the signal.
+bool catches(pid_t process, int signal) {
+    for (const auto begin = Clock::now(); Clock::now() - begin < patience;) {
+        const std::string status = read_file("/proc/" + std::to_string(process) + "/status");
+        const std::size_t mask = status.find("SigCgt:");
+        const bool own = contains(status, "Name:\tcsgrt\n");  // no longer the test before exec
+        if (own && mask != status.npos && std::stoull(status.substr(mask + 7), nullptr, 16) >> (signal - 1) & 1)
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
 struct Screen {
     int status = -1;
     std::string text;
@@ -115,7 +128,8 @@ TEST_CASE("SIGINT and SIGTERM end a render, a shot and a wait for rays with 130,
         const std::vector<std::string> shoot = {"shoot", scene, "--rays", folder / "pipe", "-o", folder / "out.txt"};
         for (const auto& words : {render, shoot}) {
             const pid_t child = start(words, "/dev/null", "/dev/null", folder / "err");
-            std::this_thread::sleep_for(std::chrono::milliseconds(700));
+            REQUIRE(catches(child, signal));
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));  // to get to work
             REQUIRE(kill(child, signal) == 0);
             CHECK(wait_for(child) == 130);
             CHECK(read_file(folder / "err") == "csgrt: error: interrupted\n");

@@ -172,7 +172,7 @@ TEST_CASE("boxes of polyhedra: random ones against all triples of planes") {
     for (int round = 0; round < 60; ++round) {
         const Vec3 center{random(-100, 100), random(-100, 100), random(-100, 100)};
         std::vector<Plane> planes;
-        for (int i = 0; i < 12; ++i) {
+        for (int i = 0; i < (round % 2 == 0 ? 12 : 24); ++i) {  // few, or many
             const Wide n = glm::normalize(random.wide());
             planes.push_back(plane_through(wide(center) + static_cast<long double>(random(0.5, 2)) * n, n));
             if (i % 4 == 0) planes.push_back(planes.back());  // said twice
@@ -198,17 +198,26 @@ TEST_CASE("boxes of polyhedra: random ones against all triples of planes") {
 }
 
 TEST_CASE("polyhedra that are not bounded, or hold no point") {
-    std::vector<Plane> open = cube_planes(5);
-    open.pop_back();
-    CHECK_FALSE(is_finite(polyhedron_box(open)));
-    CHECK_FALSE(is_finite(polyhedron_box({})));
-    std::vector<Plane> none = cube_planes(5);
-    none.push_back({{1, 0, 0}, -6});
-    CHECK(is_empty(polyhedron_box(none)));
-    // A long wedge is bounded all the same.
     const double slope = 1e-4;
-    const Box wedge = polyhedron_box({{{slope, 1, 0}, 1}, {{slope, -1, 0}, 1}, {{-1, 0, 0}, 0}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}});
-    CHECK(near(wedge.high.x, 1e4, 1e-3));
+    std::vector<Plane> open = cube_planes(5), none = cube_planes(5);
+    open.pop_back();
+    none.push_back({{1, 0, 0}, -6});
+    // A long wedge is bounded all the same.
+    std::vector<Plane> wedge = {{{slope, 1, 0}, 1}, {{slope, -1, 0}, 1}, {{-1, 0, 0}, 0}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}};
+    for (const std::size_t repeats : {1u, 5u}) {  // few planes, and many
+        const auto repeated = [&](const std::vector<Plane>& planes) {
+            std::vector<Plane> all;
+            for (std::size_t i = 0; i < repeats; ++i) all.insert(all.end(), planes.begin(), planes.end());
+            return all;
+        };
+        CHECK_FALSE(is_finite(polyhedron_box(repeated(open))));
+        CHECK_FALSE(is_finite(polyhedron_box(repeated({open[0], open[1]}))));
+        CHECK(is_empty(polyhedron_box(repeated(none))));
+        CHECK(is_empty(polyhedron_box(repeated({none[1], none[6]}))));
+        CHECK(near(polyhedron_box(repeated(wedge)).high.x, 1e4, 1e-3));
+        CHECK(same(polyhedron_box(repeated(cube_planes(5))), {{-5, -5, -5}, {5, 5, 5}}, 0));
+    }
+    CHECK_FALSE(is_finite(polyhedron_box({})));
 }
 
 TEST_CASE("a polyhedron of 60,000 faces takes no time to speak of") {

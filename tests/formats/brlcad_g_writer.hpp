@@ -39,14 +39,14 @@ inline std::string attributes(std::initializer_list<std::string_view> keys_and_v
     return out + zero;
 }
 
-struct Object {
+struct WrittenObject {
     int major = 1, minor = 0;
     std::string name{};        ///< without its zero byte; none if empty
     std::string body{};        ///< none if empty
     std::string attributes{};  ///< none if empty
-    unsigned width = 0;        ///< of all lengths
     int kind = 0;              ///< 0 data, 1 header, 2 free
     int compression = 0;       ///< of attributes and body
+    unsigned width = 0;        ///< of all lengths
 
     std::string bytes() const {
         const unsigned present = 0x20;
@@ -68,7 +68,7 @@ struct Object {
     }
 };
 
-inline const std::string header = Object{.major = 0, .kind = 1}.bytes();
+inline const std::string header = WrittenObject{.major = 0, .kind = 1}.bytes();
 
 /// The body of a combination. What is not given is counted.
 struct Members {
@@ -96,11 +96,11 @@ struct Members {
 };
 
 inline std::string combination(const std::string& name, const Members& members, const std::string& keys = {}) {
-    return Object{.minor = 31, .name = name, .body = members.bytes(), .attributes = keys}.bytes();
+    return WrittenObject{.minor = 31, .name = name, .body = members.bytes(), .attributes = keys}.bytes();
 }
 
 inline std::string sphere(const std::string& name) {
-    return Object{.minor = 3, .name = name, .body = reals({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})}.bytes();
+    return WrittenObject{.minor = 3, .name = name, .body = reals({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})}.bytes();
 }
 
 }  // namespace csgrt::g_test
