@@ -37,7 +37,8 @@ struct Tight {
     const Matrix& m;
 
     Box operator()(const Ell& s) const {
-        return box_around(transform_point(m, wide(s.v)), half_size(linear_part(m) * WideMatrix(wide(s.a), wide(s.b), wide(s.c))));
+        return box_around(transform_point(m, wide(s.v)),
+                          half_size(linear_part(m) * WideMatrix(wide(s.a), wide(s.b), wide(s.c))));
     }
     Box operator()(const Tgc& s) const {
         return united(ellipse_box(m, wide(s.v), wide(s.a), wide(s.b)),
@@ -45,7 +46,8 @@ struct Tight {
     }
     Box operator()(const Arb& s) const {
         const ArbFaces faces = arb_faces(s, m);
-        return faces.is_hull ? corners_box(s, m) : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
+        return faces.is_hull ? corners_box(s, m)
+                             : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
     }
     Box operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
     Box operator()(const Half&) const { return whole_space; }
@@ -55,8 +57,8 @@ struct Tight {
         // The plane of the circle is that of the projections of x, y, z; its box comes from |e_i - (e_i . h) h|.
         const WideMatrix linear = linear_part(m);
         const WideMatrix disc = linear * (WideMatrix(1) - glm::outerProduct(h, h));
-        return box_around(transform_point(m, wide(s.v)),
-                          static_cast<long double>(s.r_a) * half_size(disc) + static_cast<long double>(s.r_h) * half_size(linear));
+        return box_around(transform_point(m, wide(s.v)), static_cast<long double>(s.r_a) * half_size(disc) +
+                                                             static_cast<long double>(s.r_h) * half_size(linear));
     }
     // Inside the cylinder over its base.
     Box operator()(const Ehy& s) const {
@@ -72,19 +74,23 @@ struct Tight {
         if (!is_finite(box)) return box;
         if (is_empty(box)) {
             // Never hit; any place will do.
-            const Vec3 foot = planes.empty() ? Vec3{} : narrow(wide(planes[0].normal) * static_cast<long double>(planes[0].distance));
+            const Vec3 foot =
+                planes.empty() ? Vec3{} : narrow(wide(planes[0].normal) * static_cast<long double>(planes[0].distance));
             return {foot, foot};
         }
-        // Vertices are found to about 1e-15 of the cube that they were sought in, which is not much larger than the solid.
+        // Vertices are found to about 1e-15 of the cube that they were sought in, which is not much larger than the
+        // solid.
         const double pad = 1e-9 * diagonal(box);
-        return {{box.low.x - pad, box.low.y - pad, box.low.z - pad}, {box.high.x + pad, box.high.y + pad, box.high.z + pad}};
+        return {{box.low.x - pad, box.low.y - pad, box.low.z - pad},
+                {box.high.x + pad, box.high.y + pad, box.high.z + pad}};
     }
 };
 
 /// BRL-CAD takes a cone for a right elliptical cylinder, with an exact box, within these tolerances.
 bool is_right_cylinder(const Tgc& s, const Matrix& m) {
     constexpr long double length_tolerance = 1e-8L, dot_tolerance = 0.001L;
-    const Wide h = transform_direction(m, wide(s.h)), a = transform_direction(m, wide(s.a)), b = transform_direction(m, wide(s.b));
+    const Wide h = transform_direction(m, wide(s.h)), a = transform_direction(m, wide(s.a)),
+               b = transform_direction(m, wide(s.b));
     const Wide c = transform_direction(m, wide(s.c)), d = transform_direction(m, wide(s.d));
     const auto small = [](long double x, long double tolerance) { return std::fabs(x) <= tolerance; };
     const long double hh = glm::length(h), aa = glm::length(a), bb = glm::length(b);

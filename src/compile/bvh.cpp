@@ -31,7 +31,8 @@ struct Cut {
 
 class Builder {
 public:
-    Builder(const std::vector<Box>& boxes, const Vec3& center, double radius) : boxes_(boxes), center_(center), radius_(radius) {
+    Builder(const std::vector<Box>& boxes, const Vec3& center, double radius)
+        : boxes_(boxes), center_(center), radius_(radius) {
         middles_.reserve(boxes.size());
         for (const Box& box : boxes)
             middles_.push_back({0.5 * box.low.x + 0.5 * box.high.x, 0.5 * box.low.y + 0.5 * box.high.y,

@@ -54,8 +54,8 @@ std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, Compiled
     return order;
 }
 
-/// Where planes of unbounded solids are compared: around everything bounded, or where there is nothing, around the feet of
-/// the planes.
+/// Where planes of unbounded solids are compared: around everything bounded, or where there is nothing, around the feet
+/// of the planes.
 Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& compiled) {
     double reach = compiled.radius;
     if (reach == 0) {
@@ -99,10 +99,16 @@ void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Compiled
         const Finish& f = region.info.finish;
         const Vec3& color = region.info.color;
         const auto to_float = [](double x) { return static_cast<float>(x); };
-        const kernel::MaterialRecord m{to_float(color.x), to_float(color.y), to_float(color.z), to_float(f.specular),
-                                       to_float(f.diffuse), to_float(f.ambient), static_cast<std::uint32_t>(std::max(f.shine, 0))};
+        const kernel::MaterialRecord m{to_float(color.x),
+                                       to_float(color.y),
+                                       to_float(color.z),
+                                       to_float(f.specular),
+                                       to_float(f.diffuse),
+                                       to_float(f.ambient),
+                                       static_cast<std::uint32_t>(std::max(f.shine, 0))};
         const auto next = static_cast<std::uint32_t>(compiled.materials.size());
-        const auto [material, added] = known.emplace(Key{m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine}, next);
+        const auto [material, added] =
+            known.emplace(Key{m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine}, next);
         if (added) compiled.materials.push_back(m);
 
         compiled.regions.push_back(
@@ -170,7 +176,8 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
 
     std::vector<Box> boxes, brlcad_boxes;
     boxes.reserve(flat.instances.size());
-    for (const Instance& instance : flat.instances) boxes.push_back(solid_box(solid_of(scene, instance).shape, instance.matrix));
+    for (const Instance& instance : flat.instances)
+        boxes.push_back(solid_box(solid_of(scene, instance).shape, instance.matrix));
     set_sphere(boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(boxes, compiled);
     pack_solids(scene, flat, order, boxes, compiled);

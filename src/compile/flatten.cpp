@@ -7,6 +7,7 @@
 #include "compile/linear.hpp"
 #include "compile/linearize.hpp"
 #include "compile/regions.hpp"
+#include "formats/source.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -132,7 +133,8 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
 
 void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
     if (++references_ > reference_limit)
-        throw Error(Status::scene, "more than " + std::to_string(reference_limit) + " references to combinations and solids");
+        throw Error(Status::scene,
+                    "more than " + std::to_string(reference_limit) + " references to combinations and solids");
     if (const auto* combination = std::get_if<Combination>(&scene_.objects[object])) {
         if (const auto known = hollow_.find(combination); known != hollow_.end()) {
             operands_.push_back({tree_->nodes.size(), known->second});
@@ -238,8 +240,11 @@ FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, b
     std::vector<std::string> air_regions, empty_regions;
     std::vector<Diagnostic> findings;
     const auto contains_space = [&](const std::string& what, const Place& place) {
-        findings.push_back({place, what + " contains the empty space where no solid is",
-                            "intersect the complement with something that bounds it", {}});
+        if (findings.size() == Findings::limit) return;
+        findings.push_back({place,
+                            what + " contains the empty space where no solid is",
+                            "intersect the complement with something that bounds it",
+                            {}});
     };
 
     double solids = 0;
@@ -285,7 +290,8 @@ FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, b
     }
     if (!findings.empty()) throw Error(Status::scene, std::move(findings));
     if (!air_regions.empty())
-        result.notes.push_back(counted(air_regions.size(), "air region", "air regions") + " left out: " + some(air_regions));
+        result.notes.push_back(counted(air_regions.size(), "air region", "air regions") +
+                               " left out: " + some(air_regions));
     if (!empty_regions.empty())
         result.notes.push_back(counted(empty_regions.size(), "region without solids", "regions without solids") +
                                " left out: " + some(empty_regions));

@@ -45,7 +45,8 @@ std::uint64_t hash_of(const CompiledScene& scene) {
     }
     hash.add_all(scene.nodes);
     hash.add(scene.unbounded_count);
-    for (const double value : {scene.center.x, scene.center.y, scene.center.z, scene.radius, scene.ambient, scene.tolerance})
+    for (const double value :
+         {scene.center.x, scene.center.y, scene.center.z, scene.radius, scene.ambient, scene.tolerance})
         hash.add(value);
     hash.add_all(scene.background);
     return hash.state();

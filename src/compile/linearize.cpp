@@ -3,10 +3,11 @@
 //     any of p      all of p, none of n      an odd number of p
 //
 // where p and n are lists of finished binary nodes, and perhaps the complement of that. Unions, intersections and
-// differences all come from "all of p, none of n" by de Morgan's laws, so chains of one kind become one list, complements
-// move upward until they vanish, and x - (y - z) or x + !y take no special care. A list is finished as a right-deep chain
-// with its deepest member last: left children are pushed on the walk's stack, so the chain then needs as few entries as
-// any order of its members does. Lists are linked: joining two takes no time, however long a chain of the model is.
+// differences all come from "all of p, none of n" by de Morgan's laws, so chains of one kind become one list,
+// complements move upward until they vanish, and x - (y - z) or x + !y take no special care. A list is finished as a
+// right-deep chain with its deepest member last: left children are pushed on the walk's stack, so the chain then needs
+// as few entries as any order of its members does. Lists are linked: joining two takes no time, however long a chain of
+// the model is.
 
 #include "compile/linearize.hpp"
 
@@ -26,11 +27,21 @@ bool contains_empty_space(const FlatTree& tree) {
         const auto trues = std::count(operands, stack.end(), true);
         bool value = false;
         switch (node.op) {
-            case Operator::union_: value = trues > 0; break;
-            case Operator::intersection: value = trues == static_cast<std::ptrdiff_t>(node.arity); break;
-            case Operator::difference: value = *operands && trues == 1; break;
-            case Operator::xor_: value = trues % 2 == 1; break;
-            default: value = trues == 0; break;
+            case Operator::union_:
+                value = trues > 0;
+                break;
+            case Operator::intersection:
+                value = trues == static_cast<std::ptrdiff_t>(node.arity);
+                break;
+            case Operator::difference:
+                value = *operands && trues == 1;
+                break;
+            case Operator::xor_:
+                value = trues % 2 == 1;
+                break;
+            default:
+                value = trues == 0;
+                break;
         }
         stack.resize(first);
         stack.push_back(value);
@@ -137,9 +148,12 @@ std::uint32_t Linearizer::finish(const Operand& operand) {
     if (is_single(operand)) return cells_[operand.p.first].node;
     const std::uint32_t last = deepest(operand.p);
     switch (operand.kind) {
-        case Kind::any: return chain(OP_UNION, operand.p, last);
-        case Kind::odd: return chain(OP_XOR, operand.p, last);
-        case Kind::all: break;
+        case Kind::any:
+            return chain(OP_UNION, operand.p, last);
+        case Kind::odd:
+            return chain(OP_XOR, operand.p, last);
+        case Kind::all:
+            break;
     }
     if (!operand.n.empty()) {
         const std::uint32_t excluded = chain(OP_UNION, operand.n, deepest(operand.n));
@@ -208,8 +222,12 @@ std::uint32_t Linearizer::build(const FlatTree& tree) {
                 complement_from(first + 1);
                 result = conjunction(first);
                 break;
-            case Operator::xor_: result = parity(first); break;
-            default: result = conjunction(first); break;  // intersection
+            case Operator::xor_:
+                result = parity(first);
+                break;
+            default:
+                result = conjunction(first);
+                break;  // intersection
         }
         operands_.resize(first, result);
         operands_.push_back(result);
@@ -232,7 +250,8 @@ LinearTree Linearizer::write(std::uint32_t root, std::vector<std::uint32_t>& wor
         const auto position = static_cast<std::uint32_t>(words.size());
         const std::uint32_t largest = node.op == OP_LEAF ? std::max(node.left, position) : position;
         if (largest > TREE_MASK)
-            throw Error(Status::scene, "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
+            throw Error(Status::scene,
+                        "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
         if (parent != none) words[parent] |= position;
         result.operators |= 1u << node.op;
         if (node.op == OP_LEAF) {

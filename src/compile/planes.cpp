@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-// Cells are much larger than what is looked for, so that one cell is enough, nearly always. Their centres are at 0 and +-1,
-// where most normals of models lie.
+// Cells are much larger than what is looked for, so that one cell is enough, nearly always. Their centres are at 0 and
+// +-1, where most normals of models lie.
 constexpr double normal_cell = 1e-7;
 constexpr double offset_cell = 1e-7;  // of the scene's radius
 
@@ -35,9 +35,7 @@ std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z, std::int64
     return hash;
 }
 
-Plane flipped(const Plane& p) {
-    return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance};
-}
+Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 
 /// Where a plane of normal n lies farthest apart from another over a box, given the difference of the two.
 double separation(const Wide& normal, long double distance, const Box& box) {
@@ -94,9 +92,9 @@ kernel::PlaneRef PlaneTable::add(const Plane& plane, const Box& box) {
     const auto record = static_cast<std::uint32_t>(records_.size());
     if (record > 0x7fffffffu) throw Error(Status::scene, "the scene has more than 2147483647 different planes");
     records_.push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
-    const std::uint64_t cell = hash_of(cells_of(plane.normal.x, 0, normal_cell).first, cells_of(plane.normal.y, 0, normal_cell).first,
-                                       cells_of(plane.normal.z, 0, normal_cell).first,
-                                       cells_of(offset(plane), 0, offset_cell * radius_).first);
+    const std::uint64_t cell = hash_of(
+        cells_of(plane.normal.x, 0, normal_cell).first, cells_of(plane.normal.y, 0, normal_cell).first,
+        cells_of(plane.normal.z, 0, normal_cell).first, cells_of(offset(plane), 0, offset_cell * radius_).first);
     const auto [entry, added] = cells_.emplace(cell, record);
     entries_.push_back({box, added ? none : entry->second});
     entry->second = record;

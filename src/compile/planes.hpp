@@ -1,5 +1,5 @@
-// The one table of planes in the world. Faces, end caps and half-spaces that lie in one plane share its record, so that a
-// ray meets them at the very same distance.
+// The one table of planes in the world. Faces, end caps and half-spaces that lie in one plane share its record, so that
+// a ray meets them at the very same distance.
 #pragma once
 
 #include <cstdint>

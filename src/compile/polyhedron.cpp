@@ -8,9 +8,10 @@ namespace csgrt {
 namespace {
 
 // Corners closer than this are one. BRL-CAD merges at 0.0005 mm, whatever the size; a small arb needs a finer measure.
-constexpr long double same_corner = 0.0005L;             // millimetres
-constexpr long double same_corner_relative = 1e-6L;      // of the arb's diagonal, if that is less
-// A third corner closer to the line through the first two than this, relative to their distance, says nothing of the plane.
+constexpr long double same_corner = 0.0005L;         // millimetres
+constexpr long double same_corner_relative = 1e-6L;  // of the arb's diagonal, if that is less
+// A third corner closer to the line through the first two than this, relative to their distance, says nothing of the
+// plane.
 constexpr long double in_line = 1e-6L;
 // Corners may leave their plane by this, relative to the arb's diagonal, without being seen as a twisted face.
 constexpr long double flat = 1e-12L;
@@ -39,13 +40,14 @@ std::vector<Plane> arbn_faces(const Arbn& arbn, const Matrix& matrix) {
 
 namespace {
 
-// The half-spaces of a concave arb's faces can meet far away from it. What lies outside the box of its own corners is no
-// part of it.
+// The half-spaces of a concave arb's faces can meet far away from it. What lies outside the box of its own corners is
+// no part of it.
 void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& planes) {
     Box box = empty_box;
     for (const Vec3& corner : arb.vertices) extend(box, corner);
-    for (const Plane& side : {Plane{{1, 0, 0}, box.high.x}, Plane{{-1, 0, 0}, -box.low.x}, Plane{{0, 1, 0}, box.high.y},
-                              Plane{{0, -1, 0}, -box.low.y}, Plane{{0, 0, 1}, box.high.z}, Plane{{0, 0, -1}, -box.low.z}})
+    for (const Plane& side :
+         {Plane{{1, 0, 0}, box.high.x}, Plane{{-1, 0, 0}, -box.low.x}, Plane{{0, 1, 0}, box.high.y},
+          Plane{{0, -1, 0}, -box.low.y}, Plane{{0, 0, 1}, box.high.z}, Plane{{0, 0, -1}, -box.low.z}})
         planes.push_back(transform_plane(matrix, side));
 }
 

@@ -1,8 +1,9 @@
 // A few planes: every pair of them meets in a line; what all others leave of it is an edge.
 //
-// Many planes: linear programming in three variables, after Seidel (1991). Planes are added one by one in random order. A plane that the
-// best point so far satisfies changes nothing; otherwise the new best point lies on it, and is found by the same method
-// in one dimension less. Everything starts inside a large cube; what still touches it at the end is not bounded.
+// Many planes: linear programming in three variables, after Seidel (1991). Planes are added one by one in random order.
+// A plane that the best point so far satisfies changes nothing; otherwise the new best point lies on it, and is found
+// by the same method in one dimension less. Everything starts inside a large cube; what still touches it at the end is
+// not bounded.
 
 #include "compile/polyhedron.hpp"
 
@@ -93,7 +94,8 @@ bool append(std::vector<Constraint<N>>& constraints, Constraint<N> c, long doubl
 
 /// The point of the cube |x_i| <= reach that satisfies the constraints and goes farthest along `aim`.
 template <std::size_t N>
-std::optional<Point<N>> farthest(const std::vector<Constraint<N>>& constraints, const Point<N>& aim, long double reach) {
+std::optional<Point<N>> farthest(const std::vector<Constraint<N>>& constraints, const Point<N>& aim,
+                                 long double reach) {
     Point<N> best;
     for (std::size_t i = 0; i < N; ++i) best[i] = aim[i] < 0 ? -reach : reach;
     if constexpr (N == 1) {

@@ -1,10 +1,11 @@
 // Which tree belongs to which region, by BRL-CAD's rules.
 //
-// The walk goes down from a named object. A combination flagged as a region, or a solid, ends it: there a region starts.
-// What stands above is an expression over such starts. Unions there only collect regions; where another operator stands
-// above regions, unions are pulled up through it until they alone stand on top:
+// The walk goes down from a named object. A combination flagged as a region, or a solid, ends it: there a region
+// starts. What stands above is an expression over such starts. Unions there only collect regions; where another
+// operator stands above regions, unions are pulled up through it until they alone stand on top:
 //
-//     (A u B) - C  ->  (A - C) u (B - C)        (A u B) + C  ->  (A + C) u (B + C)        C + (A u B)  ->  (C + A) u (C + B)
+//     (A u B) - C  ->  (A - C) u (B - C)        (A u B) + C  ->  (A + C) u (B + C)        C + (A u B)  ->  (C + A) u (C
+//     + B)
 //
 // (C - (A u B) stays; xor and complement do not distribute.) Each term is one region: its tree the whole term with the
 // trees of all its starts, everything else that of its leftmost start.
@@ -97,7 +98,8 @@ private:
     const Scene& scene_;
     ObjectIndex& index_;
     bool air_;
-    std::unordered_map<std::uint32_t, std::uint32_t> hollow_;  ///< combinations without starts, and the constant they are
+    std::unordered_map<std::uint32_t, std::uint32_t>
+        hollow_;  ///< combinations without starts, and the constant they are
     std::vector<Frame> frames_;
     std::vector<std::uint32_t> operands_;
     std::uint32_t root_ = nothing;

@@ -34,7 +34,8 @@ public:
         if (bytes.empty()) {
             findings_.add(0, {}, "the file is empty");
         } else if (is_release_4(bytes)) {
-            findings_.add(0, {}, "this is a database of release 4", "convert it with BRL-CAD's `dbupgrade OLD.g NEW.g`");
+            findings_.add(0, {}, "this is a database of release 4",
+                          "convert it with BRL-CAD's `dbupgrade OLD.g NEW.g`");
         } else {
             read_objects(bytes.size());
         }

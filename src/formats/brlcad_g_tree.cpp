@@ -50,7 +50,9 @@ private:
     std::uint64_t read_head() {
         const std::size_t begin = bytes_.offset();
         width_ = bytes_.byte("the width of the numbers");
-        if (width_ > 3) throw Fault{begin, "the width of the numbers is " + std::to_string(width_) + ", not 0 to 3", {}};
+        if (width_ > 3) {
+            throw Fault{begin, "the width of the numbers is " + std::to_string(width_) + ", not 0 to 3", {}};
+        }
         const std::size_t matrices_begin = bytes_.offset();
         matrix_count_ = bytes_.number(width_, "the number of matrices");
         leaf_count_ = bytes_.number(width_, "the number of leaves");

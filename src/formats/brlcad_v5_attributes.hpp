@@ -22,8 +22,8 @@ bool set_attribute(Combination& combination, const Attribute& attribute);
 /// whatever their order, as in BRL-CAD. Throws Fault.
 void set_attributes(Combination& combination, std::span<const Attribute> attributes);
 
-/// Sets the title, the unit or the region colours, which _GLOBAL, the database itself, has as attributes; other keys are
-/// passed over. Throws Fault.
+/// Sets the title, the unit or the region colours, which _GLOBAL, the database itself, has as attributes; other keys
+/// are passed over. Throws Fault.
 void set_global_attribute(Scene& scene, const Attribute& attribute);
 
 /// An entry of the colour table: low high red green blue. Throws Fault.

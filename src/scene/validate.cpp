@@ -202,7 +202,9 @@ private:
                                   "', which csgrt does not support";
             if (objects_[i].users > 0) {
                 message += "; used by '" + name_of(scene_.objects[objects_[i].first_user]) + "'";
-                if (objects_[i].users > 1) message += " and on " + std::to_string(objects_[i].users - 1) + " other legs";
+                if (const std::uint32_t others = objects_[i].users - 1; others > 0) {
+                    message += " and on " + std::to_string(others) + (others == 1 ? " other leg" : " other legs");
+                }
             }
             add(solid->place, std::move(message), "render objects that do not use it, or replace it");
         }

@@ -18,17 +18,22 @@ constexpr double pi = 3.14159265358979323846;
 Vec3 at(const Matrix& m, const Wide& p) { return narrow(transform_point(m, p)); }
 
 bool inside(const Box& box, const Vec3& p) {
-    return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y && box.low.z <= p.z && p.z <= box.high.z;
+    return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y && box.low.z <= p.z &&
+           p.z <= box.high.z;
 }
 bool inside(const Box& box, const Box& inner) { return inside(box, inner.low) && inside(box, inner.high); }
 bool same(const Box& a, const Box& b, double slack) {
-    const auto close = [&](const Vec3& p, const Vec3& q) { return near(p.x, q.x, slack) && near(p.y, q.y, slack) && near(p.z, q.z, slack); };
+    const auto close = [&](const Vec3& p, const Vec3& q) {
+        return near(p.x, q.x, slack) && near(p.y, q.y, slack) && near(p.z, q.z, slack);
+    };
     return close(a.low, b.low) && close(a.high, b.high);
 }
 
 struct Random {
     std::mt19937 engine{7};
-    double operator()(double low = -1, double high = 1) { return std::uniform_real_distribution<double>(low, high)(engine); }
+    double operator()(double low = -1, double high = 1) {
+        return std::uniform_real_distribution<double>(low, high)(engine);
+    }
     Wide wide() { return {(*this)(), (*this)(), (*this)()}; }
     /// Rotation, shear, stretch, perhaps a mirror.
     Matrix matrix() {
@@ -51,11 +56,13 @@ void check_tight(const Shape& shape, const Matrix& m, const Box& surface, double
     const Box box = solid_box(shape, m);
     CHECK(inside(box, surface));
     CHECK(same(box, surface, slack));
-    CHECK(inside(brlcad_box(shape, m), Box{at(identity, wide(surface.low) + Wide(1e-9)), at(identity, wide(surface.high) - Wide(1e-9))}));
+    CHECK(inside(brlcad_box(shape, m),
+                 Box{at(identity, wide(surface.low) + Wide(1e-9)), at(identity, wide(surface.high) - Wide(1e-9))}));
 }
 
 std::vector<Plane> cube_planes(double size) {
-    return {{{1, 0, 0}, size}, {{-1, 0, 0}, size}, {{0, 1, 0}, size}, {{0, -1, 0}, size}, {{0, 0, 1}, size}, {{0, 0, -1}, size}};
+    return {{{1, 0, 0}, size},  {{-1, 0, 0}, size}, {{0, 1, 0}, size},
+            {{0, -1, 0}, size}, {{0, 0, 1}, size},  {{0, 0, -1}, size}};
 }
 
 }  // namespace
@@ -66,25 +73,38 @@ TEST_CASE("the boxes of ellipsoids, tori and cones are tight under any matrix") 
         const Matrix m = random.matrix();
         const Wide v = random.wide(), a = random.wide(), b = random.wide(), c = random.wide();
         const Ell ell{narrow(v), narrow(a), narrow(b), narrow(c)};
-        check_tight(ell, m, sampled(m, [&](double u, double w) {
-            const long double e = pi * (w - 0.5);
-            return v + std::cos(u) * std::cos(e) * a + std::sin(u) * std::cos(e) * b + std::sin(e) * c;
-        }), 1e-3);
+        check_tight(ell, m,
+                    sampled(m,
+                            [&](double u, double w) {
+                                const long double e = pi * (w - 0.5);
+                                return v + std::cos(u) * std::cos(e) * a + std::sin(u) * std::cos(e) * b +
+                                       std::sin(e) * c;
+                            }),
+                    1e-3);
 
         const long double shrink = random(0, 1);
         const Tgc tgc{narrow(v), narrow(c), narrow(a), narrow(b), narrow(shrink * a), narrow(0.5L * b)};
-        check_tight(tgc, m, sampled(m, [&](double u, double w) {
-            const long double ra = 1 + (shrink - 1) * w, rb = 1 - 0.5L * w;
-            return v + static_cast<long double>(w) * c + std::cos(static_cast<long double>(u)) * ra * a + std::sin(u) * rb * b;
-        }), 1e-3);
+        check_tight(tgc, m,
+                    sampled(m,
+                            [&](double u, double w) {
+                                const long double ra = 1 + (shrink - 1) * w, rb = 1 - 0.5L * w;
+                                return v + static_cast<long double>(w) * c +
+                                       std::cos(static_cast<long double>(u)) * ra * a + std::sin(u) * rb * b;
+                            }),
+                    1e-3);
 
         const Wide h = glm::normalize(a), x = glm::normalize(glm::cross(h, b)), y = glm::cross(h, x);
         const Tor tor{narrow(v), narrow(2.5L * h), 3, 0.5};
-        check_tight(tor, m, sampled(m, [&](double u, double w) {
-            const long double radius = 3 + 0.5L * std::cos(2 * pi * w);
-            return v + radius * (std::cos(static_cast<long double>(u)) * x + std::sin(static_cast<long double>(u)) * y) +
-                   0.5L * std::sin(static_cast<long double>(2 * pi * w)) * h;
-        }), 1e-3);
+        check_tight(tor, m,
+                    sampled(m,
+                            [&](double u, double w) {
+                                const long double radius = 3 + 0.5L * std::cos(2 * pi * w);
+                                return v +
+                                       radius * (std::cos(static_cast<long double>(u)) * x +
+                                                 std::sin(static_cast<long double>(u)) * y) +
+                                       0.5L * std::sin(static_cast<long double>(2 * pi * w)) * h;
+                            }),
+                    1e-3);
     }
 }
 
@@ -98,7 +118,8 @@ TEST_CASE("the box of a hyperboloid holds it") {
         const long double c = 0.3L / glm::length(h);
         const Box surface = sampled(m, [&](double u, double w) {
             const long double zeta = c + w, r = std::sqrt((zeta * zeta - c * c) / (1 + 2 * c));
-            return v + (1 - static_cast<long double>(w)) * h + r * (2 * std::cos(static_cast<long double>(u)) * a + std::sin(static_cast<long double>(u)) * b);
+            return v + (1 - static_cast<long double>(w)) * h +
+                   r * (2 * std::cos(static_cast<long double>(u)) * a + std::sin(static_cast<long double>(u)) * b);
         });
         const Box box = solid_box(ehy, m);
         CHECK(inside(box, surface));
@@ -116,7 +137,8 @@ TEST_CASE("the box of an arb is that of its corners, of an arbn that of its vert
         CHECK(inside(solid_box(arb, m), corners));
         CHECK(same(solid_box(arb, m), corners, 1e-12));
         CHECK(same(brlcad_box(arb, m), corners, 0));
-        const Arbn arbn{{{{1, 0, 0}, 4}, {{-1, 0, 0}, 1}, {{0, 1, 0}, 5}, {{0, -1, 0}, 2}, {{0, 0, 1}, 6}, {{0, 0, -1}, 3}}};
+        const Arbn arbn{
+            {{{1, 0, 0}, 4}, {{-1, 0, 0}, 1}, {{0, 1, 0}, 5}, {{0, -1, 0}, 2}, {{0, 0, 1}, 6}, {{0, 0, -1}, 3}}};
         CHECK(inside(solid_box(arbn, m), corners));
         CHECK(same(solid_box(arbn, m), corners, 1e-6));
     }
@@ -155,7 +177,8 @@ TEST_CASE("faces: arb8 to arb4, degenerate corners dropped, normals outward unde
     const Arb arb4{{{o, x, y, y, z, z, z, z}}};
     const Arb arb6{{{o, x, xy, y, z, z, {0, 1, 1}, {0, 1, 1}}}};
     for (const Matrix& m : {identity, mirror, askew(1, {5, 6, 7})}) {
-        for (const auto& [arb, count] : {std::pair{box, 6u}, std::pair{arb6, 5u}, std::pair{arb5, 5u}, std::pair{arb4, 4u}}) {
+        for (const auto& [arb, count] :
+             {std::pair{box, 6u}, std::pair{arb6, 5u}, std::pair{arb5, 5u}, std::pair{arb4, 4u}}) {
             const ArbFaces faces = arb_faces(arb, m);
             REQUIRE(faces.planes.size() == count);
             CHECK(faces.is_hull);
@@ -181,7 +204,8 @@ TEST_CASE("boxes of polyhedra: random ones against all triples of planes") {
         for (std::size_t i = 0; i < planes.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
                 for (std::size_t k = 0; k < j; ++k) {
-                    const WideMatrix n = glm::transpose(WideMatrix(wide(planes[i].normal), wide(planes[j].normal), wide(planes[k].normal)));
+                    const WideMatrix n = glm::transpose(
+                        WideMatrix(wide(planes[i].normal), wide(planes[j].normal), wide(planes[k].normal)));
                     if (std::fabs(glm::determinant(n)) < 1e-9L) continue;
                     const Wide p = glm::inverse(n) * Wide(planes[i].distance, planes[j].distance, planes[k].distance);
                     if (std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
@@ -203,7 +227,8 @@ TEST_CASE("polyhedra that are not bounded, or hold no point") {
     open.pop_back();
     none.push_back({{1, 0, 0}, -6});
     // A long wedge is bounded all the same.
-    std::vector<Plane> wedge = {{{slope, 1, 0}, 1}, {{slope, -1, 0}, 1}, {{-1, 0, 0}, 0}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}};
+    std::vector<Plane> wedge = {
+        {{slope, 1, 0}, 1}, {{slope, -1, 0}, 1}, {{-1, 0, 0}, 0}, {{0, 0, 1}, 1}, {{0, 0, -1}, 1}};
     for (const std::size_t repeats : {1u, 5u}) {  // few planes, and many
         const auto repeated = [&](const std::vector<Plane>& planes) {
             std::vector<Plane> all;
@@ -240,7 +265,8 @@ TEST_CASE("BRL-CAD's boxes of cones and hyperboloids are those of the bodies aro
 }
 
 TEST_CASE("a tree's box: union and xor both, intersection what is common, difference the left side") {
-    const std::vector<Box> boxes = {{{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {5, 5, 5}}, whole_space, {{7, 7, 7}, {8, 8, 8}}};
+    const std::vector<Box> boxes = {
+        {{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {5, 5, 5}}, whole_space, {{7, 7, 7}, {8, 8, 8}}};
     const auto box_of = [&](std::initializer_list<std::uint32_t> solids, Operator op) {
         FlatTree tree;
         for (const std::uint32_t s : solids) tree.nodes.push_back({Operator::leaf, 0, s});

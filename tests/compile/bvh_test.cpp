@@ -17,7 +17,8 @@ struct Scattered {
     double radius = 0;
 
     void add(const Vec3& middle, const Vec3& half) {
-        boxes.push_back({{middle.x - half.x, middle.y - half.y, middle.z - half.z}, {middle.x + half.x, middle.y + half.y, middle.z + half.z}});
+        boxes.push_back({{middle.x - half.x, middle.y - half.y, middle.z - half.z},
+                         {middle.x + half.x, middle.y + half.y, middle.z + half.z}});
     }
     void finish() {
         Box all = empty_box;
@@ -30,7 +31,9 @@ struct Scattered {
 /// Boxes of all sizes, some flat, in clusters, far from the origin.
 Scattered scattered(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
-    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
     Scattered s;
     for (std::size_t i = 0; i < count; ++i) {
         const double size = std::pow(10, uniform(-3, 1));
@@ -102,7 +105,8 @@ bool slab(const Vec3& o, const Vec3& d, const Box& box) {
             if (origin[axis] < low[axis] || origin[axis] > high[axis]) return false;
             continue;
         }
-        const double a = (low[axis] - origin[axis]) / direction[axis], b = (high[axis] - origin[axis]) / direction[axis];
+        const double a = (low[axis] - origin[axis]) / direction[axis],
+                     b = (high[axis] - origin[axis]) / direction[axis];
         in = std::max(in, std::min(a, b));
         out = std::min(out, std::max(a, b));
     }
@@ -110,7 +114,8 @@ bool slab(const Vec3& o, const Vec3& d, const Box& box) {
 }
 
 /// The walk, with the boxes in double: what it enters.
-std::vector<bool> entered(const Scattered& s, const Hierarchy& h, std::uint32_t first_solid, const Vec3& o, const Vec3& d, std::size_t& tests) {
+std::vector<bool> entered(const Scattered& s, const Hierarchy& h, std::uint32_t first_solid, const Vec3& o,
+                          const Vec3& d, std::size_t& tests) {
     std::vector<bool> met(s.boxes.size(), false);
     const Vec3 origin{o.x - s.center.x, o.y - s.center.y, o.z - s.center.z};
     for (std::uint32_t i = 0; i < h.nodes.size();) {
@@ -159,13 +164,17 @@ TEST_CASE("no ray passes a box that it hits, and few others are met") {
     const Scattered s = scattered(2000, 9);
     const Hierarchy h = build_bvh(s.boxes, s.center, s.radius, 0);
     std::mt19937 random(4);
-    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
     std::size_t hits = 0, met_count = 0, tests = 0;
     constexpr int rays = 2000;
     for (int ray = 0; ray < rays; ++ray) {
         // At a point of some box, its sides and corners included; every third along an axis.
         const Box& aim = s.boxes[random() % s.boxes.size()];
-        const auto pick = [&](double low, double high) { return ray % 4 == 0 ? (random() % 2 == 0 ? low : high) : uniform(low, high); };
+        const auto pick = [&](double low, double high) {
+            return ray % 4 == 0 ? (random() % 2 == 0 ? low : high) : uniform(low, high);
+        };
         const Vec3 target{pick(aim.low.x, aim.high.x), pick(aim.low.y, aim.high.y), pick(aim.low.z, aim.high.z)};
         Vec3 d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
         if (ray % 3 == 0) d = random() % 2 == 0 ? Vec3{1, 0, 0} : Vec3{0, 0, -1};

@@ -15,7 +15,8 @@ namespace {
 bool same(const Vec3& a, const Vec3& b) { return near(a.x, b.x) && near(a.y, b.y) && near(a.z, b.z); }
 
 Scene plate_with_hole() {
-    Scene s = scene({block("plate", {-5, -5, 0}, {5, 5, 1}), solid("hole", Tgc{{0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {0, 2, 0}, {2, 0, 0}, {0, 2, 0}}),
+    Scene s = scene({block("plate", {-5, -5, 0}, {5, 5, 1}),
+                     solid("hole", Tgc{{0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {0, 2, 0}, {2, 0, 0}, {0, 2, 0}}),
                      ball("knob", {0, 0, 3}, 1), solid("ground", Half{{{0, 0, 1}, 0}}),
                      region("plate.r", {leg("plate"), leg("hole"), less}, 1), region("knob.r", {leg("knob")}, 2),
                      region("ground.r", {leg("ground")}, 3),
@@ -53,7 +54,8 @@ TEST_CASE("a compiled scene: everything is where the records say") {
         REQUIRE(c.solids[i].region_count == 1);
         const std::uint32_t region = c.region_lists[c.solids[i].first_region];
         const auto& nodes = c.flat_trees[region].nodes;
-        CHECK(std::any_of(nodes.begin(), nodes.end(), [&](const auto& n) { return n.op == Operator::leaf && n.solid == i; }));
+        CHECK(std::any_of(nodes.begin(), nodes.end(),
+                          [&](const auto& n) { return n.op == Operator::leaf && n.solid == i; }));
     }
     CHECK(same(c.bounds.low, {-5, -5, 0}));
     CHECK(same(c.bounds.high, {5, 5, 4}));
@@ -134,8 +136,9 @@ TEST_CASE("scenes without anything bounded compile: half-spaces only") {
 
 TEST_CASE("an arb whose faces do not close ends at the box of its corners") {
     const Vec3 p{1, 0, 2}, q{3, 3, 1};
-    const Scene s = scene({block("box", {0, 0, 0}, {1, 1, 1}), solid("odd", Arb{{{{2, 0, 2}, p, q, p, {1, 2, 0}, p, q, p}}}),
-                           region("r", {leg("odd"), leg("box"), either})});
+    const Scene s =
+        scene({block("box", {0, 0, 0}, {1, 1, 1}), solid("odd", Arb{{{{2, 0, 2}, p, q, p, {1, 2, 0}, p, q, p}}}),
+               region("r", {leg("odd"), leg("box"), either})});
     const CompiledScene c = compile(s, {"r"});
     CHECK(c.unbounded_count == 0);
     for (const Box& box : c.solid_boxes) {
@@ -147,7 +150,8 @@ TEST_CASE("an arb whose faces do not close ends at the box of its corners") {
 }
 
 TEST_CASE("nothing to render is an error that says why") {
-    Scene s = scene({ball("a"), region("air", {leg("a")}), group("none", {}), region("hollow", {leg("a"), leg("none"), both})});
+    Scene s = scene(
+        {ball("a"), region("air", {leg("a")}), group("none", {}), region("hollow", {leg("a"), leg("none"), both})});
     std::get<Combination>(s.objects[1]).air = 1;
     const std::string error = error_of([&] { compile(s, {"air", "hollow"}); });
     CHECK(says(error, "nothing to render"));
@@ -205,7 +209,9 @@ TEST_CASE("the hash is the scene's: the same for the same, another for any chang
     changed([](Scene& s) { s.lights = {{}}; });
     changed([](Scene& s) { s.lights = {{{0, 0, 1}}}; });
     changed([](Scene& s) { s.tolerance = 0.001; });
-    changed([](Scene& s) { std::swap(std::get<Combination>(s.objects[7]).tree.nodes[0], std::get<Combination>(s.objects[7]).tree.nodes[1]); });
+    changed([](Scene& s) {
+        std::swap(std::get<Combination>(s.objects[7]).tree.nodes[0], std::get<Combination>(s.objects[7]).tree.nodes[1]);
+    });
     CHECK(hashes.size() == 8);
     Scene renamed = original;  // names do not cross the bus
     renamed.title = "another";

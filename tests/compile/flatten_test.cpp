@@ -12,8 +12,10 @@ namespace {
 
 /// A tree as text: names of solids, operators as + - u ^ ! in postfix order with the arity if it is not 2 (1 for !).
 std::string text_of(const Scene& scene, const FlatScene& flat, const FlatTree& tree) {
-    static const std::map<Operator, std::string> signs = {{Operator::union_, "u"}, {Operator::intersection, "+"},
-                                                          {Operator::difference, "-"}, {Operator::xor_, "^"},
+    static const std::map<Operator, std::string> signs = {{Operator::union_, "u"},
+                                                          {Operator::intersection, "+"},
+                                                          {Operator::difference, "-"},
+                                                          {Operator::xor_, "^"},
                                                           {Operator::not_, "!"}};
     std::string text;
     for (const FlatTree::Node& node : tree.nodes) {
@@ -29,7 +31,8 @@ std::string text_of(const Scene& scene, const FlatScene& flat, const FlatTree& t
 }
 
 /// "path: tree" of each region.
-std::vector<std::string> regions_of(const Scene& scene, const std::vector<std::string>& objects = {}, bool air = false) {
+std::vector<std::string> regions_of(const Scene& scene, const std::vector<std::string>& objects = {},
+                                    bool air = false) {
     const FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, air);
     std::vector<std::string> lines;
     for (const FlatRegion& r : flat.regions) lines.push_back(r.info.path + ": " + text_of(scene, flat, r.tree));
@@ -55,7 +58,8 @@ Lines terms(std::vector<TreeNode> nodes) { return regions_of(alphabet({group("to
 }  // namespace
 
 TEST_CASE("a region ends the search: regions below it are part of its tree") {
-    const Scene s = alphabet({region("outer", {leg("A"), leg("B"), less}), group("all", {leg("outer"), leg("C"), either})});
+    const Scene s =
+        alphabet({region("outer", {leg("A"), leg("B"), less}), group("all", {leg("outer"), leg("C"), either})});
     CHECK(regions_of(s, {"all"}) == Lines{"/all/outer: a b -", "/all/C: c"});
     CHECK(regions_of(s, {"outer"}) == Lines{"/outer: a b -"});
 }
@@ -71,7 +75,8 @@ TEST_CASE("solids outside all regions are regions of their own") {
 }
 
 TEST_CASE("regions come in the order of the walk, left to right, object by object") {
-    const Scene s = alphabet({group("g", {leg("C"), leg("B"), leg("A"), op(Operator::union_, 3)}), group("h", {leg("F")})});
+    const Scene s =
+        alphabet({group("g", {leg("C"), leg("B"), leg("A"), op(Operator::union_, 3)}), group("h", {leg("F")})});
     CHECK(regions_of(s, {"h", "g", "D"}) == Lines{"/h/F: f", "/g/C: c", "/g/B: b", "/g/A: a", "/D: d"});
 }
 
@@ -86,10 +91,12 @@ TEST_CASE("operators above regions: unions are pulled up, the leftmost region gi
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), leg("D"), either, both}) ==
           Lines{"/top/A: a c +", "/top/A: a d +", "/top/B: b c +", "/top/B: b d +"});
     // Through several levels.
-    CHECK(terms({leg("A"), leg("B"), either, leg("C"), less, leg("D"), less}) == Lines{"/top/A: a c - d -", "/top/B: b c - d -"});
+    CHECK(terms({leg("A"), leg("B"), either, leg("C"), less, leg("D"), less}) ==
+          Lines{"/top/A: a c - d -", "/top/B: b c - d -"});
     CHECK(terms({leg("A"), leg("B"), leg("C"), op(Operator::difference, 3), leg("D"), either}) ==
           Lines{"/top/A: a b - c -", "/top/D: d"});
-    CHECK(terms({leg("A"), leg("B"), leg("C"), either, both, leg("D"), less}) == Lines{"/top/A: a b + d -", "/top/A: a c + d -"});
+    CHECK(terms({leg("A"), leg("B"), leg("C"), either, both, leg("D"), less}) ==
+          Lines{"/top/A: a b + d -", "/top/A: a c + d -"});
     // (A u B) ^ C is not (A ^ C) u (B ^ C).
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), one_of}) == Lines{"/top/A: a b u c ^"});
     CHECK(terms({leg("A"), leg("B"), either, not_, leg("C"), both}) == Lines{"/top/A: a b u ! c +"});
@@ -128,16 +135,17 @@ TEST_CASE("air regions are left out, with a note, unless they are wanted") {
 }
 
 TEST_CASE("what is empty vanishes from trees, and empty regions are left out with a note") {
-    const Scene s = alphabet({group("none", {}), region("hollow", {leg("none")}), region("less", {leg("none"), leg("a"), less}),
-                              region("same", {leg("a"), leg("none"), less}), region("both", {leg("a"), leg("none"), both}),
-                              region("sum", {leg("none"), leg("a"), leg("b"), op(Operator::union_, 3)}),
-                              region("flip", {leg("none"), leg("a"), one_of}),
-                              region("inside", {leg("a"), leg("none"), not_, both}),
-                              region("outside", {leg("a"), leg("none"), not_, less}),
-                              region("but", {leg("none"), not_, leg("b"), less, leg("a"), both}),
-                              region("odd", {leg("none"), not_, leg("b"), one_of, leg("a"), both})});
+    const Scene s = alphabet(
+        {group("none", {}), region("hollow", {leg("none")}), region("less", {leg("none"), leg("a"), less}),
+         region("same", {leg("a"), leg("none"), less}), region("both", {leg("a"), leg("none"), both}),
+         region("sum", {leg("none"), leg("a"), leg("b"), op(Operator::union_, 3)}),
+         region("flip", {leg("none"), leg("a"), one_of}), region("inside", {leg("a"), leg("none"), not_, both}),
+         region("outside", {leg("a"), leg("none"), not_, less}),
+         region("but", {leg("none"), not_, leg("b"), less, leg("a"), both}),
+         region("odd", {leg("none"), not_, leg("b"), one_of, leg("a"), both})});
     CHECK(regions_of(s, {"hollow", "less", "both", "outside"}).empty());
-    CHECK(regions_of(s, {"same", "sum", "flip", "inside"}) == Lines{"/same: a", "/sum: a b u", "/flip: a", "/inside: a"});
+    CHECK(regions_of(s, {"same", "sum", "flip", "inside"}) ==
+          Lines{"/same: a", "/sum: a b u", "/flip: a", "/inside: a"});
     CHECK(regions_of(s, {"but", "odd"}) == Lines{"/but: b ! a +", "/odd: b ! a +"});
     const FlatScene flat = flatten(s, {"hollow", "both", "A", "none"}, false);
     REQUIRE(flat.notes.size() == 2);
@@ -156,7 +164,8 @@ TEST_CASE("an object that is named twice is rendered once") {
 
 TEST_CASE("a region must not contain the empty space") {
     const Scene s = alphabet({region("out", {leg("a"), not_}), region("most", {leg("a"), leg("b"), not_, either}),
-                              region("fine", {leg("a"), leg("b"), not_, both}), group("none", {}), region("all", {leg("none"), not_}),
+                              region("fine", {leg("a"), leg("b"), not_, both}), group("none", {}),
+                              region("all", {leg("none"), not_}),
                               region("odd", {leg("a"), not_, leg("b"), not_, leg("c"), op(Operator::xor_, 3)}),
                               group("above", {leg("A"), not_}), group("nothing", {leg("none"), not_})});
     CHECK(regions_of(s, {"fine", "odd"}).size() == 2);
@@ -166,7 +175,8 @@ TEST_CASE("a region must not contain the empty space") {
     } catch (const Error& error) {
         CHECK(error.status() == Status::scene);
         REQUIRE(error.diagnostics().size() == 5);
-        const std::vector<std::string> names = {"region /out", "region /most", "region /all", "region /above/A", "object nothing"};
+        const std::vector<std::string> names = {"region /out", "region /most", "region /all", "region /above/A",
+                                                "object nothing"};
         for (std::size_t i = 0; i < names.size(); ++i) {
             CHECK(error.diagnostics()[i].message == names[i] + " contains the empty space where no solid is");
             CHECK(error.diagnostics()[i].suggestion.find("intersect the complement") != std::string::npos);
@@ -286,7 +296,8 @@ TEST_CASE("scenes that expand without end are refused before they are followed")
     const Scene solids = doubled({leg("a")});
     for (const char* object : {"r", "c60"}) {
         const std::string error = error_of([&] { flatten(solids, {"a", object}, false); });
-        CHECK(says(error, std::string("with object ") + object + ", the trees of all regions hold more than 20000000 solids"));
+        CHECK(says(error,
+                   std::string("with object ") + object + ", the trees of all regions hold more than 20000000 solids"));
     }
     // Of nothing: no limit is exceeded, and no time is spent.
     const Scene none = doubled({});

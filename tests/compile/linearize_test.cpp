@@ -24,10 +24,18 @@ bool evaluate(const FlatTree& tree, const Values& values) {
         bool value = operands[0];
         for (std::size_t i = 1; i < operands.size(); ++i) {
             switch (node.op) {
-                case Operator::union_: value = value || operands[i]; break;
-                case Operator::intersection: value = value && operands[i]; break;
-                case Operator::difference: value = value && !operands[i]; break;
-                default: value = value != operands[i]; break;
+                case Operator::union_:
+                    value = value || operands[i];
+                    break;
+                case Operator::intersection:
+                    value = value && operands[i];
+                    break;
+                case Operator::difference:
+                    value = value && !operands[i];
+                    break;
+                default:
+                    value = value != operands[i];
+                    break;
             }
         }
         stack.push_back(node.op == Operator::not_ ? !value : value);
@@ -92,7 +100,9 @@ struct Walk {
                             to_right = false;
                         }
                         break;
-                    default: right_negate = entry.negate != value; break;
+                    default:
+                        right_negate = entry.negate != value;
+                        break;
                 }
                 if (to_right) {
                     i = parent & TREE_MASK;
@@ -254,8 +264,13 @@ TEST_CASE("random trees: the walk over the words gives what the tree gives, for 
 TEST_CASE("chains of 100,000 need a stack of one or two, however they are nested") {
     constexpr std::uint32_t count = 100'000;
     using enum Operator;
-    const std::vector<std::vector<Operator>> mixes = {{union_}, {intersection}, {difference}, {xor_}, {difference, union_},
-                                                      {difference, intersection}, {union_, intersection, difference, xor_}};
+    const std::vector<std::vector<Operator>> mixes = {{union_},
+                                                      {intersection},
+                                                      {difference},
+                                                      {xor_},
+                                                      {difference, union_},
+                                                      {difference, intersection},
+                                                      {union_, intersection, difference, xor_}};
     Random random(2);
     for (const auto& mix : mixes) {
         for (const bool right : {false, true}) {

@@ -20,7 +20,9 @@ inline TreeNode op(Operator which, std::uint32_t arity) { return {which, arity, 
 inline const TreeNode both = op(Operator::intersection, 2), either = op(Operator::union_, 2);
 inline const TreeNode less = op(Operator::difference, 2), one_of = op(Operator::xor_, 2), not_ = op(Operator::not_, 1);
 
-inline Solid solid(const std::string& name, Shape shape) { return {name, std::move(shape), {"scene.json", 1, 1, -1, name}}; }
+inline Solid solid(const std::string& name, Shape shape) {
+    return {name, std::move(shape), {"scene.json", 1, 1, -1, name}};
+}
 inline Solid ball(const std::string& name, const Vec3& center = {}, double radius = 1) {
     return solid(name, Ell{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}});
 }
@@ -34,7 +36,9 @@ inline Arb block_shape(const Vec3& low, const Vec3& high) {
               {high.x, high.y, high.z},
               {low.x, high.y, high.z}}}};
 }
-inline Solid block(const std::string& name, const Vec3& low, const Vec3& high) { return solid(name, block_shape(low, high)); }
+inline Solid block(const std::string& name, const Vec3& low, const Vec3& high) {
+    return solid(name, block_shape(low, high));
+}
 
 inline Combination group(const std::string& name, std::vector<TreeNode> nodes) {
     Combination c;
@@ -65,9 +69,22 @@ inline Matrix turned(double angle) {
 /// About an axis that no face is parallel to, and away from the origin.
 inline Matrix askew(double angle, const Vec3& offset = {}) {
     const double x = 0.36, y = 0.48, z = 0.8, c = std::cos(angle), s = std::sin(angle), k = 1 - c;
-    return {c + x * x * k,     x * y * k - z * s, x * z * k + y * s, offset.x, y * x * k + z * s, c + y * y * k, y * z * k - x * s,
-            offset.y,          z * x * k - y * s, z * y * k + x * s, c + z * z * k, offset.z,     0,             0,
-            0,                 1};
+    return {c + x * x * k,
+            x * y * k - z * s,
+            x * z * k + y * s,
+            offset.x,
+            y * x * k + z * s,
+            c + y * y * k,
+            y * z * k - x * s,
+            offset.y,
+            z * x * k - y * s,
+            z * y * k + x * s,
+            c + z * z * k,
+            offset.z,
+            0,
+            0,
+            0,
+            1};
 }
 
 /// What a call throws as Error; empty if it does not.

@@ -51,7 +51,9 @@ struct Packed {
 
 struct Random {
     std::mt19937 engine{11};
-    double operator()(double low = -1, double high = 1) { return std::uniform_real_distribution<double>(low, high)(engine); }
+    double operator()(double low = -1, double high = 1) {
+        return std::uniform_real_distribution<double>(low, high)(engine);
+    }
     Wide wide() { return {(*this)(), (*this)(), (*this)()}; }
     Matrix matrix(bool mirror) {
         Matrix m = askew((*this)(0, 6), {(*this)(-50, 50), (*this)(-50, 50), (*this)(-50, 50)});
@@ -101,8 +103,9 @@ TEST_CASE("packed cones: semi-axes are linear along z, caps look outward") {
         const double angle = random(0, 6.28);
         const long double along = random(0, 1);
         const Wide a = (1 - along) * wide(s.a) + along * wide(s.c), b = (1 - along) * wide(s.b) + along * wide(s.d);
-        const Wide p = transform_point(m, wide(s.v) + along * wide(s.h) + static_cast<long double>(std::cos(angle)) * a +
-                                              static_cast<long double>(std::sin(angle)) * b);
+        const Wide p =
+            transform_point(m, wide(s.v) + along * wide(s.h) + static_cast<long double>(std::cos(angle)) * a +
+                                   static_cast<long double>(std::sin(angle)) * b);
         const Wide q = packed.local(p);
         CHECK(is_zero(q.z - (2 * along - 1)));
         const long double az = packed.real(12) + packed.real(13) * q.z, bz = packed.real(14) + packed.real(15) * q.z;
@@ -122,9 +125,9 @@ TEST_CASE("packed cones: one taper is a quadric, to the bit; the top may be an e
         const Packed p(s, m);
         return std::array<double, 5>{p.real(12), p.real(13), p.real(14), p.real(15), p.real(16)};
     };
-    CHECK(taper(cone(1, 2, 1, 2)) == std::array<double, 5>{1, 0, 1, 0, 0});              // cylinder
+    CHECK(taper(cone(1, 2, 1, 2)) == std::array<double, 5>{1, 0, 1, 0, 0});  // cylinder
     CHECK(taper(cone(2, 4, 1, 2)) == std::array<double, 5>{0.75, -0.25, 0.75, -0.25, 0});
-    CHECK(taper(cone(2, 3, 2, 0)) == std::array<double, 5>{1, 0, 0.5, -0.5, 1});          // an edge
+    CHECK(taper(cone(2, 3, 2, 0)) == std::array<double, 5>{1, 0, 0.5, -0.5, 1});  // an edge
     CHECK(taper(cone(1, 2, 2, 1)) == std::array<double, 5>{0.75, 0.25, 0.75, -0.25, 1});
     // Written with ten digits, the same taper all the same.
     const auto rounded = taper(cone(3, 1, 1, 0.33333333335));
@@ -146,7 +149,8 @@ TEST_CASE("packed cones: an apex is the local origin") {
             const Wide apex = transform_point(m, wide(s.v) + (above ? 1.0L : 0.0L) * wide(s.h));
             CHECK(glm::length(packed.local(apex)) < 1e-14L);
             // A quarter of the way from the apex, on the side.
-            const Wide p = transform_point(m, wide(s.v) + (above ? 0.75L : 0.25L) * wide(s.h) + 0.25L * wide(above ? s.b : s.d));
+            const Wide p =
+                transform_point(m, wide(s.v) + (above ? 0.75L : 0.25L) * wide(s.h) + 0.25L * wide(above ? s.b : s.d));
             const Wide q = packed.local(p);
             CHECK(is_zero(q.x));
             CHECK(is_zero(q.y - packed.real(13) * q.z));
@@ -190,8 +194,9 @@ TEST_CASE("packed hyperboloids: points of the side, base looks outward") {
         CHECK(near(packed.real(12), static_cast<double>(c)));
         const long double r = std::sqrt((zeta * zeta - c * c) / (1 + 2 * c)), angle = random(0, 6.28);
         const Wide b = glm::normalize(glm::cross(h, a));
-        const Wide p = transform_point(m, wide(s.v) + (1 - below) * h + r * (std::cos(angle) * static_cast<long double>(s.r_1) * a +
-                                                                             std::sin(angle) * static_cast<long double>(s.r_2) * b));
+        const Wide p = transform_point(m, wide(s.v) + (1 - below) * h +
+                                              r * (std::cos(angle) * static_cast<long double>(s.r_1) * a +
+                                                   std::sin(angle) * static_cast<long double>(s.r_2) * b));
         const Wide q = packed.local(p);
         CHECK(is_zero(q.z - (1 - 2 * below)));
         CHECK(is_zero(q.x * q.x + q.y * q.y - r * r));
@@ -205,7 +210,8 @@ TEST_CASE("packed polyhedra: every face once, outward") {
     Arbn arbn{{{{1, 0, 0}, 1}, {{-1, 0, 0}, 0}, {{0, 1, 0}, 2}, {{0, -1, 0}, 0}, {{0, 0, 1}, 3}, {{0, 0, -1}, 0}}};
     arbn.planes.push_back(arbn.planes[2]);
     for (const Shape& shape : {Shape(arb), Shape(arbn)}) {
-        for (const Matrix& m : {identity, askew(2, {7, 8, 9}), Matrix{-2, 0, 0, 1, 0, 1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1}}) {
+        for (const Matrix& m :
+             {identity, askew(2, {7, 8, 9}), Matrix{-2, 0, 0, 1, 0, 1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1}}) {
             const Packed packed(shape, m);
             CHECK(packed.solid().type == SOLID_ARB);
             CHECK(packed.reals() == 0);
@@ -214,7 +220,8 @@ TEST_CASE("packed polyhedra: every face once, outward") {
             for (std::size_t face = 0; face < 6; ++face) {
                 CHECK(packed.above(face, inside) < -0.3);
                 int on = 0;
-                for (const Vec3& corner : arb.vertices) on += is_zero(packed.above(face, transform_point(m, wide(corner))));
+                for (const Vec3& corner : arb.vertices)
+                    on += is_zero(packed.above(face, transform_point(m, wide(corner))));
                 CHECK(on == 4);
             }
         }

@@ -38,9 +38,11 @@ std::size_t shared(const std::vector<std::vector<kernel::PlaneRef>>& refs, bool 
 }  // namespace
 
 TEST_CASE("abutting blocks share the plane between them, and those that they are flush in") {
-    for (const Matrix& m : {identity, moved(0.1, 0.7, 1e3), turned(0.3), askew(1.1), askew(2.7, {123.456, -77.7, 0.1})}) {
+    for (const Matrix& m :
+         {identity, moved(0.1, 0.7, 1e3), turned(0.3), askew(1.1), askew(2.7, {123.456, -77.7, 0.1})}) {
         PlaneTable table(center, radius);
-        const auto refs = add_all(table, {{block_shape({0, 0, 0}, {1, 2, 3}), m}, {block_shape({1, 0, 0}, {5, 2, 3}), m}});
+        const auto refs =
+            add_all(table, {{block_shape({0, 0, 0}, {1, 2, 3}), m}, {block_shape({1, 0, 0}, {5, 2, 3}), m}});
         CHECK(shared(refs, true) == 1);   // x = 1, from both sides
         CHECK(shared(refs, false) == 4);  // y and z, flush
         CHECK(table.take().size() == 7);
@@ -50,7 +52,8 @@ TEST_CASE("abutting blocks share the plane between them, and those that they are
 TEST_CASE("planes are shared in any orientation of the solid, and however the same place was reached") {
     const double quarter = std::acos(0.0);
     for (int turn = 0; turn < 4; ++turn) {
-        // A cube on its place, turned about the middle of another's top; the turned one's own corners come in another order.
+        // A cube on its place, turned about the middle of another's top; the turned one's own corners come in another
+        // order.
         const Matrix m = askew(0.7, {10, 20, 30});
         Matrix t = turned(turn * quarter);
         PlaneTable table(center, radius);
@@ -59,7 +62,8 @@ TEST_CASE("planes are shared in any orientation of the solid, and however the sa
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t j = 0; j < 4; ++j)
                 for (std::size_t k = 0; k < 4; ++k)
-                    for (std::size_t l = 0; l < 4; ++l) lifted[4 * i + j] += m[4 * i + k] * up[4 * k + l] * t[4 * l + j];
+                    for (std::size_t l = 0; l < 4; ++l)
+                        lifted[4 * i + j] += m[4 * i + k] * up[4 * k + l] * t[4 * l + j];
         const auto refs = add_all(table, {{cube, m}, {cube, lifted}});
         CHECK(shared(refs, true) == 1);
         CHECK(shared(refs, false) == 4);
@@ -69,17 +73,20 @@ TEST_CASE("planes are shared in any orientation of the solid, and however the sa
 TEST_CASE("a modelled gap is kept, rounding is not") {
     const double size = std::sqrt(3.0);  // the diagonal of the smaller block
     for (const double sign : {1.0, -1.0}) {
-        for (const auto& [gap, joined] : {std::pair{0.3 * PlaneTable::gap, true}, std::pair{3 * PlaneTable::gap, false}}) {
+        for (const auto& [gap, joined] :
+             {std::pair{0.3 * PlaneTable::gap, true}, std::pair{3 * PlaneTable::gap, false}}) {
             PlaneTable table(center, radius);
             const double x = 1 + sign * gap * size;
-            const auto refs = add_all(table, {{block_shape({-9, 0, 0}, {1, 10, 10}), identity}, {block_shape({x, 3, 3}, {x + 1, 4, 4}), identity}});
+            const auto refs = add_all(table, {{block_shape({-9, 0, 0}, {1, 10, 10}), identity},
+                                              {block_shape({x, 3, 3}, {x + 1, 4, 4}), identity}});
             CHECK(shared(refs, true) == (joined ? 1 : 0));
         }
     }
     // Turned about an edge in the common plane, the far edge leaves it.
     for (const auto& [angle, joined] : {std::pair{2e-11, true}, std::pair{1e-9, false}}) {
         PlaneTable table(center, radius);
-        const auto refs = add_all(table, {{block_shape({0, -1, 0}, {1, 0, 1}), identity}, {block_shape({0, 0, 0}, {1, 1, 1}), turned(angle)}});
+        const auto refs = add_all(table, {{block_shape({0, -1, 0}, {1, 0, 1}), identity},
+                                          {block_shape({0, 0, 0}, {1, 1, 1}), turned(angle)}});
         CHECK(shared(refs, true) == (joined ? 1 : 0));
     }
 }
@@ -115,9 +122,11 @@ TEST_CASE("a wall of blocks under a rotation: each seam is one plane, for a mill
             for (int k = 0; k < 40; ++k) {
                 const Box own{{1.0 * i, 1.0 * j, 1.0 * k}, {i + 1.0, j + 1.0, k + 1.0}};
                 Box box = empty_box;
-                for (const Vec3& p : block_shape(own.low, own.high).vertices) extend(box, narrow(transform_point(m, wide(p))));
-                for (const Plane& plane : {Plane{{1, 0, 0}, own.high.x}, Plane{{-1, 0, 0}, -own.low.x}, Plane{{0, 1, 0}, own.high.y},
-                                           Plane{{0, -1, 0}, -own.low.y}, Plane{{0, 0, 1}, own.high.z}, Plane{{0, 0, -1}, -own.low.z}})
+                for (const Vec3& p : block_shape(own.low, own.high).vertices)
+                    extend(box, narrow(transform_point(m, wide(p))));
+                for (const Plane& plane :
+                     {Plane{{1, 0, 0}, own.high.x}, Plane{{-1, 0, 0}, -own.low.x}, Plane{{0, 1, 0}, own.high.y},
+                      Plane{{0, -1, 0}, -own.low.y}, Plane{{0, 0, 1}, own.high.z}, Plane{{0, 0, -1}, -own.low.z}})
                     table.add(transform_plane(m, plane), box);
             }
     CHECK(table.take().size() == 65 + 65 + 41);
@@ -131,7 +140,8 @@ TEST_CASE("a million different planes stay apart") {
     constexpr std::size_t count = 1'000'000;
     for (std::size_t i = 0; i < count; ++i) {
         const Wide n(gauss(random), gauss(random), gauss(random));
-        table.add(i % 2 == 0 ? plane_through(Wide(gauss(random)), n) : Plane{{0, 0, 1}, static_cast<double>(i) * 1e-4}, box);
+        table.add(i % 2 == 0 ? plane_through(Wide(gauss(random)), n) : Plane{{0, 0, 1}, static_cast<double>(i) * 1e-4},
+                  box);
     }
     CHECK(table.take().size() == count);
 }

@@ -35,7 +35,8 @@ void check_file(const std::string& bytes, std::int64_t offset, const std::string
 }
 
 /// One finding in an object that stands between two sound ones; `offset` counts from its first byte.
-void check_object(const std::string& bytes, std::int64_t offset, const std::string& object, const std::string& message) {
+void check_object(const std::string& bytes, std::int64_t offset, const std::string& object,
+                  const std::string& message) {
     const std::string before = header + sphere("before");
     check_file(before + bytes + sphere("after"), static_cast<std::int64_t>(before.size()) + offset, object, message);
 }
@@ -65,8 +66,8 @@ TEST_CASE("g: what is no database of release 5 is refused", "[g][broken]") {
     check_file("title {T}\nunits mm\n", 0, "", "no object starts here");
     check_file("v", 1, "", "only 0 are left");
     check_file(header.substr(0, 6), 6, "", "only 0 are left");
-    check_file(header.substr(0, 7), 6, "", "the file ends after 7");
-    check_file(sphere("a"), 0, "", "does not start with the header");
+    check_file(header.substr(0, 7), 6, "", "the file ends after 7 bytes");
+    check_file(sphere("a"), 0, "a", "does not start with the header");
 
     try {
         read_brlcad_g("no such folder/model.g");
@@ -82,7 +83,7 @@ TEST_CASE("g: frames", "[g][broken]") {
     const auto end = static_cast<std::int64_t>(ball.size());
     // Where the next object starts cannot be told after these, so they end the reading.
     check_object(changed(ball, 0, "w"), 0, "", "no object starts here");
-    check_object(changed(ball, 6, "\xFF"), 6, "x", "2040 bytes long, but the file ends after");
+    check_object(changed(ball, 6, "\xFF"), 6, "x", "255 times 8 bytes long, but the file ends after");
     check_object(changed(ball, 6, zero), 6, "x", "0 bytes long, less than");
     check_object(changed(ball, 6, "\1"), 7, "x", "not 0x35");
     check_object(changed(ball, static_cast<std::size_t>(end) - 1, "6"), end - 1, "x", "not 0x35");
@@ -100,7 +101,8 @@ TEST_CASE("g: frames", "[g][broken]") {
     check_object(changed(ball, 8, zero), 8, "", "the name is empty");
     check_object(changed(ball, 7, "\3"), 10, "", "the name goes on");
     check_object(changed(ball, 10, "\xFF"), 11, "x", "the body: 255 bytes are needed");
-    check_object(changed(wide, 6 + 8 + 8 + 2, number(~std::uint64_t{0}, 3)), 6 + 8 + 8 + 2 + 8, "x", "the body: 18446744073709551615");
+    check_object(changed(wide, 6 + 8 + 8 + 2, number(~std::uint64_t{0}, 3)), 6 + 8 + 8 + 2 + 8, "x",
+                 "the body: 18446744073709551615 bytes");
 }
 
 TEST_CASE("g: solids that are wrong", "[g][broken]") {
@@ -109,13 +111,14 @@ TEST_CASE("g: solids that are wrong", "[g][broken]") {
     check_body(3, "", body_at - 1, "the body of the ell has 0 bytes");
     check_body(4, counted_reals(1, 24) + "1", body_at, "193 bytes, not 192");
     check_body(6, reals({0, 0, std::numeric_limits<double>::quiet_NaN(), 1}), body_at + 16, "not a finite number");
-    check_body(20, counted_reals(1, 11) + reals({std::numeric_limits<double>::infinity()}), body_at + 88, "c is not a finite");
+    check_body(20, counted_reals(1, 11) + reals({std::numeric_limits<double>::infinity()}), body_at + 88,
+               "c is not a finite");
     check_body(14, number(1, 1), body_at, "the number of planes");
     check_body(14, number(0, 2), body_at, "0 planes");
     check_body(14, number(0xFFFFFFFF, 2) + counted_reals(1, 4), body_at, "4294967295 planes");
     check_body(14, number(2, 2) + counted_reals(1, 4), body_at + 4, "the body of the arbn has 32 bytes, not 64");
-    check_object(WrittenObject{.minor = 3, .name = "x", .body = counted_reals(1, 12), .compression = 1}.bytes(), body_at, "x",
-                 "compressed");
+    const WrittenObject packed{.minor = 3, .name = "x", .body = counted_reals(1, 12), .compression = 1};
+    check_object(packed.bytes(), body_at, "x", "compressed");
 }
 
 TEST_CASE("g: combinations that are wrong", "[g][broken]") {
@@ -128,8 +131,10 @@ TEST_CASE("g: combinations that are wrong", "[g][broken]") {
     check_body(31, zero + "\1\1", body_at + 3, "the size of the leaves");
     check_object(WrittenObject{.minor = 31, .name = "x"}.bytes(), body_at - 1, "x", "the width of the numbers");
     check_members({.leaves = {{"a"}}, .matrix_count = 2}, body_at + 1, "2 matrices do not fit");
-    check_members({.leaves = {{"a"}}, .width = 3, .matrix_count = std::numeric_limits<std::int64_t>::max()}, body_at + 1,
-                  "matrices do not fit");
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    check_members({.leaves = {{"a"}}, .width = 3, .matrix_count = most}, body_at + 1, "matrices do not fit");
+    check_members({.leaves = {{"a"}}, .width = 3, .leaf_bytes = most}, body_at + 1 + 5 * 8, "the leaves: ");
+    check_members({.leaves = {{"a"}}, .width = 3, .leaf_count = most}, body_at + 1 + 5 * 8 + 2 + 8, "the name of a leaf");
     check_members({.leaves = {{"a"}}, .leaf_bytes = 200}, members_at, "the leaves: 200 bytes are needed");
     check_members({.leaves = {{"a"}}, .leaf_bytes = 2}, members_at + 2, "the number of a leaf's matrix");
     check_members({.leaves = {{"a"}}, .leaf_bytes = 1}, members_at, "the name of a leaf does not end");
@@ -141,7 +146,8 @@ TEST_CASE("g: combinations that are wrong", "[g][broken]") {
     check_members({.leaves = {{"a", 0}}, .matrices = {perspective}}, members_at, "perspective");
     check_members({.leaves = {{"a", 0}}, .matrices = {no_scale}}, members_at, "scale is infinite");
     check_members({.leaves = {{"a", 0}}, .matrices = {not_a_number}}, members_at + 24, "not a finite number");
-    check_members({.leaves = {{"a"}}, .expression = "\1", .expression_length = 5}, members_at + 3, "the expression: 5 bytes");
+    check_members({.leaves = {{"a"}}, .expression = "\1", .expression_length = 5}, members_at + 3,
+                  "the expression: 5 bytes");
     check_members({.leaves = {{"a"}}, .expression = "\1", .expression_length = 0}, members_at + 3, "the body goes on");
     check_members({.leaves = {{"a"}}, .expression = "\2"}, members_at + 3, "0 operands, not 2");
     check_members({.leaves = {{"a"}}, .expression = "\1\4"}, members_at + 4, "1 operands, not 2");
@@ -162,8 +168,8 @@ TEST_CASE("g: attributes that are wrong", "[g][broken]") {
     check_object(with(attributes({"los", "100", "color", "1/2/300"})), body_at + 8 + 6 + 4, "x", "outside 0 to 255");
     check_object(WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = attributes({"units", "0.7"})}.bytes(),
                  body_at + 6 + 6, "_GLOBAL", "no unit is");
-    check_object(WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = attributes({"title", "t"}), .compression = 1}.bytes(),
-                 body_at + 6, "_GLOBAL", "compressed");
+    const WrittenObject packed{.major = 2, .name = "_GLOBAL", .attributes = attributes({"k", "v"}), .compression = 1};
+    check_object(packed.bytes(), body_at + 6, "_GLOBAL", "compressed");
 }
 
 TEST_CASE("g: names must be unique", "[g][broken]") {
@@ -173,7 +179,9 @@ TEST_CASE("g: names must be unique", "[g][broken]") {
 }
 
 TEST_CASE("g: several findings are reported at once, in the order of the file", "[g][broken]") {
-    const auto bad = [](const std::string& name) { return WrittenObject{.minor = 6, .name = name, .body = "123"}.bytes(); };
+    const auto bad = [](const std::string& name) {
+        return WrittenObject{.minor = 6, .name = name, .body = "123"}.bytes();
+    };
     const auto findings = findings_in(header + bad("a") + sphere("s") + bad("b") + bad("c") + "rubbish");
     REQUIRE(findings.size() == 4);
     CHECK(findings[0].place.pointer == "a");
@@ -191,11 +199,14 @@ TEST_CASE("g: any end of a file, and any byte in it, gives a scene or findings",
         "c", {.leaves = {{"a", 0}, {"b"}, {"n"}}, .expression = "\1\1\2\1\6\4",
               .matrices = {{1, 0, 0, 4, 0, 1, 0, 6, 0, 0, 1, 8, 0, 0, 0, 0.5}}},
         attributes({"region", "R", "color", "1/2/3", "shader", "glass {tr 0.5}"}));
-    const std::string bytes =
-        header + WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = attributes({"units", "1", "regionid_colortable",
-                                                                                       "{1 2 3 4 5}"})}.bytes() +
-        sphere("a") + WrittenObject{.minor = 14, .name = "n", .body = number(1, 2) + counted_reals(1, 4)}.bytes() + members +
-        WrittenObject{.kind = 2, .width = 1}.bytes() + WrittenObject{.minor = 30, .name = "b", .body = "mesh", .width = 2}.bytes();
+    const WrittenObject objects[] = {
+        {.major = 2, .name = "_GLOBAL", .attributes = attributes({"units", "1", "regionid_colortable", "{1 2 3 4 5}"})},
+        {.minor = 14, .name = "n", .body = number(1, 2) + counted_reals(1, 4)},
+        {.kind = 2, .width = 1},
+        {.minor = 30, .name = "b", .body = "mesh", .width = 2},
+    };
+    std::string bytes = header + sphere("a") + members;
+    for (const WrittenObject& object : objects) bytes += object.bytes();
     std::size_t read = 0, refused = 0;
     const auto attempt = [&](const std::string& changed_bytes) {
         try {

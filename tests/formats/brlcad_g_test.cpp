@@ -41,7 +41,8 @@ TEST_CASE("g: solids", "[g]") {
     const Scene scene = parse(solid(1, "tor", 8) + solid(2, "tgc", 18) + solid(3, "ell", 12) + solid(4, "arb", 24) +
                               WrittenObject{.minor = 6, .name = "half", .body = reals({0, -2, 0, 8})}.bytes() +
                               solid(7, "rec", 18) + solid(10, "sph", 12) +
-                              WrittenObject{.minor = 14, .name = "arbn", .body = planes}.bytes() + solid(20, "ehy", 12));
+                              WrittenObject{.minor = 14, .name = "arbn", .body = planes}.bytes() +
+                              solid(20, "ehy", 12));
     REQUIRE(scene.objects.size() == 9);
     CHECK(shape<Tor>(scene, "tor").v == Vec3{1, 2, 3});
     CHECK(shape<Tor>(scene, "tor").h == Vec3{4, 5, 6});
@@ -98,7 +99,8 @@ TEST_CASE("g: solids that csgrt does not know keep BRL-CAD's names", "[g]") {
     REQUIRE(scene.objects.size() == types.size());
     for (const auto& [type, name] : types) CHECK(unsupported_type(scene, "s" + std::to_string(type)) == name);
     // Their bodies are not looked at, so it does not matter that they are compressed.
-    CHECK(unsupported_type(parse(WrittenObject{.minor = 30, .name = "b", .body = "zz", .compression = 1}.bytes()), "b") == "bot");
+    const std::string packed = WrittenObject{.minor = 30, .name = "b", .body = "zz", .compression = 1}.bytes();
+    CHECK(unsupported_type(parse(packed), "b") == "bot");
 }
 
 TEST_CASE("g: lengths of every width", "[g]") {
@@ -151,10 +153,12 @@ TEST_CASE("g: attributes", "[g]") {
     const std::string global = attributes({"title", "A {model}", "units", "2.54000000000000000e+01", "note", "",
                                            "regionid_colortable", "{1 2 0 0 255} {3 4 0 255 0} "});
     const std::string keys = attributes({"region", "R", "region_id", "7", "material_id", "3", "los", "50", "aircode",
-                                         "2", "color", "255/0/51", "shader", "plastic {sh 5}", "inherit", "1", "own", ""});
+                                         "2", "color", "255/0/51", "shader", "plastic {sh 5}", "inherit", "1",
+                                         "own", ""});
     const Scene scene = parse(WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = global}.bytes() +
                               combination("r", {.leaves = {{"a"}}}, keys) +
-                              combination("c", {.leaves = {{"a"}}}, attributes({"rgb", "0/0/255", "oshader", "glass"})) +
+                              combination("c", {.leaves = {{"a"}}},
+                                          attributes({"rgb", "0/0/255", "oshader", "glass"})) +
                               combination("v", {.leaves = {{"a"}}}, attributes({}) + "\2binary") +
                               combination("w", {.leaves = {{"a"}}}, "air" + zero + "5" + zero));
     CHECK(scene.title == "A {model}");

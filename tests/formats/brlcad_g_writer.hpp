@@ -87,7 +87,9 @@ struct Members {
             return number(given >= 0 ? static_cast<std::uint64_t>(given) : counted, width);
         };
         std::string names, numbers;
-        for (const Leaf& leaf : leaves) names += leaf.name + zero + number(static_cast<std::uint64_t>(leaf.matrix), width);
+        for (const Leaf& leaf : leaves) {
+            names += leaf.name + zero + number(static_cast<std::uint64_t>(leaf.matrix), width);
+        }
         for (const auto& matrix : matrices) numbers += reals(matrix);
         return number(width, 0) + count(matrix_count, matrices.size()) + count(leaf_count, leaves.size()) +
                count(leaf_bytes, names.size()) + count(expression_length, expression.size()) + number(9, width) +

@@ -12,8 +12,8 @@
 
 namespace csgrt::brlcad_test {
 
-/// Objects of each type, and combinations that are regions. Counted in the text databases themselves: in v5 by the third
-/// word of the lines that start with put, in v4 by the first letter and the type's number.
+/// Objects of each type, and combinations that are regions. Counted in the text databases themselves: in v5 by the
+/// third word of the lines that start with put, in v4 by the first letter and the type's number.
 struct Model {
     const char* file;
     std::size_t regions;

@@ -109,7 +109,7 @@ TEST_CASE("validate: settings, colours and finishes") {
 TEST_CASE("validate: a solid that is not supported names its users") {
     const Scene scene = make_scene({solid("hose", Unsupported{"pipe"}), ball("a"), combination("pump", union_of({"a", "hose"})),
                                     combination("car", union_of({"pump", "hose"})), combination("bus", union_of({"a"}))});
-    check_one(validate(scene, {"car"}), "'hose' is a solid of type 'pipe', which csgrt does not support; used by 'pump' and on 1 other legs");
+    check_one(validate(scene, {"car"}), "'hose' is a solid of type 'pipe', which csgrt does not support; used by 'pump' and on 1 other leg");
     CHECK(validate(scene, {"bus"}).empty());
     check_one(validate(scene, {"hose"}), "does not support");
 }

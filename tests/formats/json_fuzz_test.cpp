@@ -1,0 +1,136 @@
+// Texts that nobody would write: each is read, or refused with an Error; nothing else may happen. Fixed seeds.
+#include "catch.hpp"
+
+#include <random>
+
+#include "formats/json_text.hpp"
+#include "formats/json_writer.hpp"
+#include "formats/same_scene.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+/// A little of everything, so that a change anywhere meets some reader.
+const std::string everything = R"({
+  "csgrt": 1, "title": "t \u00e9", "units": "in", "ambient": 0.4, "background": [0, 0.5, 1], "tolerance": 1e-4,
+  "camera": {"azimuth": 35, "elevation": -25.5, "perspective": 0, "center": [0, 0, 1e3], "size": 3},
+  "lights": [{"position": [1, 2, 3], "color": [1, 1, 1], "intensity": 1}],
+  "materials": {"red": {"color": [1, 0, 0], "shine": 3, "shader": "plastic", "specular": 0.5}},
+  "solids": {
+    "s": {"type": "sphere", "center": [0, 0, 0], "radius": 1}, "e": {"type": "ell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 1, 0], "c": [0, 0, 1]},
+    "k": {"type": "cone", "base": [0, 0, 0], "height": [0, 1, 1], "radius": 1, "top_radius": 0.5}, "b": {"type": "box", "low": [0, 0, 0], "high": [1, 1, 1]},
+    "p": {"type": "arb4", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "h": {"type": "half", "normal": [0, 0, 1], "distance": -2},
+    "n": {"type": "arbn", "planes": [{"normal": [1, 1, 0], "distance": 1}, {"normal": [-1, 0, 0], "distance": 1}]},
+    "t": {"type": "tor", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 2, "tube": 1},
+    "y": {"type": "ehy", "base": [0, 0, 0], "height": [0, 0, 1], "a": [1, 0, 0], "r1": 1, "r2": 1, "c": 1}, "u": {"type": "unsupported", "was": "pipe"}
+  },
+  "combinations": {
+    "c": {"tree": {"difference": ["s", {"union": ["e", {"not": "k"}], "translate": [1, 2, 3]}, {"xor": ["b", "p"]}]}, "region": true, "id": 7},
+    "d": {"tree": {"intersection": [{"object": "c", "rotate": {"axis": [1, 0, 0], "angle": 90}, "scale": -2}, {"object": "n", "matrix": [1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}]}, "material": "red", "inherit": ["color"]},
+    "f": {"tree": {"postfix": ["c", "d", {"operator": "union", "operands": 2}]}}, "g": {"tree": null, "material": {"diffuse": 1}}
+  },
+  "objects": ["f", "g"], "region_colors": [{"low": 0, "high": 9, "color": [0, 0, 1]}]
+})";
+
+const char* const fragments[] = {"{", "}", "[", "]", ",", ":", "\"", "null", "true", "-", "1e999", "NaN", "0", "1e308", "-0",
+                                 "\\u0000", "\\ud800", "\xff", "\"not\": ", "{\"not\": ", "\"s\"", "\"c\"", "\"f\"", "[[[[[[[[", "1e-400",
+                                 "{\"object\": \"f\"}", "\"type\": \"tgc\"", "9999999999999999999999", "\n", "//", "\"\""};
+
+std::string mutated(std::mt19937& random) {
+    std::string text = everything;
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+    for (std::size_t i = 0, changes = 1 + below(3); i < changes; ++i) {
+        const std::size_t at = below(text.size()), length = below(std::min<std::size_t>(40, text.size() - at));
+        switch (below(6)) {
+            case 0: text.erase(at, length); break;
+            case 1: text.insert(at, fragments[below(std::size(fragments))]); break;
+            case 2: text.replace(at, length, fragments[below(std::size(fragments))]); break;
+            case 3: text[at] = static_cast<char>(random()); break;
+            case 4: text.insert(below(text.size()), text.substr(at, length)); break;
+            default: text.resize(at + 1); break;
+        }
+    }
+    return text;
+}
+
+/// A number, name or bracket for another: far more of these are still JSON, and reach the readers behind the parser.
+std::string swapped_token(std::mt19937& random) {
+    std::vector<std::pair<std::size_t, std::size_t>> tokens;
+    for (std::size_t i = 0; i < everything.size();) {
+        const std::size_t begin = i;
+        if (everything[i] == '"') {
+            i = everything.find('"', i + 1) + 1;
+        } else if (std::string_view("-0123456789.e").find(everything[i]) != std::string_view::npos) {
+            i = everything.find_first_not_of("-0123456789.e", i);
+        } else {
+            ++i;
+            continue;
+        }
+        tokens.emplace_back(begin, i - begin);
+    }
+    std::string text = everything;
+    for (int change = 0; change < 2; ++change) {
+        const auto [to, to_length] = tokens[random() % tokens.size()];
+        const auto [from, from_length] = tokens[random() % tokens.size()];
+        if (text.size() == everything.size() || to < from) text.replace(to, to_length, everything, from, from_length);
+    }
+    return text;
+}
+
+/// Whether the text was read. Anything but an Error escapes, and fails the test.
+bool survives(const std::string& text) {
+    try {
+        const Scene scene = scene_of(text);
+        for (const Diagnostic& finding : validate(scene)) CHECK_FALSE(finding.message.empty());
+        CHECK(same_scene(scene, scene_of(json_scene_text(scene))));
+        return true;
+    } catch (const Error& error) {
+        CHECK(error.status() == Status::scene);
+        REQUIRE_FALSE(error.diagnostics().empty());
+        for (const Diagnostic& finding : error.diagnostics()) {
+            CHECK_FALSE(finding.message.empty());
+            CHECK(finding.place.file == "scene.json");
+            CHECK(finding.place.line > 0);
+            CHECK(finding.place.column > 0);
+        }
+        return false;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("json fuzz: the text that is changed is sound") {
+    CHECK(survives(everything));
+}
+
+TEST_CASE("json fuzz: bytes changed, put in, left out") {
+    std::mt19937 random(20240607);
+    int read = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const std::string text = mutated(random);
+        INFO(text);
+        read += survives(text);
+    }
+    CHECK(read > 20);    // some changes only change a number
+    CHECK(read < 1000);
+}
+
+TEST_CASE("json fuzz: values in each other's places") {
+    std::mt19937 random(7);
+    int read = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const std::string text = swapped_token(random);
+        INFO(text);
+        read += survives(text);
+    }
+    CHECK(read > 100);
+    CHECK(read < 1900);
+}
+
+TEST_CASE("json fuzz: cut off at every byte") {
+    for (std::size_t length = 0; length < everything.size(); length += 7) {
+        INFO(length);
+        CHECK_FALSE(survives(everything.substr(0, length)));
+    }
+}

@@ -1,0 +1,80 @@
+// Whether two scenes are the same model, bit for bit; places aside, which tell where it was read.
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// Every number and text of a scene in one order, as bytes.
+class SceneBytes {
+public:
+    explicit SceneBytes(const Scene& scene) {
+        add(scene.title, scene.units, scene.unit_length, scene.camera.azimuth, scene.camera.elevation,
+            scene.camera.perspective, scene.camera.center, scene.camera.view_size, scene.ambient, scene.background,
+            scene.tolerance, scene.lights.size(), scene.objects.size(), scene.top.size(), scene.region_colors.size());
+        for (const Light& light : scene.lights) add(light.position, light.color, light.intensity);
+        for (const std::string& name : scene.top) add(name);
+        for (const RegionColor& range : scene.region_colors) add(range.low, range.high, range.color);
+        for (const Object& object : scene.objects) {
+            add(object.index(), name_of(object));
+            if (const auto* solid = std::get_if<Solid>(&object)) {
+                add(solid->shape.index());
+                std::visit([this](const auto& shape) { add_shape(shape); }, solid->shape);
+            } else {
+                add_combination(std::get<Combination>(object));
+            }
+        }
+    }
+    const std::string& bytes() const { return bytes_; }
+
+private:
+    template <class... T>
+    void add(const T&... values) {
+        (add_one(values), ...);
+    }
+    void add_one(const std::string& text) {
+        add_one(text.size());
+        bytes_ += text;
+    }
+    template <class T>
+    void add_one(const std::optional<T>& value) {
+        add_one(value.has_value());
+        if (value) add_one(*value);
+    }
+    template <class T>
+    void add_one(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    template <class Numbers>
+    void add_shape(const Numbers& shape) {
+        add_one(shape);
+    }
+    void add_shape(const Arbn& shape) {
+        add(shape.planes.size());
+        for (const Plane& plane : shape.planes) add(plane);
+    }
+    void add_shape(const Unsupported& shape) { add(shape.type); }
+
+    void add_combination(const Combination& c) {
+        add(c.tree.nodes.size(), c.region, c.region_id, c.air, c.material_id, c.los, c.color, c.finish.has_value(),
+            c.color_inherits, c.finish_inherits);
+        if (c.finish) {
+            add(c.finish->shader, c.finish->specular, c.finish->diffuse, c.finish->ambient, c.finish->shine,
+                c.finish->transmit, c.finish->reflect);
+        }
+        for (const TreeNode& node : c.tree.nodes) add(node.op, node.arity, node.object, node.matrix);
+    }
+
+    std::string bytes_;
+};
+
+inline bool same_scene(const Scene& a, const Scene& b) {
+    return SceneBytes(a).bytes() == SceneBytes(b).bytes();
+}
+
+}  // namespace csgrt

@@ -1,0 +1,102 @@
+// Files: found by extension, written whole or not at all.
+#include "catch.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <csgrt/scene_io.hpp>
+
+#include "formats/same_scene.hpp"
+#include "scene/make_scene.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own, gone at the end.
+class Folder {
+public:
+    Folder() : path_(fs::temp_directory_path() / ("csgrt_scene_io_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
+    }
+
+private:
+    fs::path path_;
+};
+
+Status status_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        CHECK_FALSE(std::string(error.what()).empty());
+        return error.status();
+    }
+    return Status::ok;
+}
+
+std::string content(const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("scene io: what is saved loads to the same scene") {
+    const Folder folder;
+    const Scene scene = make_scene({ball("a", 0.1), combination("c", union_of({"a"}))});
+    save_scene(scene, folder / "scene.JSON");
+    CHECK(same_scene(load_scene(folder / "scene.JSON"), scene));
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("scene io: files that cannot be read") {
+    const Folder folder;
+    std::ofstream(folder / "scene.step") << "{}";
+    fs::create_directory(folder / "folder.json");
+    CHECK(status_of([&] { load_scene(folder / "absent.json"); }) == Status::file);
+    CHECK(status_of([&] { load_scene(folder / "absent.asc"); }) == Status::file);
+    CHECK(status_of([&] { load_scene(folder / "absent.g"); }) == Status::file);
+    CHECK(status_of([&] { load_scene(folder / "scene.step"); }) == Status::file);
+    CHECK(status_of([&] { load_scene(folder / "folder.json"); }) == Status::file);
+    CHECK(status_of([&] { load_scene(""); }) == Status::file);
+}
+
+TEST_CASE("scene io: a file is replaced whole, or left alone") {
+    const Folder folder;
+    const std::string path = folder / "scene.json";
+    std::ofstream(path) << "before";
+    Scene scene = make_scene({ball("a", std::numeric_limits<double>::infinity())});
+    CHECK(status_of([&] { save_scene(scene, path); }) == Status::scene);
+    CHECK(content(path) == "before");
+    scene = make_scene({ball("a")});
+    save_scene(scene, path);
+    CHECK(content(path).find("sphere") != std::string::npos);
+    CHECK(folder.count() == 1);
+
+    CHECK(status_of([&] { save_scene(scene, folder / "absent/scene.json"); }) == Status::file);
+    CHECK(status_of([&] { save_scene(scene, folder / "scene.g"); }) == Status::file);
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("scene io: a link stays, what it leads to is replaced; a device is written to") {
+    const Folder folder;
+    const Scene scene = make_scene({ball("a")});
+    std::ofstream(folder / "real.json") << "before";
+    fs::create_symlink(folder / "real.json", folder / "link.json");
+    save_scene(scene, folder / "link.json");
+    CHECK(fs::is_symlink(folder / "link.json"));
+    CHECK(content(folder / "real.json").find("sphere") != std::string::npos);
+    save_scene(scene, "/dev/null");
+    if (fs::exists("/dev/full")) CHECK(status_of([&] { save_scene(scene, "/dev/full"); }) == Status::file);
+}
