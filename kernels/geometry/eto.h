@@ -13,16 +13,29 @@
 
 #define ETO_MARGIN REAL(1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
 
-FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
+// F at a point, and its rate of change along d.
+typedef struct {
+    real value, slope;
+} eto_form;
+
+FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u) {
+    eto_form f;
     vec3 at = add_scaled(o, u, d);
     real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
     real radial = rho - REAL(1);
     real rate = real_fma(at.x, d.x, at.y * d.y) / rho;
     real by_radial = real_fma(p[12], radial, p[13] * at.z), by_z = real_fma(p[13], radial, p[14] * at.z);
-    real value = real_fma(by_radial, radial, by_z * at.z) - REAL(1);
-    real slope = REAL(2) * real_fma(by_radial, rate, by_z * d.z);
-    real step = value / slope;
-    return real_abs(step) < REAL(1e-7) * p[15] ? u - step : u;
+    f.value = real_fma(by_radial, radial, by_z * at.z) - REAL(1);
+    f.slope = REAL(2) * real_fma(by_radial, rate, by_z * d.z);
+    return f;
+}
+
+// One step of Newton, taken if it is small and brings the point nearer to the surface.
+FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
+    eto_form f = eto_at(p, o, d, u);
+    real next = u - f.value / f.slope;
+    if (!(real_abs(next - u) < REAL(1e-5) * p[15])) return u;
+    return real_abs(eto_at(p, o, d, next).value) <= real_abs(f.value) ? next : u;
 }
 
 FN hits eto_intersect(GLOBAL const real* p, ray3 r) {

@@ -13,14 +13,27 @@
 
 #define TOR_MARGIN REAL(1.000001)  // the piece is a little larger than the torus, so that its ends are outside
 
-FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
+// (rho - 1)^2 + z^2 - ratio^2 at a point, and its rate of change along d.
+typedef struct {
+    real value, slope;
+} tor_form;
+
+FN tor_form tor_at(vec3 o, vec3 d, real u, real ratio) {
+    tor_form f;
     vec3 p = add_scaled(o, u, d);
     real rho = real_sqrt(real_fma(p.x, p.x, p.y * p.y));
     real radial = rho - REAL(1);
-    real value = difference_of_products(radial, radial, ratio - p.z, ratio + p.z);
-    real slope = REAL(2) * real_fma(radial, real_fma(p.x, d.x, p.y * d.y) / rho, p.z * d.z);
-    real step = value / slope;
-    return real_abs(step) < REAL(1e-7) * ratio ? u - step : u;
+    f.value = difference_of_products(radial, radial, ratio - p.z, ratio + p.z);
+    f.slope = REAL(2) * real_fma(radial, real_fma(p.x, d.x, p.y * d.y) / rho, p.z * d.z);
+    return f;
+}
+
+// One step of Newton, taken if it is small and brings the point nearer to the surface.
+FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
+    tor_form f = tor_at(o, d, u, ratio);
+    real next = u - f.value / f.slope;
+    if (!(real_abs(next - u) < REAL(1e-5) * ratio)) return u;
+    return real_abs(tor_at(o, d, next, ratio).value) <= real_abs(f.value) ? next : u;
 }
 
 FN hits tor_intersect(GLOBAL const real* p, ray3 r) {

@@ -4,8 +4,9 @@
 // starts. What stands above is an expression over such starts. Unions there only collect regions; where another
 // operator stands above regions, unions are pulled up through it until they alone stand on top:
 //
-//     (A u B) - C  ->  (A - C) u (B - C)        (A u B) + C  ->  (A + C) u (B + C)        C + (A u B)  ->  (C + A) u (C
-//     + B)
+//     (A u B) - C  ->  (A - C) u (B - C)
+//     (A u B) + C  ->  (A + C) u (B + C)
+//     C + (A u B)  ->  (C + A) u (C + B)
 //
 // (C - (A u B) stays; xor and complement do not distribute.) Each term is one region: its tree the whole term with the
 // trees of all its starts, everything else that of its leftmost start.

@@ -1,4 +1,5 @@
 // Every message about the command line itself: exit status 2, the option named, the nearest one suggested.
+#include "cli/arguments.hpp"
 #include "cli/command.hpp"
 
 using namespace command_test;
@@ -10,15 +11,22 @@ struct Mistake {
     const char* said;  ///< part of the message
 };
 
+/// What is wrong with a command line; empty if nothing is.
+std::string refusal(const std::vector<std::string>& words) {
+    try {
+        csgrt::cli::parse_arguments(words);
+        return {};
+    } catch (const csgrt::Error& error) {
+        CHECK(error.status() == csgrt::Status::usage);
+        return error.what();
+    }
+}
+
 }  // namespace
 
-TEST_CASE("a wrong command line exits with 2 and names what is wrong") {
-    NEEDS_COMMAND();
-    const Folder folder;
-    const std::string scene = folder.write("balls.asc", two_balls);
+TEST_CASE("a wrong command line is refused with what is wrong") {
+    const std::string scene = "balls.asc";
     const Mistake mistakes[] = {
-        {{}, "csgrt SCENE [OBJECT...] -o FILE.exr"},
-        {{scene}, "-o FILE.exr"},
         {{scene, "--size", "0", "--stats", "-"}, "--size: '0' is not a size"},
         {{scene, "--size", "32769", "--stats", "-"}, "--size"},
         {{scene, "--size", "10x", "--stats", "-"}, "--size"},
@@ -52,12 +60,30 @@ TEST_CASE("a wrong command line exits with 2 and names what is wrong") {
         {{"compare", scene}, "B: missing"},
         {{"info", scene, "--depth", "many"}, "--depth: 'many'"},
         {{"convert", scene}, "OUT: missing"},
+    };
+    for (const Mistake& mistake : mistakes) {
+        CAPTURE(mistake.words);
+        const std::string said = refusal(mistake.words);
+        INFO(said);
+        CHECK(contains(said, mistake.said));
+    }
+}
+
+TEST_CASE("a wrong command line exits with 2, and nothing is on standard output") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls);
+    const Mistake mistakes[] = {
+        {{}, "csgrt SCENE [OBJECT...] -o FILE.exr"},
+        {{scene}, "nothing to write\n  name a picture with -o FILE.exr"},
+        {{scene, "--size", "0", "--stats", "-"}, "--size: '0' is not a size"},
+        {{scene, "--siez", "4", "--stats", "-"}, "--siez: no such option\n  did you mean '--size'?"},
+        {{"help", "devcies"}, "did you mean 'devices'?"},
         {{"convert", scene, "balls.g"}, "must end in .json"},
     };
     for (const Mistake& mistake : mistakes) {
         const Result result = run(mistake.words);
-        INFO(result.err);
-        CAPTURE(mistake.words);
+        CAPTURE(mistake.words, result.err);
         CHECK(result.status == 2);
         CHECK(result.out.empty());
         CHECK(result.err.starts_with("csgrt: error: "));
@@ -108,7 +134,7 @@ TEST_CASE("help lists every option, and every option listed is understood") {
                 option.substr(option.find("--"), option.find(' ', option.find("--")) - option.find("--"));
             std::vector<std::string> words = {word};
             if (!name.empty()) words.insert(words.begin(), name);
-            CHECK(!contains(run(words).err, "no such option"));
+            CHECK(!contains(refusal(words), "no such option"));
         }
         const Result inside = name.empty() ? run({"scene.json", "-h"}) : run({name, "--help"});
         CHECK(inside.status == 0);

@@ -15,15 +15,11 @@
 #include "compile/flatten.hpp"
 #include "compile/linear.hpp"
 #include "compile/linearize.hpp"
+#include "pipeline/scenes.hpp"
 
 using namespace csgrt;
 
 namespace {
-
-std::string folder(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && std::filesystem::is_directory(value) ? value : "";
-}
 
 /// What a set of truth says of its model.
 struct Truth {
@@ -77,7 +73,7 @@ std::size_t solids_as_brlcad_counts(const FlatScene& flat) {
 }  // namespace
 
 TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it finds itself") {
-    const std::string truths = folder("CSGRT_TRUTH"), models = folder("CSGRT_BRLCAD");
+    const std::string truths = test::folder("CSGRT_TRUTH"), models = test::folder("CSGRT_BRLCAD");
     if (truths.empty() || models.empty()) {
         WARN("CSGRT_TRUTH and CSGRT_BRLCAD name no folders: skipped");
         return;
@@ -104,7 +100,6 @@ TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it fin
         const FlatScene flat = flatten(scene, objects, false);
         ++sets;
 
-        // Regions of nothing but solids that BRL-CAD refused are its own affair; there are none.
         CHECK(flat.regions.size() == truth.regions);
         std::set<std::string> paths;
         for (const FlatRegion& region : flat.regions) paths.insert(region.info.path);

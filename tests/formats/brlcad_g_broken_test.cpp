@@ -134,7 +134,8 @@ TEST_CASE("g: combinations that are wrong", "[g][broken]") {
     constexpr auto most = std::numeric_limits<std::int64_t>::max();
     check_members({.leaves = {{"a"}}, .width = 3, .matrix_count = most}, body_at + 1, "matrices do not fit");
     check_members({.leaves = {{"a"}}, .width = 3, .leaf_bytes = most}, body_at + 1 + 5 * 8, "the leaves: ");
-    check_members({.leaves = {{"a"}}, .width = 3, .leaf_count = most}, body_at + 1 + 5 * 8 + 2 + 8, "the name of a leaf");
+    check_members({.leaves = {{"a"}}, .width = 3, .leaf_count = most}, body_at + 1 + 5 * 8 + 2 + 8,
+                  "the name of a leaf");
     check_members({.leaves = {{"a"}}, .leaf_bytes = 200}, members_at, "the leaves: 200 bytes are needed");
     check_members({.leaves = {{"a"}}, .leaf_bytes = 2}, members_at + 2, "the number of a leaf's matrix");
     check_members({.leaves = {{"a"}}, .leaf_bytes = 1}, members_at, "the name of a leaf does not end");

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "formats/json_text.hpp"
+#include "formats/parse_text.hpp"
 #include "formats/json_writer.hpp"
 #include "formats/same_scene.hpp"
 

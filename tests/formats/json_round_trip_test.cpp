@@ -10,7 +10,7 @@
 #include <csgrt/scene_io.hpp>
 
 #include "formats/friendly_solids.hpp"
-#include "formats/json_text.hpp"
+#include "formats/parse_text.hpp"
 #include "formats/json_writer.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"

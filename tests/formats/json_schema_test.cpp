@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/json_forms.hpp"
-#include "formats/json_text.hpp"
+#include "formats/parse_text.hpp"
 
 using namespace csgrt;
 using nlohmann::json;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "formats/friendly_solids.hpp"
-#include "formats/json_text.hpp"
+#include "formats/parse_text.hpp"
 #include "scene/vector.hpp"
 
 using namespace csgrt;

@@ -19,8 +19,8 @@ inline void check_kernels(oracle::Kind kind, std::size_t rays, std::uint64_t see
     std::ostringstream summary;
     for (std::size_t i = 0; i < oracle::ray_families; ++i) {
         const oracle::Tally& t = campaign.tally[i];
-        summary << oracle::ray_family_names[i] << ": " << t.rays << " rays, " << t.hits << " hit, " << t.ties << " ties, " << t.wrong
-                << " wrong\n";
+        summary << oracle::ray_family_names[i] << ": " << t.rays << " rays, " << t.hits << " hit, " << t.ties
+                << " ties, " << t.wrong << " wrong\n";
         CHECK(t.hits * 4 > t.rays);
         CHECK(t.ties * 2 < t.rays);
     }

@@ -27,7 +27,8 @@ inline auto kernel_answer(const Shape& shape, const Matrix& matrix) {
     auto scene = std::make_shared<CompiledScene>(compile_alone(shape, matrix));
     return [scene](const Ray& ray) {
         std::vector<oracle::Segment> segments;
-        for (const SolidSegment& s : intersect_solid(*scene, 0, ray)) segments.push_back({s.in, s.out, s.in_normal, s.out_normal});
+        for (const SolidSegment& s : intersect_solid(*scene, 0, ray))
+            segments.push_back({s.in, s.out, s.in_normal, s.out_normal});
         return segments;
     };
 }

@@ -3,4 +3,6 @@
 using namespace csgrt;
 
 TEST_CASE("geometry: tgc agrees with the oracle", "[geometry]") { check_kernels(oracle::Kind::tgc, short_run, 1); }
-TEST_CASE("geometry: tgc agrees with the oracle on a million rays", "[.long]") { check_kernels(oracle::Kind::tgc, long_run, 2); }
+TEST_CASE("geometry: tgc agrees with the oracle on a million rays", "[.long]") {
+    check_kernels(oracle::Kind::tgc, long_run, 2);
+}

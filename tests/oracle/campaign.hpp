@@ -55,8 +55,8 @@ Campaign run_campaign(Kind kind, std::size_t rays, std::uint64_t seed, const Sol
             tally.hits += answer.intervals.empty() ? 0 : 1;
             tally.ties += answer.tie ? 1 : 0;
             const auto told = [&] {
-                return report(one.name + ", " + ray_family_names[family] + "\n  " + describe(one.shape, one.matrix), ray, answer,
-                              segments, verdict);
+                return report(one.name + ", " + ray_family_names[family] + "\n  " + describe(one.shape, one.matrix),
+                              ray, answer, segments, verdict);
             };
             if (!verdict.wrong.empty()) {
                 ++tally.wrong;

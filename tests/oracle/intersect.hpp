@@ -1,28 +1,30 @@
 // The judge's answer for one ray and one solid: where the ray is inside, and how sure that is.
 //
-// For every polynomial of the solid the ray's restriction is solved in 113 bits, and three sets are kept: `exact`, where it
-// is not positive; `inner` and `outer`, where that stays so, or may become so, when the ray or the solid moves by up to
-// `margin` x delta. The solid's sets are the intersections. delta is the displacement that rounding the inputs can cause:
+// For every polynomial of the solid the ray's restriction is solved in 113 bits, and three sets are kept: `exact`,
+// where it is not positive; `inner` and `outer`, where that stays so, or may become so, when the ray or the solid moves
+// by up to `margin` x delta. The solid's sets are the intersections. delta is the displacement that rounding the inputs
+// can cause:
 //
 //     delta = ulps x 2^-53 x condition x (placement + |t_c d| + radius)
 //
 // with t_c the parameter of closest approach to the solid's centre (so |t_c d| + radius + |centre| bounds |o|), and
-// placement and condition as in solid.hpp. A root at slope f' can move by change(delta) / |f'|; a minimum or maximum within
-// change(delta) of 0 can gain or lose a pair of roots. For quartics change(delta) includes the rounding of f itself, ulps x
-// 2^-53 x terms (solid.hpp), which is more than that only where the gradient all but vanishes: where a torus touches itself,
-// on the ends of a wedge. The answer is decided if inner, exact and outer have the same number
-// of intervals, one in the other; otherwise rounding may decide either way, and the ray is a tie. A half-space is the one
-// unbounded solid: a ray that is parallel to it up to rounding is a tie wherever it runs, unless zeros keep it parallel.
+// placement and condition as in solid.hpp. A root at slope f' can move by change(delta) / |f'|; a minimum or maximum
+// within change(delta) of 0 can gain or lose a pair of roots. For quartics change(delta) includes the rounding of f
+// itself, ulps x 2^-53 x terms (solid.hpp), which is more than that only where the gradient all but vanishes: where a
+// torus touches itself, on the ends of a wedge. The answer is decided if inner, exact and outer have the same number of
+// intervals, one in the other; otherwise rounding may decide either way, and the ray is a tie. A half-space is the one
+// unbounded solid: a ray that is parallel to it up to rounding is a tie wherever it runs, unless zeros keep it
+// parallel.
 //
 // An end of a decided interval may be off by
 //
 //     tolerance = (1e-12 x condition x size + margin x delta + blur) / (|d| cos) + 4 x 2^-53 x |t|
 //
-// with cos = |n . d| / |d| between ray and normal: a surface that is displaced by e moves the hit by e / cos. blur is the
-// displacement by rounding in f itself, ulps x 2^-53 x terms / |gradient|: far below 1e-12 sizes, except next to an apex and
-// on slivers (solid.hpp). It bears on where ends are, not on how many there are. Close to an
-// edge the surface behind may decide instead, so the tolerance is no less than what inner and outer span, scaled to that
-// displacement; and never more than the solid's size, which counts where the normal is undefined, at an apex.
+// with cos = |n . d| / |d| between ray and normal: a surface that is displaced by e moves the hit by e / cos. blur is
+// the displacement by rounding in f itself, ulps x 2^-53 x terms / |gradient|: far below 1e-12 sizes, except next to an
+// apex and on slivers (solid.hpp). It bears on where ends are, not on how many there are. Close to an edge the surface
+// behind may decide instead, so the tolerance is no less than what inner and outer span, scaled to that displacement;
+// and never more than the solid's size, which counts where the normal is undefined, at an apex.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +54,7 @@ struct Answer {
     std::vector<Interval> intervals;
     Spans inner, outer;  ///< certainly inside, possibly inside; along the ray, in units of its direction
     bool tie = false;
-    double delta = 0;    ///< millimetres
+    double delta = 0;  ///< millimetres
 };
 
 namespace detail {
@@ -65,8 +67,8 @@ struct Sets {
 struct ScaledRay {
     QVec origin, direction;  ///< own frame of the solid
     quad t_c = 0, unit = 1;
-    quad reach = 0;      ///< |s| up to which the solid can reach; infinity for unbounded ones
-    quad turn = 0;       ///< by how much the direction's end can move when s is 1, in deltas
+    quad reach = 0;  ///< |s| up to which the solid can reach; infinity for unbounded ones
+    quad turn = 0;   ///< by how much the direction's end can move when s is 1, in deltas
     QVec world_direction;
 
     /// Is every product in normal . direction 0 by itself? Then no rounding can make the ray meet the plane.
@@ -90,8 +92,8 @@ inline Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ra
     if (f.degree == 1) {
         const quad e = change_at(0), c0 = f.c[0], c1 = f.c[1];
         const bool parallel = absolute(c1) <= e * quad(1e-12);  // up to the rounding of 113 bits
-        const bool unsure_slope = parallel ? !ray.crosses_no_axis_of(solid.normal(k, solid.center))
-                                           : absolute(c1) <= e * ray.turn;
+        const bool unsure_slope =
+            parallel ? !ray.crosses_no_axis_of(solid.normal(k, solid.center)) : absolute(c1) <= e * ray.turn;
         const quad end = parallel ? quad(0) : -c0 / c1;
         if (parallel)
             sets.exact = c0 <= 0 ? everything() : Spans{};

@@ -2,8 +2,9 @@
 //
 // Decided rays: the same number of segments; each end within the tolerance of intersect.hpp. Ties: every segment lies
 // possibly inside (its midpoint), every certain interval is found, every end lies on a surface of the solid.
-// All rays: segments in order and not overlapping; normals unit, outward, and along the gradient within 1e-9 x condition plus
-// what the normal itself varies over the displacement that the hit may have (curvature; at an apex, everything).
+// All rays: segments in order and not overlapping; normals unit, outward, and along the gradient within 1e-9 x
+// condition plus what the normal itself varies over the displacement that the hit may have (curvature; at an apex,
+// everything).
 #pragma once
 
 #include <cmath>
@@ -69,7 +70,8 @@ inline double middle(double in, double out) {
 
 }  // namespace detail
 
-inline Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& answer, const std::vector<Segment>& segments) {
+inline Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& answer,
+                     const std::vector<Segment>& segments) {
     Verdict verdict;
     std::ostringstream wrong;
     wrong.precision(17);
@@ -105,12 +107,14 @@ inline Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& a
             const quad slack = quad(moved) + quad(4 * double_epsilon * std::abs(t) * speed);
             const QVec local = solid.to_local.point(p);
             bool on = false;
-            for (std::size_t k = 0; k < solid.surfaces.size(); ++k) on = on || detail::on_surface(solid, k, local, slack);
+            for (std::size_t k = 0; k < solid.surfaces.size(); ++k)
+                on = on || detail::on_surface(solid, k, local, slack);
             if (!on) wrong << side << " of segment " << i << " is on no surface; ";
             reach = slack;
         }
         const double norm = to_double(length(normal));
-        if (!(std::abs(norm - 1) <= 1e-12)) wrong << side << " normal of segment " << i << " has length " << norm << "; ";
+        if (!(std::abs(norm - 1) <= 1e-12))
+            wrong << side << " normal of segment " << i << " has length " << norm << "; ";
         if (!detail::normal_fits(solid, p, normal, reach))
             wrong << side << " normal of segment " << i << " is not the surface's; ";
     };
@@ -147,7 +151,8 @@ inline std::string report(const std::string& what, const Ray& ray, const Answer&
                           const std::vector<Segment>& segments, const Verdict& verdict) {
     std::ostringstream out;
     out.precision(17);
-    out << verdict.wrong << "\n  " << what << "\n  " << describe(ray) << "\n  solver: " << segments.size() << " segments";
+    out << verdict.wrong << "\n  " << what << "\n  " << describe(ray) << "\n  solver: " << segments.size()
+        << " segments";
     for (const Segment& s : segments)
         print(print(out << "\n    [" << s.in << ", " << s.out << "] normals ", s.in_normal) << ' ', s.out_normal);
     out << "\n  oracle: " << describe(answer);

@@ -1,7 +1,7 @@
 // Polynomials in one variable up to degree 4, and all their real roots in an interval.
 //
-// Roots are isolated by the derivative chain: between two neighbouring roots of p' the polynomial is monotone, so it has
-// one root there if its ends differ in sign, and none otherwise. Each is refined by Newton's method kept inside its
+// Roots are isolated by the derivative chain: between two neighbouring roots of p' the polynomial is monotone, so it
+// has one root there if its ends differ in sign, and none otherwise. Each is refined by Newton's method kept inside its
 // bracket, first in double (cheap), then in 113 bits; a bisection takes over where Newton does not settle.
 #pragma once
 

@@ -10,7 +10,9 @@
 
 namespace csgrt::oracle {
 
-inline std::ostream& print(std::ostream& out, const Vec3& v) { return out << '(' << v.x << ' ' << v.y << ' ' << v.z << ')'; }
+inline std::ostream& print(std::ostream& out, const Vec3& v) {
+    return out << '(' << v.x << ' ' << v.y << ' ' << v.z << ')';
+}
 
 inline void print(std::ostream& out, const char* name, const Vec3& v) { print(out << ' ' << name << ' ', v); }
 

@@ -68,7 +68,8 @@ struct QAffine {
     QVec point(const QVec& p) const { return direction(p) + origin; }
     /// Outer after inner.
     friend QAffine operator*(const QAffine& outer, const QAffine& inner) {
-        return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z), outer.point(inner.origin)};
+        return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z),
+                outer.point(inner.origin)};
     }
     quad determinant() const { return dot(x, cross(y, z)); }
     QAffine inverse() const {

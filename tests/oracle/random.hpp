@@ -40,9 +40,12 @@ public:
     QVec axis() {
         const quad s = sign();
         switch (below(3)) {
-            case 0: return {s, 0, 0};
-            case 1: return {0, s, 0};
-            default: return {0, 0, s};
+            case 0:
+                return {s, 0, 0};
+            case 1:
+                return {0, s, 0};
+            default:
+                return {0, 0, s};
         }
     }
 

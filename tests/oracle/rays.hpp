@@ -11,7 +11,7 @@
 namespace csgrt::oracle {
 
 enum class RayFamily { ordinary, tangent, edge, parallel, far, scaled, inside };
-inline constexpr const char* ray_family_names[] = {"ordinary", "tangent",    "edge-on", "axis-parallel",
+inline constexpr const char* ray_family_names[] = {"ordinary",   "tangent",  "edge-on",    "axis-parallel",
                                                    "far origin", "non-unit", "from inside"};
 inline constexpr std::size_t ray_families = std::size(ray_family_names);
 
@@ -48,7 +48,8 @@ struct FeatureFinder {
     void operator()(const Tor& tor) const {
         const quad k = quad(tor.r_h) / tor.r_a;
         for (const double s : {-1, 1})
-            for (const double r : {-1, 1}) point(s * (1 + r * k), 0, 0), point(0, s * (1 + r * k), 0), point(s, 0, r * k);
+            for (const double r : {-1, 1})
+                point(s * (1 + r * k), 0, 0), point(0, s * (1 + r * k), 0), point(s, 0, r * k);
         point(0, 0, 0), point(0, 0, k), point(0, 0, -k);
         axes();
         const quad across = root(1 - k * k);  // Villarceau's direction: touches the tube on both sides of the hole
@@ -72,7 +73,8 @@ struct FeatureFinder {
         QVec mean;
         for (const QVec& p : vertices) mean = mean + (1 / quad(static_cast<double>(vertices.size()))) * p;
         for (const QVec& p : vertices) features.points.push_back(p - mean);
-        for (std::size_t i = 0; i + 1 < vertices.size(); ++i) features.directions.push_back(vertices[i + 1] - vertices[i]);
+        for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+            features.directions.push_back(vertices[i + 1] - vertices[i]);
     }
     void operator()(const Arb& arb) const { vertices({arb.vertices.begin(), arb.vertices.end()}); }
     void operator()(const Arbn& arbn) const { vertices(vertices_of(arbn.planes)); }
@@ -94,7 +96,9 @@ inline Features features_of(const Shape& shape, const ImplicitSolid& solid) {
 class RayMaker {
 public:
     RayMaker(const Shape& shape, const ImplicitSolid& solid, Random& random)
-        : solid_(solid), features_(features_of(shape, solid)), random_(random),
+        : solid_(solid),
+          features_(features_of(shape, solid)),
+          random_(random),
           size_(solid.bounded ? solid.radius : 1 + 0.1 * solid.size) {
         for (int tries = 0; tries < 40 && touched_.size() < 8; ++tries) {
             const Answer answer = intersect(solid_, ordinary(4));
@@ -106,17 +110,23 @@ public:
 
     Ray make(RayFamily family) {
         switch (family) {
-            case RayFamily::tangent: return tangent();
-            case RayFamily::edge: return edge();
-            case RayFamily::parallel: return parallel();
-            case RayFamily::far: return ordinary(1e5);
+            case RayFamily::tangent:
+                return tangent();
+            case RayFamily::edge:
+                return edge();
+            case RayFamily::parallel:
+                return parallel();
+            case RayFamily::far:
+                return ordinary(1e5);
             case RayFamily::scaled: {
                 Ray ray = any();
                 const quad s = random_.power(-6, 6);
                 return rounded(ray.origin, s * QVec(ray.direction));
             }
-            case RayFamily::inside: return inside();
-            default: return ordinary(random_.between(1.5, 5));
+            case RayFamily::inside:
+                return inside();
+            default:
+                return ordinary(random_.between(1.5, 5));
         }
     }
 
@@ -147,9 +157,12 @@ private:
     }
     Ray any() {
         switch (random_.below(3)) {
-            case 0: return tangent();
-            case 1: return edge();
-            default: return ordinary(3);
+            case 0:
+                return tangent();
+            case 1:
+                return edge();
+            default:
+                return ordinary(3);
         }
     }
     const QVec& random_point() { return features_.points[random_.below(features_.points.size())]; }
@@ -171,10 +184,17 @@ private:
         if (random_.coin()) p = p + quad(random_.unit()) * (random_point() - p);
         QVec d;
         switch (random_.below(4)) {
-            case 0: d = random_point() - p; break;
-            case 1: d = random_.axis(); break;
-            case 2: d = random_.direction(); break;
-            default: d = features_.directions[random_.below(features_.directions.size())];
+            case 0:
+                d = random_point() - p;
+                break;
+            case 1:
+                d = random_.axis();
+                break;
+            case 2:
+                d = random_.direction();
+                break;
+            default:
+                d = features_.directions[random_.below(features_.directions.size())];
         }
         if (!(dot(d, d) > 0)) d = random_.axis();
         d = unit(d);
@@ -200,7 +220,8 @@ private:
         }
         if (answer.intervals.empty()) return through;
         const Interval& i = answer.intervals[random_.below(answer.intervals.size())];
-        const double in = std::isfinite(i.in.t) ? i.in.t : -3 * size_, out = std::isfinite(i.out.t) ? i.out.t : 3 * size_;
+        const double in = std::isfinite(i.in.t) ? i.in.t : -3 * size_,
+                     out = std::isfinite(i.out.t) ? i.out.t : 3 * size_;
         return rounded(last_.point(random_.between(in, out)), random_.direction());
     }
 

@@ -1,9 +1,10 @@
 // Puts the partitions of a ray before the scene oracle.
 //
-// Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one that
-// may be there is; where several are, the overlap is listed with all of them. On rays without a tie and without overlaps,
-// each region's partitions are the oracle's spans, end for end. Normals are unit vectors, and at an end that belongs
-// to one solid's surface alone they are that surface's, turned against the ray on the way in and along it on the way out.
+// Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one
+// that may be there is; where several are, the overlap is listed with all of them. On rays without a tie and without
+// overlaps, each region's partitions are the oracle's spans, end for end. Normals are unit vectors, and at an end that
+// belongs to one solid's surface alone they are that surface's, turned against the ray on the way in and along it on
+// the way out.
 #pragma once
 
 #include <cmath>
@@ -59,7 +60,9 @@ public:
         if (wrong.str().empty()) return {};
         wrong << "\n  " << describe(ray) << "\n  found:";
         for (const Partition& p : found.partitions)
-            print(print(wrong << "\n    [" << p.in << ", " << p.out << "] " << name(to_oracle_[p.region]) << ' ', p.in_normal) << ' ',
+            print(print(wrong << "\n    [" << p.in << ", " << p.out << "] " << name(to_oracle_[p.region]) << ' ',
+                        p.in_normal)
+                      << ' ',
                   p.out_normal);
         for (const Overlap& o : found.overlaps) {
             wrong << "\n    overlap [" << o.in << ", " << o.out << ']';
@@ -81,13 +84,15 @@ private:
             std::count_if(piece.claims.begin(), piece.claims.end(), [](const Piece::Claim& c) { return c.certain; }));
     }
     static bool claimed(const Piece& piece, std::uint32_t region) {
-        return std::any_of(piece.claims.begin(), piece.claims.end(), [&](const Piece::Claim& c) { return c.region == region; });
+        return std::any_of(piece.claims.begin(), piece.claims.end(),
+                           [&](const Piece::Claim& c) { return c.region == region; });
     }
 
     static void check_order(const RayPartitions& found, std::ostream& wrong) {
         for (std::size_t i = 0; i < found.partitions.size(); ++i) {
             if (!(found.partitions[i].in < found.partitions[i].out)) wrong << "partition " << i << " has no length; ";
-            if (i > 0 && !(found.partitions[i - 1].out <= found.partitions[i].in)) wrong << "partition " << i << " overlaps; ";
+            if (i > 0 && !(found.partitions[i - 1].out <= found.partitions[i].in))
+                wrong << "partition " << i << " overlaps; ";
         }
     }
 
@@ -102,12 +107,14 @@ private:
         for (const Overlap& o : found.overlaps)
             if (o.in <= t && t <= o.out) overlap = &o;
 
-        if (here && !claimed(piece, to_oracle_[here->region])) wrong << name(to_oracle_[here->region]) << " is not at " << t << "; ";
+        if (here && !claimed(piece, to_oracle_[here->region]))
+            wrong << name(to_oracle_[here->region]) << " is not at " << t << "; ";
         const std::size_t sure = certain(piece);
         if (!here && sure > 0) wrong << "nothing found at " << t << "; ";
         if (overlap) {
             for (const std::uint32_t r : overlap->regions)
-                if (!claimed(piece, to_oracle_[r])) wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
+                if (!claimed(piece, to_oracle_[r]))
+                    wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
             for (const Piece::Claim& c : piece.claims) {
                 bool listed = false;
                 for (const std::uint32_t r : overlap->regions) listed = listed || to_oracle_[r] == c.region;
@@ -141,12 +148,14 @@ private:
         }
     }
 
-    void check_normals(const Ray& ray, const SceneAnswer& answer, const RayPartitions& found, std::ostream& wrong) const {
+    void check_normals(const Ray& ray, const SceneAnswer& answer, const RayPartitions& found,
+                       std::ostream& wrong) const {
         const QVec d = ray.direction;
         const double speed = to_double(length(d));
         const auto check = [&](double t, const Vec3& normal, double turned) {
             if (!std::isfinite(t)) return;
-            if (std::abs(to_double(length(normal)) - 1) > 1e-12) wrong << "the normal at " << t << " is no unit vector; ";
+            if (std::abs(to_double(length(normal)) - 1) > 1e-12)
+                wrong << "the normal at " << t << " is no unit vector; ";
             const Event* only = nullptr;
             for (const Event& e : answer.events) {
                 if (std::abs(e.t - t) > 3 * slack_ / speed + e.tolerance) continue;

@@ -1,16 +1,16 @@
 // Whole scenes by point membership: which regions hold which stretches of a ray, and how sure that is.
 //
-// Regions by BRL-CAD's rules: a combination with the region flag is one, with all that stands below it; a solid in no region
-// is one of its own. Above regions unions only collect; A - B and A + B apply to every region of A, the latter once
-// for every region of B; xor and complement make one region of all they hold. Such a region is called by the path of its
-// leftmost start.
+// Regions by BRL-CAD's rules: a combination with the region flag is one, with all that stands below it; a solid in no
+// region is one of its own. Above regions unions only collect; A - B and A + B apply to every region of A, the latter
+// once for every region of B; xor and complement make one region of all they hold. Such a region is called by the path
+// of its leftmost start.
 //
 // The matrices on the way down are multiplied in 113 bits; only their product reaches a solid.
 //
 // A region holds only where at least one of its solids does: the complement of nothing is no material.
 //
-// A ray's bounds in all solids are merged; between two neighbouring ones no membership changes, so each region's tree is
-// evaluated once there, by plain recursion, in three values: inside, outside, or within the solids' doubt (see
+// A ray's bounds in all solids are merged; between two neighbouring ones no membership changes, so each region's tree
+// is evaluated once there, by plain recursion, in three values: inside, outside, or within the solids' doubt (see
 // intersect.hpp), widened by `slack` for a weaver that takes ends so close to each other for one.
 #pragma once
 
@@ -34,9 +34,9 @@ inline Membership one_of(Membership a, Membership b) { return either(both(a, opp
 
 /// A Boolean expression over solids.
 struct Expression {
-    Operator op = Operator::union_;     ///< a union of nothing is the empty set
+    Operator op = Operator::union_;  ///< a union of nothing is the empty set
     std::vector<Expression> operands;
-    std::size_t solid = 0;              ///< leaf: index into SceneOracle::solids()
+    std::size_t solid = 0;  ///< leaf: index into SceneOracle::solids()
 
     /// In any of the solids?
     template <class Of>
@@ -56,10 +56,17 @@ struct Expression {
         for (std::size_t i = 1; i < operands.size(); ++i) {
             const Membership next = operands[i].evaluate(of);
             switch (op) {
-                case Operator::intersection: value = both(value, next); break;
-                case Operator::difference: value = both(value, opposite(next)); break;
-                case Operator::xor_: value = one_of(value, next); break;
-                default: value = either(value, next);
+                case Operator::intersection:
+                    value = both(value, next);
+                    break;
+                case Operator::difference:
+                    value = both(value, opposite(next));
+                    break;
+                case Operator::xor_:
+                    value = one_of(value, next);
+                    break;
+                default:
+                    value = either(value, next);
             }
         }
         return value;

@@ -13,7 +13,9 @@ using Intervals = std::vector<std::array<double, 2>>;
 Solid ball(const std::string& name, double x, double radius) {
     return {name, Ell{{x, 0, 0}, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}};
 }
-TreeNode leaf(const std::string& object, const Matrix& matrix = identity) { return {Operator::leaf, 0, object, matrix, {}}; }
+TreeNode leaf(const std::string& object, const Matrix& matrix = identity) {
+    return {Operator::leaf, 0, object, matrix, {}};
+}
 TreeNode node(Operator op, std::uint32_t arity) { return {op, arity, {}, identity, {}}; }
 Combination combination(const std::string& name, bool region, std::vector<TreeNode> nodes) {
     Combination c;
@@ -31,7 +33,8 @@ Intervals on_axis(const SceneOracle& oracle, std::size_t region) {
     const SceneAnswer answer = oracle.shoot(along_x, 0);
     CHECK_FALSE(answer.tie);
     Intervals found;
-    for (const Span& s : answer.regions.at(region)) found.push_back({2 * to_double(s.in.at) - 10, 2 * to_double(s.out.at) - 10});
+    for (const Span& s : answer.regions.at(region))
+        found.push_back({2 * to_double(s.in.at) - 10, 2 * to_double(s.out.at) - 10});
     return found;
 }
 
@@ -54,7 +57,8 @@ TEST_CASE("scene oracle: operators", "[oracle]") {
     CHECK(found({leaf("a"), leaf("b"), node(Operator::xor_, 2)}) == Intervals{{-2, 0}, {2, 4}});
     CHECK(found({leaf("a"), leaf("b"), leaf("c"), node(Operator::xor_, 3)}) == Intervals{{-2, 0}, {1, 2}, {3, 4}});
     CHECK(found({leaf("b"), leaf("a"), leaf("c"), node(Operator::difference, 3)}) == Intervals{{3, 4}});
-    CHECK(found({leaf("b"), leaf("c"), node(Operator::not_, 1), node(Operator::intersection, 2)}) == Intervals{{0, 1}, {3, 4}});
+    CHECK(found({leaf("b"), leaf("c"), node(Operator::not_, 1), node(Operator::intersection, 2)}) ==
+          Intervals{{0, 1}, {3, 4}});
     CHECK(found({leaf("a"), leaf("b", moved(1)), node(Operator::intersection, 2)}) == Intervals{{1, 2}});
     CHECK(found({}).empty());
 }
@@ -62,8 +66,9 @@ TEST_CASE("scene oracle: operators", "[oracle]") {
 TEST_CASE("scene oracle: matrices add up on the way down", "[oracle]") {
     Scene scene;
     scene.objects = {ball("a", 0, 1), combination("r", true, {leaf("a", moved(1))}),
-                     combination("g", false, {leaf("r", moved(2)), leaf("r", {2, 0, 0, 5, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}),
-                                              node(Operator::union_, 2)})};
+                     combination("g", false,
+                                 {leaf("r", moved(2)), leaf("r", {2, 0, 0, 5, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}),
+                                  node(Operator::union_, 2)})};
     const SceneOracle oracle(scene);
     REQUIRE(oracle.regions().size() == 2);
     CHECK(oracle.regions()[1].path == "/g/r");
@@ -73,8 +78,12 @@ TEST_CASE("scene oracle: matrices add up on the way down", "[oracle]") {
 
 TEST_CASE("scene oracle: operators above regions apply to each region", "[oracle]") {
     Scene scene;
-    scene.objects = {ball("a", 0, 2), ball("b", 5, 2), ball("c", 2, 1.5), ball("d", 2, 3),
-                     combination("ra", true, {leaf("a")}), combination("rb", true, {leaf("b")}),
+    scene.objects = {ball("a", 0, 2),
+                     ball("b", 5, 2),
+                     ball("c", 2, 1.5),
+                     ball("d", 2, 3),
+                     combination("ra", true, {leaf("a")}),
+                     combination("rb", true, {leaf("b")}),
                      combination("both", false, {leaf("ra"), leaf("rb"), node(Operator::union_, 2)}),
                      combination("less", false, {leaf("both"), leaf("c"), node(Operator::difference, 2)}),
                      combination("within", false, {leaf("d"), leaf("both"), node(Operator::intersection, 2)}),
@@ -100,14 +109,25 @@ TEST_CASE("scene oracle: operators above regions apply to each region", "[oracle
 
 TEST_CASE("scene oracle: a shared face and a sliver thinner than the slack are ties", "[oracle]") {
     const auto box = [](const std::string& name, double low, double high) {
-        return Solid{name, Arb{{{{low, -1, -1}, {high, -1, -1}, {high, 1, -1}, {low, 1, -1},
-                                 {low, -1, 1}, {high, -1, 1}, {high, 1, 1}, {low, 1, 1}}}}, {}};
+        return Solid{name,
+                     Arb{{{{low, -1, -1},
+                           {high, -1, -1},
+                           {high, 1, -1},
+                           {low, 1, -1},
+                           {low, -1, 1},
+                           {high, -1, 1},
+                           {high, 1, 1},
+                           {low, 1, 1}}}},
+                     {}};
     };
     Scene scene;
-    scene.objects = {box("a", 0, 2), box("b", 2 - 1e-6, 3), box("c", 2, 3),
+    scene.objects = {box("a", 0, 2),
+                     box("b", 2 - 1e-6, 3),
+                     box("c", 2, 3),
                      combination("overlap", true, {leaf("a"), leaf("b"), node(Operator::intersection, 2)}),
                      combination("touch", true, {leaf("a"), leaf("c"), node(Operator::union_, 2)}),
-                     combination("ra", true, {leaf("a")}), combination("rc", true, {leaf("c")})};
+                     combination("ra", true, {leaf("a")}),
+                     combination("rc", true, {leaf("c")})};
     CHECK_FALSE(SceneOracle(scene, {"overlap"}).shoot(along_x, 1e-7).tie);
     CHECK(SceneOracle(scene, {"overlap"}).shoot(along_x, 1e-5).tie);
     CHECK(SceneOracle(scene, {"touch"}).shoot(along_x, 0).tie);

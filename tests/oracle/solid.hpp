@@ -34,9 +34,10 @@ struct Jet {
 class Surface {
 public:
     virtual ~Surface() = default;
-    /// How large f's terms are near the surface before they cancel: evaluated in double, along a ray, f is in doubt by this
-    /// many units in the last place of 1, and the surface by that over the gradient's length. It matters where the gradient
-    /// all but vanishes: near an apex, on slivers. 0: planes, whose evaluation the displacement `delta` covers.
+    /// How large f's terms are near the surface before they cancel: evaluated in double, along a ray, f is in doubt by
+    /// this many units in the last place of 1, and the surface by that over the gradient's length. It matters where the
+    /// gradient all but vanishes: near an apex, on slivers. 0: planes, whose evaluation the displacement `delta`
+    /// covers.
     virtual quad terms() const = 0;
     virtual quad value(const QVec& p) const = 0;
     virtual QVec gradient(const QVec& p) const = 0;
@@ -78,9 +79,9 @@ struct ImplicitSolid {
     QAffine to_local;  ///< and back
     std::vector<std::unique_ptr<Surface>> surfaces;
     bool bounded = true;
-    QVec center;           ///< world; unbounded: a point of the boundary
-    double radius = 0;     ///< of a sphere around `center` that holds the solid; unbounded: 0
-    double size = 0;       ///< what errors are measured in, millimetres: `radius`, or the placement of an unbounded solid
+    QVec center;        ///< world; unbounded: a point of the boundary
+    double radius = 0;  ///< of a sphere around `center` that holds the solid; unbounded: 0
+    double size = 0;    ///< what errors are measured in, millimetres: `radius`, or the placement of an unbounded solid
     double placement = 0;  ///< |M||v| + |translation|: how large the numbers were that gave the solid its place
     double condition = 1;  ///< by how much the solid's shape amplifies the rounding of its parameters; see add_frame
 
@@ -109,8 +110,8 @@ struct ImplicitSolid {
         const quad doubt = noise(k);
         return doubt < slope * quad(size) ? doubt / slope : quad(size);
     }
-    /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes. Unlike
-    /// distance x |gradient| it holds at singular points (the apex of a cone), too.
+    /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes.
+    /// Unlike distance x |gradient| it holds at singular points (the apex of a cone), too.
     quad change(std::size_t k, const QVec& local, quad distance) const {
         const quad here = surfaces[k]->value(local);
         quad most = 0;
@@ -123,7 +124,8 @@ struct ImplicitSolid {
 
 /// Places a solid whose own frame is `frame` (in the model's space) by the map `m`.
 /// condition = || |m| |F| |(m F)^-1| ||, the amplification of componentwise rounding of the map and the frame into
-/// displacements of the surface in the world (Skeel 1979): 1 to 3 for orthogonal axes of any lengths, larger under shears.
+/// displacements of the surface in the world (Skeel 1979): 1 to 3 for orthogonal axes of any lengths, larger under
+/// shears.
 inline void add_frame(ImplicitSolid& solid, const QAffine& m, const QAffine& frame) {
     solid.to_world = m * frame;
     solid.to_local = solid.to_world.inverse();

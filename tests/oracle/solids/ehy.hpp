@@ -1,7 +1,7 @@
-// Elliptical hyperboloid: the base at v, the apex at v + h, the vertex of the asymptotic cone a distance c beyond the apex.
-// With z the fraction of the height below the apex (0 there, 1 at the base) and zeta = c + z |h|,
-// (x / r_1)^2 + (y / r_2)^2 = (zeta^2 - c^2) / (|h|^2 + 2 |h| c): 0 at the apex, 1 at the base.
-// The other sheet of the hyperboloid is cut off half-way between the two, where zeta = 0.
+// Elliptical hyperboloid: the base at v, the apex at v + h, the vertex of the asymptotic cone a distance c beyond the
+// apex. With z the fraction of the height below the apex (0 there, 1 at the base) and zeta = c + z |h|, (x / r_1)^2 +
+// (y / r_2)^2 = (zeta^2 - c^2) / (|h|^2 + 2 |h| c): 0 at the apex, 1 at the base. The other sheet of the hyperboloid is
+// cut off half-way between the two, where zeta = 0.
 #pragma once
 
 #include "../solid.hpp"

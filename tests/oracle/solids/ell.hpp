@@ -18,7 +18,8 @@ inline ImplicitSolid implicit(const Ell& ell, const QAffine& place) {
     add_frame(solid, place, {ell.a, ell.b, ell.c, ell.v});
     solid.add(EllFunction{});
     const QAffine& w = solid.to_world;
-    solid.radius = to_double(root(dot(w.x, w.x) + dot(w.y, w.y) + dot(w.z, w.z)));  // Frobenius: holds every unit vector
+    solid.radius =
+        to_double(root(dot(w.x, w.x) + dot(w.y, w.y) + dot(w.z, w.z)));  // Frobenius: holds every unit vector
     solid.size = solid.radius;
     return solid;
 }

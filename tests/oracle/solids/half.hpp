@@ -1,4 +1,5 @@
-// Half-space: normal . p <= distance. (Its place may be any affine map, so the normal is carried by the inverse's transpose.)
+// Half-space: normal . p <= distance. (Its place may be any affine map, so the normal is carried by the inverse's
+// transpose.)
 #pragma once
 
 #include "../solid.hpp"

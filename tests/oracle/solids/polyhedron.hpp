@@ -1,12 +1,11 @@
 // arb4 to arb8 and arbn: the intersection of half-spaces.
 //
-// arb: each of the six faces (vertices 3210, 4567, 4730, 2651, 1540, 7623: BRL-CAD's order) lies in the plane through its
-// first three vertices that differ and are not in line; a face with fewer is none. Outward is away from the mean of the eight
-// vertices. A fourth vertex is only said to lie in that plane (BRL-CAD checks it, within a tolerance); if it does not, the
-// half-spaces may meet far away, and what lies outside the box of the vertices is no part of the arb. The planes of that box
-// come after the faces: to a convex arb they change nothing.
-// condition: a plane through three points that are rounded by e tilts by e / (height of their triangle), and over the
-// whole solid moves by e x radius / height.
+// arb: each of the six faces (vertices 3210, 4567, 4730, 2651, 1540, 7623: BRL-CAD's order) lies in the plane through
+// its first three vertices that differ and are not in line; a face with fewer is none. Outward is away from the mean of
+// the eight vertices. A fourth vertex is only said to lie in that plane (BRL-CAD checks it, within a tolerance); if it
+// does not, the half-spaces may meet far away, and what lies outside the box of the vertices is no part of the arb. The
+// planes of that box come after the faces: to a convex arb they change nothing. condition: a plane through three points
+// that are rounded by e tilts by e / (height of their triangle), and over the whole solid moves by e x radius / height.
 //
 // arbn: the half-spaces as given. Vertices are needed only for the bounding sphere.
 #pragma once
@@ -18,8 +17,8 @@
 namespace csgrt::oracle {
 
 struct Face {
-    QVec normal;  ///< unit, of either side
-    QVec on;      ///< a point of the plane
+    QVec normal;      ///< unit, of either side
+    QVec on;          ///< a point of the plane
     quad height = 0;  ///< the least height of the triangle that gave it; 0: there is no face
 };
 
@@ -28,7 +27,8 @@ inline Face arb_face(const Arb& arb, const std::array<std::size_t, 4>& corners) 
     std::vector<QVec> points;
     for (const std::size_t corner : corners) {
         const QVec p = arb.vertices[corner];
-        const bool known = std::any_of(points.begin(), points.end(), [&](const QVec& q) { return dot(p - q, p - q) == 0; });
+        const bool known =
+            std::any_of(points.begin(), points.end(), [&](const QVec& q) { return dot(p - q, p - q) == 0; });
         if (known) continue;
         points.push_back(p);
         if (points.size() < 3) continue;
@@ -60,7 +60,8 @@ inline ImplicitSolid implicit(const Arb& arb, const QAffine& place) {
         if (!(face.height > 0)) continue;
         tilt = larger(tilt, own_reach / face.height);
         const quad distance = dot(face.normal, face.on - mean);
-        const PlaneFunction outward = distance < 0 ? PlaneFunction{-face.normal, -distance} : PlaneFunction{face.normal, distance};
+        const PlaneFunction outward =
+            distance < 0 ? PlaneFunction{-face.normal, -distance} : PlaneFunction{face.normal, distance};
         for (const Vec3& vertex : arb.vertices)
             convex = convex && dot(outward.normal, QVec(vertex) - mean) <= outward.distance + quad(1e-12) * own_reach;
         solid.add(outward);
@@ -103,8 +104,9 @@ inline std::vector<QVec> vertices_of(const std::vector<Plane>& planes) {
                 const QVec c = planes[k].normal;
                 const quad volume = dot(edge, c);
                 if (absolute(volume) < quad(1e-12)) continue;
-                const QVec p = (1 / volume) * (quad(planes[i].distance) * cross(b, c) +
-                                               quad(planes[j].distance) * cross(c, a) + quad(planes[k].distance) * edge);
+                const QVec p =
+                    (1 / volume) * (quad(planes[i].distance) * cross(b, c) + quad(planes[j].distance) * cross(c, a) +
+                                    quad(planes[k].distance) * edge);
                 if (inside(p)) vertices.push_back(p);
             }
         }
@@ -123,7 +125,8 @@ inline ImplicitSolid implicit(const Arbn& arbn, const QAffine& place) {
         const QVec n = plane.normal;
         solid.add(PlaneFunction{n, plane.distance - dot(n, mean)});
         // The plane's own numbers are rounded, too: its distance from the origin counts like a placement.
-        solid.placement = std::max(solid.placement, std::abs(plane.distance) * to_double(length(solid.to_world.direction(n))));
+        solid.placement =
+            std::max(solid.placement, std::abs(plane.distance) * to_double(length(solid.to_world.direction(n))));
     }
     solid.radius = 1.001 * to_double(reach);
     solid.size = solid.radius;

@@ -1,6 +1,6 @@
 // Truncated general cone: p = v + z h + x A + y B with 0 <= z <= 1 and (x / alpha)^2 + (y / beta)^2 <= 1, where the
-// semi-axes run linearly from the base to the top: alpha from |a| to |c| along the direction of a and c, beta from |b| to
-// |d|. In units of the larger of the two (A, B), so that one end of each may have length 0:
+// semi-axes run linearly from the base to the top: alpha from |a| to |c| along the direction of a and c, beta from |b|
+// to |d|. In units of the larger of the two (A, B), so that one end of each may have length 0:
 //   x^2 beta^2 + y^2 alpha^2 <= alpha^2 beta^2     in general, a quartic;
 //   x^2 + y^2 <= s^2                               if alpha = beta = s, a quadric.
 // The ratios count as equal within 4 units in the last place: the vectors are rounded, and taking the mean of the two
