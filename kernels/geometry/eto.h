@@ -4,7 +4,7 @@
 //   F(rho) = alpha (rho - 1)^2 + 2 beta (rho - 1) z + gamma z^2 - 1 < 0
 //
 // With F(rho) = P - rho Q (P and Q free of rho's odd powers), F(rho) F(-rho) = P^2 - rho^2 Q^2 is a quartic along the ray,
-// and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Each root is polished once on F itself.
+// and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Each root is polished on F itself.
 #ifndef CSGRT_ETO_H
 #define CSGRT_ETO_H
 
@@ -30,12 +30,21 @@ FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u) {
     return f;
 }
 
-// One step of Newton, taken if it is small and brings the point nearer to the surface.
+// Newton from a root of the quartic, whose error is at most about 1e-7 (a grazed thin tube, a pinched one). A step is taken
+// if it is small and brings the point nearer to the surface.
 FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
     eto_form f = eto_at(p, o, d, u);
-    real next = u - f.value / f.slope;
-    if (!(real_abs(next - u) < REAL(1e-5) * p[15])) return u;
-    return real_abs(eto_at(p, o, d, next).value) <= real_abs(f.value) ? next : u;
+    int step;
+    for (step = 0; step < 2; ++step) {
+        real next = u - f.value / f.slope;
+        eto_form g;
+        if (!(real_abs(next - u) < REAL(1e-6))) return u;
+        g = eto_at(p, o, d, next);
+        if (!(real_abs(g.value) < real_abs(f.value))) return u;
+        u = next;
+        f = g;
+    }
+    return u;
 }
 
 FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
