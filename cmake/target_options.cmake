@@ -15,11 +15,11 @@ function(csgrt_target_options target)
         -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
         $<$<BOOL:${CSGRT_WERROR}>:-Werror>)
     if(CSGRT_SANITIZE)  # g++ sees what is not there in what the sanitizers add
-        target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-array-bounds)
+        target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
-        # Both are false where "literal" + string is inlined (GCC bug 105651).
-        target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow)
+        # All false where "literal" + string is inlined (GCC bug 105651).
+        target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-array-bounds)
     endif()
 endfunction()
 

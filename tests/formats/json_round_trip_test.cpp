@@ -177,8 +177,9 @@ TEST_CASE("json round trip: units are kept where that is exact, and named where 
     CHECK(inches.find("\"radius\": 2") != std::string::npos);
     check_round_trip(scene);
 
-    // No double times 25.4 is this number.
-    double odd = 1;
+    // A number that no double times 25.4 gives. Above 1.5875 = 25.4 / 16 there are some: the products' steps are longer
+    // than the numbers' own.
+    double odd = 1.6;
     const auto reachable = [](double v) {
         const double x = v / 25.4;
         return x * 25.4 == v || std::nextafter(x, 0.0) * 25.4 == v || std::nextafter(x, 1e9) * 25.4 == v;
