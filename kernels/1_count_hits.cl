@@ -18,10 +18,9 @@ __kernel void count_hits(__global const Frame* frame, __global const SolidRecord
     count.segments = count.words = count.regions = 0;
     if (ray_of(frame, rays, frame->first_ray + id, &r)) {
         walk_state w = walk(frame, g, nodes, r, 0);
-        u32 words = words_of(w.segments);
-        u32 partitions = partitions_of(w.segments);
         count.segments = w.segments;
-        count.words = words && partitions > COUNT_MAX / words ? COUNT_MAX : partitions * words;
+        // 2 n x n / 32 passes 2^32 from n = 2^18 on.
+        count.words = w.segments < (1u << 18) ? partitions_of(w.segments) * words_of(w.segments) : COUNT_MAX;
         count.regions = w.regions;
     }
     counts[id] = count;
