@@ -27,9 +27,7 @@ Vec3 most_perpendicular(const Vec3& u) {
 
 }  // namespace
 
-Ell sphere(const Vec3& center, double radius) {
-    return {center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}};
-}
+Ell sphere(const Vec3& center, double radius) { return {center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}; }
 
 Tgc cone(const Vec3& base, const Vec3& height, double radius, double top_radius) {
     const Vec3 u = unit(height);
@@ -40,8 +38,14 @@ Tgc cone(const Vec3& base, const Vec3& height, double radius, double top_radius)
 }
 
 Arb box(const Vec3& low, const Vec3& high) {
-    return {{{{high.x, low.y, low.z}, {high.x, high.y, low.z}, {high.x, high.y, high.z}, {high.x, low.y, high.z},
-              {low.x, low.y, low.z}, {low.x, high.y, low.z}, {low.x, high.y, high.z}, {low.x, low.y, high.z}}}};
+    return {{{{high.x, low.y, low.z},
+              {high.x, high.y, low.z},
+              {high.x, high.y, high.z},
+              {high.x, low.y, high.z},
+              {low.x, low.y, low.z},
+              {low.x, high.y, low.z},
+              {low.x, high.y, high.z},
+              {low.x, low.y, high.z}}}};
 }
 
 Arb arb(const std::vector<Vec3>& vertices) {

@@ -26,7 +26,12 @@ std::vector<JsonForm> solid_forms() {
         solid("ell", {{"center", required}, {"a", required}, {"b", required}, {"c", required}}),
         solid("cylinder", {{"base", required}, {"height", required}, {"radius", required}}),
         solid("cone", {{"base", required}, {"height", required}, {"radius", required}, {"top_radius"}}),
-        solid("tgc", {{"base", required}, {"height", required}, {"a", required}, {"b", required}, {"c", required}, {"d", required}}),
+        solid("tgc", {{"base", required},
+                      {"height", required},
+                      {"a", required},
+                      {"b", required},
+                      {"c", required},
+                      {"d", required}}),
         solid("box", {{"low", required}, {"high", required}}),
         solid("arb4", {{"vertices", required}}),
         solid("arb5", {{"vertices", required}}),
@@ -36,7 +41,12 @@ std::vector<JsonForm> solid_forms() {
         solid("arbn", {{"planes", required}}),
         solid("half", {{"normal", required}, {"distance", required}}),
         solid("tor", {{"center", required}, {"axis", required}, {"radius", required}, {"tube", required}}),
-        solid("ehy", {{"base", required}, {"height", required}, {"a", required}, {"r1", required}, {"r2", required}, {"c", required}}),
+        solid("ehy", {{"base", required},
+                      {"height", required},
+                      {"a", required},
+                      {"r1", required},
+                      {"r2", required},
+                      {"c", required}}),
         solid("unsupported", {{"was", required}}),
     };
 }
@@ -44,8 +54,22 @@ std::vector<JsonForm> solid_forms() {
 std::vector<JsonForm> all_forms() {
     std::vector<JsonForm> forms = {
         {"scene",
-         {{"csgrt", required}, {"$schema"}, {"title"}, {"units"}, {"model_units"}, {"camera"}, {"lights"}, {"ambient"}, {"background"},
-          {"tolerance"}, {"materials"}, {"solids"}, {"combinations"}, {"objects"}, {"order"}, {"region_colors"}}},
+         {{"csgrt", required},
+          {"$schema"},
+          {"title"},
+          {"units"},
+          {"model_units"},
+          {"camera"},
+          {"lights"},
+          {"ambient"},
+          {"background"},
+          {"tolerance"},
+          {"materials"},
+          {"solids"},
+          {"combinations"},
+          {"objects"},
+          {"order"},
+          {"region_colors"}}},
         {"model_units", {{"name", required}, {"millimetres", required}}},
         {"camera", {{"azimuth"}, {"elevation"}, {"perspective"}, {"center"}, {"size"}}},
         {"light", {{"position", required}, {"color"}, {"intensity"}}},
@@ -78,7 +102,8 @@ const std::vector<JsonForm>& json_forms() {
 
 const JsonForm& json_form(std::string_view name) {
     const auto& forms = json_forms();
-    const auto found = std::find_if(forms.begin(), forms.end(), [&](const JsonForm& form) { return form.name == name; });
+    const auto found =
+        std::find_if(forms.begin(), forms.end(), [&](const JsonForm& form) { return form.name == name; });
     if (found == forms.end()) throw std::logic_error("no JSON form is called " + std::string(name));
     return *found;
 }

@@ -34,8 +34,8 @@ bool JsonNode::is_vector() const {
     if (!is_array()) return false;
     const JsonArray& array = std::get<JsonArray>(value_->data);
     return array.size() == 3 && std::all_of(array.begin(), array.end(), [](const JsonValue& item) {
-        return std::holds_alternative<double>(item.data);
-    });
+               return std::holds_alternative<double>(item.data);
+           });
 }
 
 bool JsonNode::boolean(bool otherwise) const {
@@ -119,9 +119,7 @@ Vec3 JsonNode::color() const {
     return color;
 }
 
-Vec3 JsonNode::lengths() const {
-    return file_->unit * vector();
-}
+Vec3 JsonNode::lengths() const { return file_->unit * vector(); }
 
 Vec3 JsonNode::direction() const {
     const Vec3 v = vector();
@@ -163,20 +161,20 @@ JsonObject::JsonObject(const JsonNode& node, const JsonForm& form) : node_(node)
         std::string suggestion = did_you_mean(member.name, known);
         suggested += suggestion;
         if (suggestion.empty()) {
-            for (const std::string_view name : known) suggestion += (suggestion.empty() ? "known: " : ", ") + std::string(name);
+            for (const std::string_view name : known)
+                suggestion += (suggestion.empty() ? "known: " : ", ") + std::string(name);
         }
         member.fault("unknown key '" + member.name + "'", suggestion);
     }
     if (!node.is_object()) return;
     for (const JsonKey& key : form.keys) {
         const bool misspelt = suggested.find("'" + std::string(key.name) + "'") != std::string::npos;
-        if (key.required && !has(key.name) && !misspelt) node.fault("the key '" + std::string(key.name) + "' is missing");
+        if (key.required && !has(key.name) && !misspelt)
+            node.fault("the key '" + std::string(key.name) + "' is missing");
     }
 }
 
-bool JsonObject::has(std::string_view key) const {
-    return (*this)[key].present();
-}
+bool JsonObject::has(std::string_view key) const { return (*this)[key].present(); }
 
 JsonNode JsonObject::operator[](std::string_view key) const {
     const JsonMembers* members = node_.is_object() ? std::get_if<JsonMembers>(&node_.value()->data) : nullptr;

@@ -29,10 +29,10 @@ Matrix rotation(const Vec3& axis, double degrees) {
     const auto both = [c = c](double p, double q) { return p * q * (1 - c); };
     // u u + c (1 - u u), not c + (1 - c) u u: exactly 1 along a coordinate axis
     const auto own = [c = c](double p) { return p * p + c * (1 - p * p); };
-    return {own(u.x),                     both(u.x, u.y) - s * u.z, both(u.x, u.z) + s * u.y, 0,
-            both(u.x, u.y) + s * u.z,     own(u.y),                 both(u.y, u.z) - s * u.x, 0,
-            both(u.x, u.z) - s * u.y,     both(u.y, u.z) + s * u.x, own(u.z),                 0,
-            0,                            0,                        0,                        1};
+    const Vec3 x{own(u.x), both(u.x, u.y) + s * u.z, both(u.x, u.z) - s * u.y};
+    const Vec3 y{both(u.x, u.y) - s * u.z, own(u.y), both(u.y, u.z) + s * u.x};
+    const Vec3 z{both(u.x, u.z) + s * u.y, both(u.y, u.z) - s * u.x, own(u.z)};
+    return {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0, 0, 0, 0, 1};
 }
 
 Matrix read_rotation(const JsonNode& node) {
@@ -65,7 +65,8 @@ Matrix read_matrix(const JsonNode& node) {
 }  // namespace
 
 std::optional<Matrix> read_json_placement(const JsonObject& node) {
-    const JsonNode matrix = node["matrix"], scale = node["scale"], rotate = node["rotate"], translate = node["translate"];
+    const JsonNode matrix = node["matrix"], scale = node["scale"], rotate = node["rotate"],
+                   translate = node["translate"];
     if (matrix.present()) {
         for (const JsonNode& other : {scale, rotate, translate}) {
             if (other.present()) other.fault("a node with 'matrix' cannot have this as well", "put it into the matrix");

@@ -149,7 +149,8 @@ private:
     void read_solids(const JsonNode& section) {
         for (const JsonNode::Member& member : section.members()) {
             Shape shape = read_json_solid(member.value);
-            if (take_name(member, "solid")) scene_.objects.push_back(Solid{member.name, std::move(shape), member.place});
+            if (take_name(member, "solid"))
+                scene_.objects.push_back(Solid{member.name, std::move(shape), member.place});
         }
     }
 
@@ -263,8 +264,6 @@ Scene parse_json_scene(const TextSource& source) {
     return scene;
 }
 
-Scene read_json(const std::string& path) {
-    return parse_json_scene(TextSource::read(path));
-}
+Scene read_json(const std::string& path) { return parse_json_scene(TextSource::read(path)); }
 
 }  // namespace csgrt

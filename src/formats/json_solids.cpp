@@ -18,13 +18,9 @@ Vec3 nonzero(const JsonNode& node, Vec3 v) {
 }
 
 /// May be 0 at one end of a cone, not at both.
-double radius_of_cone(const JsonNode& node) {
-    return node.file().unit * node.not_negative(0);
-}
+double radius_of_cone(const JsonNode& node) { return node.file().unit * node.not_negative(0); }
 
-Shape read_sphere(const JsonObject& o) {
-    return sphere(o["center"].lengths(), o["radius"].positive_length());
-}
+Shape read_sphere(const JsonObject& o) { return sphere(o["center"].lengths(), o["radius"].positive_length()); }
 
 Shape read_ell(const JsonObject& o) {
     return Ell{o["center"].lengths(), o["a"].lengths(), o["b"].lengths(), o["c"].lengths()};
@@ -60,8 +56,9 @@ Shape read_arb(const JsonObject& o, std::size_t count) {
     const std::vector<JsonNode> items = o["vertices"].items();
     if (o["vertices"].is_array() && items.size() != count) {
         o["vertices"].fault("expected " + std::to_string(count) + " vertices, found " + std::to_string(items.size()),
-                            items.size() >= 4 && items.size() <= 8 ? "the type 'arb" + std::to_string(items.size()) +
-                                                                         "' has that many" : "");
+                            items.size() >= 4 && items.size() <= 8
+                                ? "the type 'arb" + std::to_string(items.size()) + "' has that many"
+                                : "");
     }
     std::vector<Vec3> vertices;
     for (const JsonNode& item : items) vertices.push_back(item.lengths());
@@ -79,9 +76,7 @@ Shape read_arbn(const JsonObject& o) {
     return solid;
 }
 
-Shape read_half(const JsonObject& o) {
-    return Half{read_plane(o)};
-}
+Shape read_half(const JsonObject& o) { return Half{read_plane(o)}; }
 
 Shape read_tor(const JsonObject& o) {
     return Tor{o["center"].lengths(), o["axis"].vector(), o["radius"].length(), o["tube"].length()};
@@ -92,9 +87,7 @@ Shape read_ehy(const JsonObject& o) {
                o["r1"].length(),    o["r2"].length(),      o["c"].length()};
 }
 
-Shape read_unsupported(const JsonObject& o) {
-    return Unsupported{o["was"].name()};
-}
+Shape read_unsupported(const JsonObject& o) { return Unsupported{o["was"].name()}; }
 
 using Read = Shape (*)(const JsonObject&);
 constexpr std::pair<std::string_view, Read> readers[] = {
@@ -119,7 +112,8 @@ constexpr std::pair<std::string_view, Read> readers[] = {
 /// What an object without a type can be told.
 std::string all_types() {
     std::string list;
-    for (const std::string_view type : json_solid_types()) list += (list.empty() ? "one of " : ", ") + std::string(type);
+    for (const std::string_view type : json_solid_types())
+        list += (list.empty() ? "one of " : ", ") + std::string(type);
     return list;
 }
 
@@ -137,7 +131,8 @@ Shape read_json_solid(const JsonNode& node) {
         return Unsupported{};
     }
     const std::string name = type.string();
-    const auto reader = std::find_if(std::begin(readers), std::end(readers), [&](const auto& it) { return it.first == name; });
+    const auto reader =
+        std::find_if(std::begin(readers), std::end(readers), [&](const auto& it) { return it.first == name; });
     if (reader != std::end(readers)) return reader->second(JsonObject(node, json_form(name)));
     if (type.is_string()) {
         const std::string nearest = did_you_mean(name, json_solid_types());

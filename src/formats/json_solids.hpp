@@ -7,8 +7,8 @@
 
 namespace csgrt {
 
-/// Reads {"type": ..., ...}. The friendly types (sphere, cylinder, cone, box) answer for their numbers here; whether the
-/// general ones enclose anything is for `validate` to say, since other readers and programs make them too.
+/// Reads {"type": ..., ...}. The friendly types (sphere, cylinder, cone, box) answer for their numbers here; whether
+/// the general ones enclose anything is for `validate` to say, since other readers and programs make them too.
 Shape read_json_solid(const JsonNode& node);
 
 }  // namespace csgrt

@@ -56,9 +56,7 @@ void append_json(std::string& out, const ordered_json& value, std::size_t indent
     out += '\n' + std::string(indent, ' ') + (object ? '}' : ']');
 }
 
-std::string json_string(const std::string& text) {
-    return nlohmann::json(text).dump();
-}
+std::string json_string(const std::string& text) { return nlohmann::json(text).dump(); }
 
 std::string json_number(double value) {
     if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" is a whole number to many readers, and loses its sign

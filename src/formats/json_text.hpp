@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// Appends a value whose first line begins at `column` and whose later lines are indented by `indent` blanks. Numbers are
-/// the shortest that read back to the same double; they must be finite, and strings UTF-8.
+/// Appends a value whose first line begins at `column` and whose later lines are indented by `indent` blanks. Numbers
+/// are the shortest that read back to the same double; they must be finite, and strings UTF-8.
 void append_json(std::string& out, const nlohmann::ordered_json& value, std::size_t indent, std::size_t column);
 
 /// A string in quotes.

@@ -71,14 +71,16 @@ public:
                 if (!read_postfix_operator(item, waiting)) return;
             } else {
                 if (item.is_object() && kind_of(item) != "object") {
-                    item.fault("expected an object's name, {\"object\": ...} or {\"operator\": ..., \"operands\": ...}");
+                    item.fault(
+                        "expected an object's name, {\"object\": ...} or {\"operator\": ..., \"operands\": ...}");
                     return;
                 }
                 read(item, nullptr);
                 ++waiting;
             }
         }
-        if (waiting != 1) whole["postfix"].fault("a postfix list must leave one operand, this one leaves " + std::to_string(waiting));
+        if (waiting != 1)
+            whole["postfix"].fault("a postfix list must leave one operand, this one leaves " + std::to_string(waiting));
     }
 
 private:
@@ -99,7 +101,8 @@ private:
             for (const JsonMember& member : members) {
                 if (suggestion.empty()) suggestion = did_you_mean(member.name, known);
             }
-            node.fault("this node has neither 'object' nor an operator: union, intersection, difference, xor or not", suggestion);
+            node.fault("this node has neither 'object' nor an operator: union, intersection, difference, xor or not",
+                       suggestion);
         }
         return kind;
     }
@@ -115,7 +118,8 @@ private:
         } else {
             const std::vector<JsonNode> items = operands.items();
             arity = items.size();
-            if (operands.is_array() && !takes(op, arity)) operands.fault(needs(op) + ", found " + std::to_string(arity));
+            if (operands.is_array() && !takes(op, arity))
+                operands.fault(needs(op) + ", found " + std::to_string(arity));
             for (const JsonNode& item : items) read(item, placed);
         }
         tree_.nodes.push_back({op, static_cast<std::uint32_t>(arity), {}, identity, node.place()});
@@ -136,8 +140,8 @@ private:
             return false;
         }
         if (static_cast<std::size_t>(arity) > waiting) {
-            item.fault("'" + name + "' takes " + std::to_string(arity) + " operands, but only " + std::to_string(waiting) +
-                       " stand before it");
+            item.fault("'" + name + "' takes " + std::to_string(arity) + " operands, but only " +
+                       std::to_string(waiting) + " stand before it");
             return false;
         }
         waiting = waiting - static_cast<std::size_t>(arity) + 1;

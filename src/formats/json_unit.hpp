@@ -10,8 +10,8 @@
 
 namespace csgrt {
 
-/// Converts millimetres to a unit, and notes what would not read back: a number that is not finite, or a length for which
-/// no double times the unit gives the same bits.
+/// Converts millimetres to a unit, and notes what would not read back: a number that is not finite, or a length for
+/// which no double times the unit gives the same bits.
 class JsonUnit {
 public:
     explicit JsonUnit(double millimetres) : unit_(millimetres) {}

@@ -1,7 +1,8 @@
 // nlohmann's parser reports values without their places. Two facts give them back: its lexer reads character by
 // character, so a counting iterator knows where the token ends that was just reported; and between two tokens stand
 // only blanks, commas and colons, so the next token starts at the first other character. (A number ends one character
-// later for the iterator, since the lexer looks ahead; that character is a blank, comma or bracket, never a token's start.)
+// later for the iterator, since the lexer looks ahead; that character is a blank, comma or bracket, never a token's
+// start.)
 #include "formats/json_value.hpp"
 
 #include <algorithm>

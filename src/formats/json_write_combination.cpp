@@ -36,7 +36,8 @@ ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
 std::optional<std::size_t> depth_of(const Tree& tree) {
     std::vector<std::size_t> waiting;
     for (const TreeNode& node : tree.nodes) {
-        if (node.arity > waiting.size() || operator_name(node.op).empty() || !takes(node.op, node.arity)) return std::nullopt;
+        if (node.arity > waiting.size() || operator_name(node.op).empty() || !takes(node.op, node.arity))
+            return std::nullopt;
         std::size_t depth = 0;
         for (std::uint32_t i = 0; i < node.arity; ++i) {
             depth = std::max(depth, waiting.back() + 1);
@@ -68,7 +69,8 @@ ordered_json json_of_nested(const Tree& tree, JsonUnit& unit) {
             continue;
         }
         ordered_json operands = ordered_json::array();
-        for (std::size_t i = waiting.size() - node.arity; i < waiting.size(); ++i) operands.push_back(std::move(waiting[i]));
+        for (std::size_t i = waiting.size() - node.arity; i < waiting.size(); ++i)
+            operands.push_back(std::move(waiting[i]));
         waiting.resize(waiting.size() - node.arity);
         if (node.op == Operator::not_) operands = ordered_json(std::move(operands[0]));
         ordered_json written;

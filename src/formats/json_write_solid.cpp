@@ -18,7 +18,10 @@ struct ToJson {
         if (s.a.x > 0 && same_bits(sphere(s.v, s.a.x), s)) {
             return {{"type", "sphere"}, {"center", unit.lengths(s.v)}, {"radius", unit.length(s.a.x)}};
         }
-        return {{"type", "ell"}, {"center", unit.lengths(s.v)}, {"a", unit.lengths(s.a)}, {"b", unit.lengths(s.b)},
+        return {{"type", "ell"},
+                {"center", unit.lengths(s.v)},
+                {"a", unit.lengths(s.a)},
+                {"b", unit.lengths(s.b)},
                 {"c", unit.lengths(s.c)}};
     }
 
@@ -26,15 +29,21 @@ struct ToJson {
         const double radius = length(s.a), top = length(s.c);
         const bool friendly = length(s.h) > 0 && (radius > 0 || top > 0) && same_bits(cone(s.v, s.h, radius, top), s);
         if (friendly && radius == top) {
-            return {{"type", "cylinder"}, {"base", unit.lengths(s.v)}, {"height", unit.lengths(s.h)},
+            return {{"type", "cylinder"},
+                    {"base", unit.lengths(s.v)},
+                    {"height", unit.lengths(s.h)},
                     {"radius", unit.length(radius)}};
         }
         if (friendly) {
-            return {{"type", "cone"}, {"base", unit.lengths(s.v)}, {"height", unit.lengths(s.h)},
-                    {"radius", unit.length(radius)}, {"top_radius", unit.length(top)}};
+            return {{"type", "cone"},
+                    {"base", unit.lengths(s.v)},
+                    {"height", unit.lengths(s.h)},
+                    {"radius", unit.length(radius)},
+                    {"top_radius", unit.length(top)}};
         }
-        return {{"type", "tgc"}, {"base", unit.lengths(s.v)}, {"height", unit.lengths(s.h)}, {"a", unit.lengths(s.a)},
-                {"b", unit.lengths(s.b)}, {"c", unit.lengths(s.c)}, {"d", unit.lengths(s.d)}};
+        return {{"type", "tgc"},          {"base", unit.lengths(s.v)}, {"height", unit.lengths(s.h)},
+                {"a", unit.lengths(s.a)}, {"b", unit.lengths(s.b)},    {"c", unit.lengths(s.c)},
+                {"d", unit.lengths(s.d)}};
     }
 
     ordered_json operator()(const Arb& s) const {
@@ -65,13 +74,17 @@ struct ToJson {
     }
 
     ordered_json operator()(const Tor& s) const {
-        return {{"type", "tor"}, {"center", unit.lengths(s.v)}, {"axis", unit.vector(s.h)},
-                {"radius", unit.length(s.r_a)}, {"tube", unit.length(s.r_h)}};
+        return {{"type", "tor"},
+                {"center", unit.lengths(s.v)},
+                {"axis", unit.vector(s.h)},
+                {"radius", unit.length(s.r_a)},
+                {"tube", unit.length(s.r_h)}};
     }
 
     ordered_json operator()(const Ehy& s) const {
-        return {{"type", "ehy"}, {"base", unit.lengths(s.v)}, {"height", unit.lengths(s.h)}, {"a", unit.vector(s.a)},
-                {"r1", unit.length(s.r_1)}, {"r2", unit.length(s.r_2)}, {"c", unit.length(s.c)}};
+        return {{"type", "ehy"},         {"base", unit.lengths(s.v)}, {"height", unit.lengths(s.h)},
+                {"a", unit.vector(s.a)}, {"r1", unit.length(s.r_1)},  {"r2", unit.length(s.r_2)},
+                {"c", unit.length(s.c)}};
     }
 
     ordered_json operator()(const Unsupported& s) const { return {{"type", "unsupported"}, {"was", s.type}}; }
@@ -79,8 +92,6 @@ struct ToJson {
 
 }  // namespace
 
-ordered_json json_of(const Shape& shape, JsonUnit& unit) {
-    return std::visit(ToJson{unit}, shape);
-}
+ordered_json json_of(const Shape& shape, JsonUnit& unit) { return std::visit(ToJson{unit}, shape); }
 
 }  // namespace csgrt

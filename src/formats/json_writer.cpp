@@ -81,7 +81,8 @@ private:
         if (!same_bits(scene_.background, usual.background)) out["background"] = unit_.vector(scene_.background);
         if (!same_bits(scene_.tolerance, usual.tolerance)) out["tolerance"] = unit_.length(scene_.tolerance);
         for (const RegionColor& range : scene_.region_colors) {
-            out["region_colors"].push_back({{"low", range.low}, {"high", range.high}, {"color", unit_.vector(range.color)}});
+            out["region_colors"].push_back(
+                {{"low", range.low}, {"high", range.high}, {"color", unit_.vector(range.color)}});
         }
         check({}, "the scene", out);
         check({}, "the list of objects", scene_.top);

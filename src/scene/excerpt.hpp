@@ -9,7 +9,8 @@
 
 namespace csgrt {
 
-/// The part of a line around a column (in bytes, from 0) that a terminal shows, a newline, and a caret under the column.
+/// The part of a line around a column (in bytes, from 0) that a terminal shows, a newline, and a caret under the
+/// column.
 std::string excerpt(std::string_view line, std::size_t column);
 
 /// The same for a finding that is made after the file was read; empty if the place has no line or the file is gone.

@@ -11,9 +11,7 @@ namespace {
 /// Longer names are not compared: the distance takes time by the product of the lengths.
 constexpr std::size_t longest = 64;
 
-char lower(char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 /// How many letters must be put in, left out, replaced or swapped with a neighbour, upper and lower case alike.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -24,7 +22,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const std::size_t replaced = last[j - 1] + (lower(a[i - 1]) != lower(b[j - 1]));
             row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
-            const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            const bool swapped =
+                i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
             if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
         }
         before_last.swap(last);
@@ -34,9 +33,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 /// "tor" and "torus", "intersect" and "intersection".
-bool is_start(std::string_view start, std::string_view whole) {
-    return start.size() >= 3 && whole.starts_with(start);
-}
+bool is_start(std::string_view start, std::string_view whole) { return start.size() >= 3 && whole.starts_with(start); }
 
 }  // namespace
 
@@ -47,7 +44,8 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string_v
     std::size_t best_distance = allowed + 1;
     for (const std::string_view candidate : known) {
         if (is_start(candidate, wrong) || is_start(wrong, candidate)) same_start = candidate;
-        const std::size_t difference = std::max(candidate.size(), wrong.size()) - std::min(candidate.size(), wrong.size());
+        const std::size_t difference =
+            std::max(candidate.size(), wrong.size()) - std::min(candidate.size(), wrong.size());
         if (difference >= best_distance) continue;  // the distance is no less than that
         const std::size_t distance = edit_distance(wrong, candidate);
         // A name of which every letter is replaced is another name, not a misspelt one.

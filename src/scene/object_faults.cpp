@@ -16,9 +16,7 @@ constexpr double least_volume = 1e-10;
 bool in_range(double value, double low, double high) {
     return value >= low && value <= high;  // false for what is not a number
 }
-bool not_negative(double value) {
-    return value >= 0 && std::isfinite(value);
-}
+bool not_negative(double value) { return value >= 0 && std::isfinite(value); }
 bool is_color(const Vec3& color) {
     return in_range(color.x, 0, 1) && in_range(color.y, 0, 1) && in_range(color.z, 0, 1);
 }
@@ -44,8 +42,9 @@ void check_tree(const Tree& tree, const Place& combination, const Report& report
             return;
         }
         if (!takes(node.op, node.arity)) {
-            report(node.place, "'" + name + "' cannot have " + std::to_string(node.arity) + " operands",
-                   node.op == Operator::difference ? "give the object that is cut, then those that are taken away" : "");
+            report(
+                node.place, "'" + name + "' cannot have " + std::to_string(node.arity) + " operands",
+                node.op == Operator::difference ? "give the object that is cut, then those that are taken away" : "");
             return;
         }
         if (node.arity > waiting) {
@@ -65,7 +64,8 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
         return;
     }
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
-        report(leaf.place, of + "must end in the row 0 0 0 1", "points are columns: p' = M p, translation in the last column");
+        report(leaf.place, of + "must end in the row 0 0 0 1",
+               "points are columns: p' = M p, translation in the last column");
         return;
     }
     const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
@@ -78,7 +78,8 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
 
 void check_settings(const Scene& scene, const Report& report) {
     const Settings settings(report);
-    settings.require(scene.unit_length > 0 && std::isfinite(scene.unit_length), "/units", "a unit must be longer than 0");
+    settings.require(scene.unit_length > 0 && std::isfinite(scene.unit_length), "/units",
+                     "a unit must be longer than 0");
     settings.require(not_negative(scene.tolerance), "/tolerance", "the tolerance must be 0 or more, and finite");
     settings.require(not_negative(scene.ambient), "/ambient", "the ambient light must be 0 or more, and finite");
     settings.require(is_color(scene.background), "/background", "a colour has components from 0 to 1");
@@ -103,10 +104,9 @@ void check_combination(const Combination& combination, const Report& report) {
     }
     if (combination.finish) {
         const Finish& finish = *combination.finish;
-        for (const auto& [name, value] :
-             {std::pair{"specular", finish.specular}, std::pair{"diffuse", finish.diffuse},
-              std::pair{"ambient", finish.ambient}, std::pair{"transmit", finish.transmit},
-              std::pair{"reflect", finish.reflect}}) {
+        for (const auto& [name, value] : {std::pair{"specular", finish.specular}, std::pair{"diffuse", finish.diffuse},
+                                          std::pair{"ambient", finish.ambient}, std::pair{"transmit", finish.transmit},
+                                          std::pair{"reflect", finish.reflect}}) {
             if (!not_negative(value)) {
                 report(combination.place, std::string("'") + name + "' must be 0 or more, and finite", {});
             }

@@ -10,8 +10,12 @@
 namespace csgrt {
 
 inline constexpr std::pair<Operator, std::string_view> operator_names[] = {
-    {Operator::union_, "union"}, {Operator::intersection, "intersection"}, {Operator::difference, "difference"},
-    {Operator::xor_, "xor"},     {Operator::not_, "not"},                  {Operator::leaf, "leaf"},
+    {Operator::union_, "union"},
+    {Operator::intersection, "intersection"},
+    {Operator::difference, "difference"},
+    {Operator::xor_, "xor"},
+    {Operator::not_, "not"},
+    {Operator::leaf, "leaf"},
 };
 
 /// Empty for a value that is no operator.
@@ -24,10 +28,14 @@ constexpr std::string_view operator_name(Operator op) {
 
 constexpr bool takes(Operator op, std::uint64_t arity) {
     switch (op) {
-        case Operator::leaf: return arity == 0;
-        case Operator::difference: return arity >= 2;
-        case Operator::not_: return arity == 1;
-        default: return arity >= 1;
+        case Operator::leaf:
+            return arity == 0;
+        case Operator::difference:
+            return arity >= 2;
+        case Operator::not_:
+            return arity == 1;
+        default:
+            return arity >= 1;
     }
 }
 

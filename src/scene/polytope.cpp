@@ -12,12 +12,22 @@ namespace {
 
 using Loop = std::vector<Vec3>;  // the corners of a face, in order around it
 
+/// A face in a sphere: most planes pass most faces by, and one look at the sphere tells.
+struct Face {
+    Loop loop;
+    Vec3 center;
+    double radius = 0;
+
+    explicit Face(Loop corners) : loop(std::move(corners)) {
+        if (!loop.empty()) center = loop.front();
+        for (const Vec3& p : loop) radius = std::max(radius, length(p - center));
+    }
+};
+
 /// Half the side of the first cube, in units of the farthest plane's distance.
 constexpr double reach_factor = 1e6;
 
-bool before(const Vec3& a, const Vec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
+bool before(const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// Where the edge from p to q meets the plane, given their distances from it. The two faces that share the edge walk it
 /// in opposite directions and must get the same bits, so the ends are put in order first.
@@ -29,14 +39,14 @@ Vec3 cut(Vec3 p, double p_distance, Vec3 q, double q_distance) {
     return p + (p_distance / (p_distance - q_distance)) * (q - p);
 }
 
-std::vector<Loop> cube(const Vec3& center, double reach) {
+std::vector<Face> cube(const Vec3& center, double reach) {
     const auto corner = [&](int i) {
         return center + Vec3{i & 1 ? reach : -reach, i & 2 ? reach : -reach, i & 4 ? reach : -reach};
     };
-    std::vector<Loop> faces;
+    std::vector<Face> faces;
     for (const auto& face : {std::array{0, 1, 3, 2}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
                              std::array{2, 3, 7, 6}, std::array{0, 2, 6, 4}, std::array{1, 3, 7, 5}}) {
-        faces.push_back({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
+        faces.emplace_back(Loop{corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
     }
     return faces;
 }
@@ -54,14 +64,18 @@ Loop cap(const Vec3& normal, Loop corners) {
     return corners;
 }
 
-void clip(std::vector<Loop>& faces, const Plane& plane) {
+void clip(std::vector<Face>& faces, const Plane& plane) {
     const auto distance = [&](const Vec3& p) { return dot(plane.normal, p) - plane.distance; };
     Loop corners;
-    for (Loop& face : faces) {
-        if (std::none_of(face.begin(), face.end(), [&](const Vec3& p) { return distance(p) > 0; })) continue;
+    bool lost = false;
+    for (Face& face : faces) {
+        // Twice the radius: rounding must not hide a corner that is outside.
+        if (distance(face.center) < -2 * face.radius) continue;
+        const Loop& loop = face.loop;
+        if (std::none_of(loop.begin(), loop.end(), [&](const Vec3& p) { return distance(p) > 0; })) continue;
         Loop kept;
-        for (std::size_t i = 0; i < face.size(); ++i) {
-            const Vec3 &p = face[i], &q = face[(i + 1) % face.size()];
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 &p = loop[i], &q = loop[(i + 1) % loop.size()];
             const double p_distance = distance(p), q_distance = distance(q);
             if (p_distance <= 0) kept.push_back(p);
             if ((p_distance <= 0) != (q_distance <= 0)) {
@@ -69,18 +83,19 @@ void clip(std::vector<Loop>& faces, const Plane& plane) {
                 corners.push_back(kept.back());
             }
         }
-        face = std::move(kept);
+        lost = lost || kept.size() < 3;
+        face = Face(std::move(kept));
     }
-    std::erase_if(faces, [](const Loop& face) { return face.size() < 3; });
+    if (lost) std::erase_if(faces, [](const Face& face) { return face.loop.size() < 3; });
     Loop last = cap(plane.normal, std::move(corners));
-    if (last.size() >= 3) faces.push_back(std::move(last));
+    if (last.size() >= 3) faces.emplace_back(std::move(last));
 }
 
 std::vector<Vec3> clipped_cube(const std::vector<Plane>& planes, const Vec3& center, double reach) {
-    std::vector<Loop> faces = cube(center, reach);
+    std::vector<Face> faces = cube(center, reach);
     for (const Plane& plane : planes) clip(faces, plane);
     std::vector<Vec3> vertices;
-    for (const Loop& face : faces) vertices.insert(vertices.end(), face.begin(), face.end());
+    for (const Face& face : faces) vertices.insert(vertices.end(), face.loop.begin(), face.loop.end());
     return vertices;
 }
 

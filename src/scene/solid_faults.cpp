@@ -78,8 +78,9 @@ struct FaultsOf {
         if (!a && !b && !c && !d) {
             faults.push_back("base and top are both points: a radius at one end at least must be greater than 0");
         } else if (a != b) {
-            faults.push_back(std::string("the axis ") + (a ? "b" : "a") +
-                             " of the base has length 0: the base is an ellipse or a point, only the top may be an edge");
+            faults.push_back(
+                std::string("the axis ") + (a ? "b" : "a") +
+                " of the base has length 0: the base is an ellipse or a point, only the top may be an edge");
         } else if (!a && c != d) {
             faults.push_back("the base is a point and the top an edge, which encloses nothing");
         } else if (faults.empty() && dependent(a ? s.a : s.c, a ? s.b : s.d, s.h)) {
@@ -132,9 +133,12 @@ struct FaultsOf {
         }
         if (!faults.empty()) return faults;
         switch (intersect_half_spaces(s.planes).kind) {
-            case Polytope::Kind::empty: return {"its half-spaces have no volume in common"};
-            case Polytope::Kind::unbounded: return {"its half-spaces do not bound it on all sides"};
-            case Polytope::Kind::bounded: break;
+            case Polytope::Kind::empty:
+                return {"its half-spaces have no volume in common"};
+            case Polytope::Kind::unbounded:
+                return {"its half-spaces do not bound it on all sides"};
+            case Polytope::Kind::bounded:
+                break;
         }
         return faults;
     }
@@ -179,8 +183,6 @@ struct FaultsOf {
 
 }  // namespace
 
-std::vector<std::string> solid_faults(const Shape& shape) {
-    return std::visit(FaultsOf{}, shape);
-}
+std::vector<std::string> solid_faults(const Shape& shape) { return std::visit(FaultsOf{}, shape); }
 
 }  // namespace csgrt

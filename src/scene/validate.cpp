@@ -22,9 +22,7 @@ constexpr std::size_t most_findings = 50;
 
 constexpr std::uint64_t far_too_many = UINT64_MAX;
 
-std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
-    return a > far_too_many - b ? far_too_many : a + b;
-}
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) { return a > far_too_many - b ? far_too_many : a + b; }
 
 std::string count_of_solids(std::uint64_t count) {
     return count == far_too_many ? "more than 10^19 solids" : std::to_string(count) + " solids";
@@ -163,7 +161,8 @@ private:
         if (std::holds_alternative<Solid>(scene_.objects[object])) {
             reached.solids = 1;
         } else if (++reached.height == Limits::nesting + 1) {
-            add(place, "below " + name + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
+            add(place,
+                "below " + name + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
                 "join some of the combinations on the way");
         }
         if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place, name, reached.solids);
@@ -177,8 +176,9 @@ private:
 
     void report_too_many(const Place& place, const std::string& what, std::uint64_t solids) {
         too_many_reported_ = true;
-        add(place, what + " expands to " + count_of_solids(solids) + "; at most " + std::to_string(Limits::instances) +
-                       " are possible",
+        add(place,
+            what + " expands to " + count_of_solids(solids) + "; at most " + std::to_string(Limits::instances) +
+                " are possible",
             "render fewer objects, or use fewer copies");
     }
 
@@ -198,8 +198,8 @@ private:
             if (objects_[i].state == State::unseen || solid == nullptr) continue;
             const auto* shape = std::get_if<Unsupported>(&solid->shape);
             if (shape == nullptr) continue;
-            std::string message = "'" + solid->name + "' is a solid of type '" + shape->type +
-                                  "', which csgrt does not support";
+            std::string message =
+                "'" + solid->name + "' is a solid of type '" + shape->type + "', which csgrt does not support";
             if (objects_[i].users > 0) {
                 message += "; used by '" + name_of(scene_.objects[objects_[i].first_user]) + "'";
                 if (const std::uint32_t others = objects_[i].users - 1; others > 0) {

@@ -67,10 +67,12 @@ TEST_CASE("broken scenes: each gives its findings at their places") {
             INFO(format(found[i]));
             CHECK(status == expected[i].status);
             CHECK(found[i].place.file == entry.path().string());
-            CHECK(std::to_string(found[i].place.line) + ":" + std::to_string(found[i].place.column) == expected[i].place);
+            CHECK(std::to_string(found[i].place.line) + ":" + std::to_string(found[i].place.column) ==
+                  expected[i].place);
             CHECK((found[i].message + "; " + found[i].suggestion).find(expected[i].text) != std::string::npos);
             CHECK_FALSE(found[i].excerpt.empty());
         }
     }
-    for (const auto& [name, expected] : expectations) FAIL_CHECK("expected.txt names " << name << ", which does not exist");
+    for (const auto& [name, expected] : expectations)
+        FAIL_CHECK("expected.txt names " << name << ", which does not exist");
 }

@@ -33,9 +33,37 @@ const std::string everything = R"({
   "objects": ["f", "g"], "region_colors": [{"low": 0, "high": 9, "color": [0, 0, 1]}]
 })";
 
-const char* const fragments[] = {"{", "}", "[", "]", ",", ":", "\"", "null", "true", "-", "1e999", "NaN", "0", "1e308", "-0",
-                                 "\\u0000", "\\ud800", "\xff", "\"not\": ", "{\"not\": ", "\"s\"", "\"c\"", "\"f\"", "[[[[[[[[", "1e-400",
-                                 "{\"object\": \"f\"}", "\"type\": \"tgc\"", "9999999999999999999999", "\n", "//", "\"\""};
+const char* const fragments[] = {"{",
+                                 "}",
+                                 "[",
+                                 "]",
+                                 ",",
+                                 ":",
+                                 "\"",
+                                 "null",
+                                 "true",
+                                 "-",
+                                 "1e999",
+                                 "NaN",
+                                 "0",
+                                 "1e308",
+                                 "-0",
+                                 "\\u0000",
+                                 "\\ud800",
+                                 "\xff",
+                                 "\"not\": ",
+                                 "{\"not\": ",
+                                 "\"s\"",
+                                 "\"c\"",
+                                 "\"f\"",
+                                 "[[[[[[[[",
+                                 "1e-400",
+                                 "{\"object\": \"f\"}",
+                                 "\"type\": \"tgc\"",
+                                 "9999999999999999999999",
+                                 "\n",
+                                 "//",
+                                 "\"\""};
 
 std::string mutated(std::mt19937& random) {
     std::string text = everything;
@@ -43,17 +71,29 @@ std::string mutated(std::mt19937& random) {
     for (std::size_t i = 0, changes = 1 + below(3); i < changes; ++i) {
         const std::size_t at = below(text.size()), length = below(std::min<std::size_t>(40, text.size() - at));
         switch (below(7)) {
-            case 0: text.erase(at, length); break;
-            case 1: text.insert(at, fragments[below(std::size(fragments))]); break;
-            case 2: text.replace(at, length, fragments[below(std::size(fragments))]); break;
-            case 3: text[at] = static_cast<char>(random()); break;
-            case 4: text.insert(below(text.size()), text.substr(at, length)); break;
+            case 0:
+                text.erase(at, length);
+                break;
+            case 1:
+                text.insert(at, fragments[below(std::size(fragments))]);
+                break;
+            case 2:
+                text.replace(at, length, fragments[below(std::size(fragments))]);
+                break;
+            case 3:
+                text[at] = static_cast<char>(random());
+                break;
+            case 4:
+                text.insert(below(text.size()), text.substr(at, length));
+                break;
             case 5: {
                 const std::size_t digit = text.find_first_of("0123456789", at);
                 if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(10));
                 break;
             }
-            default: text.resize(at + 1); break;
+            default:
+                text.resize(at + 1);
+                break;
         }
     }
     return text;
@@ -105,9 +145,7 @@ bool survives(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("json fuzz: the text that is changed is sound") {
-    CHECK(survives(everything));
-}
+TEST_CASE("json fuzz: the text that is changed is sound") { CHECK(survives(everything)); }
 
 TEST_CASE("json fuzz: bytes changed, put in, left out") {
     std::mt19937 random(20240607);
@@ -117,7 +155,7 @@ TEST_CASE("json fuzz: bytes changed, put in, left out") {
         INFO(text);
         read += survives(text);
     }
-    CHECK(read > 10);    // some changes only change a number
+    CHECK(read > 20);  // some changes only change a number
     CHECK(read < 1000);
 }
 

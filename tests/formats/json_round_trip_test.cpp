@@ -32,12 +32,18 @@ public:
     explicit Numbers(unsigned seed) : random_(seed) {}
     double operator()() {
         switch (random_() % 6) {
-            case 0: return static_cast<double>(random_() % 2000) - 1000;
-            case 1: return random_() % 2 ? 0.0 : -0.0;
-            case 2: return std::ldexp(1 + uniform_(random_), static_cast<int>(random_() % 600) - 300);
-            case 3: return -uniform_(random_);
-            case 4: return 25.4 * (static_cast<double>(random_() % 1000) / 8);
-            default: return uniform_(random_) * 1e4;
+            case 0:
+                return static_cast<double>(random_() % 2000) - 1000;
+            case 1:
+                return random_() % 2 ? 0.0 : -0.0;
+            case 2:
+                return std::ldexp(1 + uniform_(random_), static_cast<int>(random_() % 600) - 300);
+            case 3:
+                return -uniform_(random_);
+            case 4:
+                return 25.4 * (static_cast<double>(random_() % 1000) / 8);
+            default:
+                return uniform_(random_) * 1e4;
         }
     }
     Vec3 vector() {
@@ -63,17 +69,29 @@ private:
 
 Shape random_shape(Numbers& n) {
     switch (n.below(11)) {
-        case 0: return Ell{n.vector(), n.vector(), n.vector(), n.vector()};
-        case 1: return sphere(n.vector(), 1 + n.color().x);
-        case 2: return Tgc{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()};
-        case 3: return cone(n.vector(), {0, 0, 3}, 2, n.coin() ? 2 : 0);
-        case 4: return Arb{{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()}};
-        case 5: return arb(std::vector<Vec3>(4 + n.below(5), n.vector()));
-        case 6: return Arbn{{{n.direction(), n()}, {n.direction(), n()}}};
-        case 7: return Half{{n.direction(), n()}};
-        case 8: return Tor{n.vector(), n.vector(), n(), n()};
-        case 9: return Ehy{n.vector(), n.vector(), n.direction(), n(), n(), n()};
-        default: return Unsupported{"pipe \"\\ \u00e9\n"};
+        case 0:
+            return Ell{n.vector(), n.vector(), n.vector(), n.vector()};
+        case 1:
+            return sphere(n.vector(), 1 + n.color().x);
+        case 2:
+            return Tgc{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()};
+        case 3:
+            return cone(n.vector(), {0, 0, 3}, 2, n.coin() ? 2 : 0);
+        case 4:
+            return Arb{
+                {n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()}};
+        case 5:
+            return arb(std::vector<Vec3>(4 + n.below(5), n.vector()));
+        case 6:
+            return Arbn{{{n.direction(), n()}, {n.direction(), n()}}};
+        case 7:
+            return Half{{n.direction(), n()}};
+        case 8:
+            return Tor{n.vector(), n.vector(), n(), n()};
+        case 9:
+            return Ehy{n.vector(), n.vector(), n.direction(), n(), n(), n()};
+        default:
+            return Unsupported{"pipe \"\\ \u00e9\n"};
     }
 }
 

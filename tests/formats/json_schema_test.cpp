@@ -59,16 +59,26 @@ std::string scene_with(const std::string& form, const json& object) {
     json scene = sound_example("scene");
     const auto tree = [&](const json& t) { scene["combinations"]["c"] = {{"tree", t}}; };
     const auto& solids = json_solid_types();
-    if (form == "model_units" || form == "camera") scene[form] = object;
-    else if (form == "light") scene["lights"] = {object};
-    else if (form == "material") scene["materials"]["m"] = object;
-    else if (form == "region_color") scene["region_colors"] = {object};
-    else if (form == "combination") scene["combinations"]["c"] = object;
-    else if (form == "postfix_operator") tree({{"postfix", {"s", object}}});
-    else if (form == "rotation") tree({{"object", "s"}, {"rotate", object}});
-    else if (form == "plane") scene["solids"]["t"] = {{"type", "arbn"}, {"planes", {object}}};
-    else if (std::find(solids.begin(), solids.end(), form) != solids.end()) scene["solids"]["t"] = object;
-    else tree(object);
+    if (form == "model_units" || form == "camera")
+        scene[form] = object;
+    else if (form == "light")
+        scene["lights"] = {object};
+    else if (form == "material")
+        scene["materials"]["m"] = object;
+    else if (form == "region_color")
+        scene["region_colors"] = {object};
+    else if (form == "combination")
+        scene["combinations"]["c"] = object;
+    else if (form == "postfix_operator")
+        tree({{"postfix", {"s", object}}});
+    else if (form == "rotation")
+        tree({{"object", "s"}, {"rotate", object}});
+    else if (form == "plane")
+        scene["solids"]["t"] = {{"type", "arbn"}, {"planes", {object}}};
+    else if (std::find(solids.begin(), solids.end(), form) != solids.end())
+        scene["solids"]["t"] = object;
+    else
+        tree(object);
     return scene.dump();
 }
 
@@ -94,7 +104,8 @@ TEST_CASE("json schema: has the keys that the reader knows, and no others") {
             if (key.required) required.emplace(key.name);
         }
         for (const auto& [key, value] : definition.at("properties").items()) schema_keys.insert(key);
-        for (const auto& key : definition.value("required", json::array())) schema_required.insert(key.get<std::string>());
+        for (const auto& key : definition.value("required", json::array()))
+            schema_required.insert(key.get<std::string>());
         CHECK(keys == schema_keys);
         CHECK(required == schema_required);
     }
@@ -104,7 +115,8 @@ TEST_CASE("json schema: has the keys that the reader knows, and no others") {
     }
     CHECK(definitions.at("scene").at("properties").at("units").at("enum") == json(json_units()));
     std::vector<std::string> solids;
-    for (const json& choice : definitions.at("solid").at("oneOf")) solids.push_back(choice.at("$ref").get<std::string>().substr(8));
+    for (const json& choice : definitions.at("solid").at("oneOf"))
+        solids.push_back(choice.at("$ref").get<std::string>().substr(8));
     CHECK(json(solids) == json(json_solid_types()));
 }
 
@@ -139,6 +151,8 @@ TEST_CASE("json schema: the reader looks at every key of every form") {
 
 TEST_CASE("json schema: every unit is known") {
     for (const std::string_view unit : json_units()) {
-        CHECK(findings_of(R"({"csgrt": 1, "units": ")" + std::string(unit) + R"(", "combinations": {"c": {"tree": null}}})").empty());
+        CHECK(findings_of(R"({"csgrt": 1, "units": ")" + std::string(unit) +
+                          R"(", "combinations": {"c": {"tree": null}}})")
+                  .empty());
     }
 }

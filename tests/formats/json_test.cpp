@@ -13,9 +13,7 @@ namespace {
 
 const std::string ball = R"({"type": "sphere", "center": [1, 2, 3], "radius": 4})";
 
-bool near(const Vec3& a, const Vec3& b, double gap = 1e-15) {
-    return length(a - b) <= gap;
-}
+bool near(const Vec3& a, const Vec3& b, double gap = 1e-15) { return length(a - b) <= gap; }
 
 std::string one_matrix(const Tree& tree) {
     REQUIRE(tree.nodes.size() == 1);
@@ -31,7 +29,8 @@ TEST_CASE("json: settings") {
         "csgrt": 1, "title": "t", "units": "cm", "ambient": 0.5, "background": [0, 0.5, 1], "tolerance": 0.01,
         "camera": {"azimuth": 1, "elevation": 2, "perspective": 3, "center": [4, 5, 6], "size": 7},
         "lights": [{"position": [1, 2, 3], "color": [1, 0, 0], "intensity": 2}, {"position": [0, 0, 0]}],
-        "solids": {"s": )" + ball + R"(}, "objects": ["s"],
+        "solids": {"s": )" + ball +
+                                 R"(}, "objects": ["s"],
         "region_colors": [{"low": 1, "high": 2, "color": [0, 1, 0]}]
     })");
     CHECK(scene.title == "t");
@@ -57,7 +56,8 @@ TEST_CASE("json: settings") {
 
 TEST_CASE("json: solids") {
     CHECK(same_bits(std::get<Ell>(shape_of(ball)), Ell{{1, 2, 3}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}));
-    const Ell ell = std::get<Ell>(shape_of(R"({"type": "ell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0, 0, 3]})"));
+    const Ell ell = std::get<Ell>(
+        shape_of(R"({"type": "ell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0, 0, 3]})"));
     CHECK(ell.c == Vec3{0, 0, 3});
     const Tgc tgc = std::get<Tgc>(shape_of(
         R"({"type": "tgc", "base": [1, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "b": [0, 4, 0], "c": [5, 0, 0], "d": [0, 6, 0]})"));
@@ -72,7 +72,8 @@ TEST_CASE("json: solids") {
     const Arbn arbn = std::get<Arbn>(shape_of(R"({"type": "arbn", "planes": [{"normal": [3, 4, 0], "distance": 1}]})"));
     REQUIRE(arbn.planes.size() == 1);
     CHECK(near(arbn.planes[0].normal, {0.6, 0.8, 0}));
-    const Tor tor = std::get<Tor>(shape_of(R"({"type": "tor", "center": [0, 0, 1], "axis": [0, 0, 9], "radius": 3, "tube": 2})"));
+    const Tor tor =
+        std::get<Tor>(shape_of(R"({"type": "tor", "center": [0, 0, 1], "axis": [0, 0, 9], "radius": 3, "tube": 2})"));
     CHECK(tor.h == Vec3{0, 0, 9});
     CHECK(tor.r_a == 3);
     CHECK(tor.r_h == 2);
@@ -85,8 +86,8 @@ TEST_CASE("json: solids") {
 
 TEST_CASE("json: cylinders and cones stand upright on their base, round") {
     for (const char* height : {"[0, 0, 2]", "[0, -3, 0]", "[1, 2, -3]", "[1e-3, 5, 1e6]"}) {
-        const Tgc cone = std::get<Tgc>(shape_of(std::string(R"({"type": "cone", "base": [0, 0, 0], "height": )") + height +
-                                                R"(, "radius": 5, "top_radius": 2})"));
+        const Tgc cone = std::get<Tgc>(shape_of(std::string(R"({"type": "cone", "base": [0, 0, 0], "height": )") +
+                                                height + R"(, "radius": 5, "top_radius": 2})"));
         const Vec3 u = unit(cone.h);
         CHECK(std::abs(length(cone.a) - 5) < 1e-14);
         CHECK(std::abs(length(cone.b) - 5) < 1e-14);
@@ -97,10 +98,12 @@ TEST_CASE("json: cylinders and cones stand upright on their base, round") {
         CHECK(near(cone.d, 0.4 * cone.b, 1e-14));
     }
     // Along an axis the circle's axes are exact, so that equal cylinders are equal to the bit.
-    const Tgc upright = std::get<Tgc>(shape_of(R"({"type": "cylinder", "base": [0, 0, 0], "height": [0, 0, 3], "radius": 0.1})"));
+    const Tgc upright =
+        std::get<Tgc>(shape_of(R"({"type": "cylinder", "base": [0, 0, 0], "height": [0, 0, 3], "radius": 0.1})"));
     CHECK(upright.a == Vec3{0.1, 0, 0});
     CHECK(upright.b == Vec3{0, 0.1, 0});
-    const Tgc pointed = std::get<Tgc>(shape_of(R"({"type": "cone", "base": [0, 0, 0], "height": [0, 0, 3], "radius": 1})"));
+    const Tgc pointed =
+        std::get<Tgc>(shape_of(R"({"type": "cone", "base": [0, 0, 0], "height": [0, 0, 3], "radius": 1})"));
     CHECK(pointed.c == Vec3{});
 }
 
@@ -122,15 +125,19 @@ TEST_CASE("json: arbs of fewer vertices repeat them in BRL-CAD's order") {
 }
 
 TEST_CASE("json: every length is in the file's units, no direction and no factor is") {
-    const Tor tor = std::get<Tor>(shape_of(R"({"type": "tor", "center": [1, 0, 0], "axis": [0, 0, 1], "radius": 2, "tube": 1})", "in"));
+    const Tor tor = std::get<Tor>(
+        shape_of(R"({"type": "tor", "center": [1, 0, 0], "axis": [0, 0, 1], "radius": 2, "tube": 1})", "in"));
     CHECK(tor.v == Vec3{25.4, 0, 0});
     CHECK(tor.h == Vec3{0, 0, 1});
     CHECK(tor.r_a == 50.8);
     CHECK(tor.r_h == 25.4);
-    CHECK(std::get<Half>(shape_of(R"({"type": "half", "normal": [1, 0, 0], "distance": 2})", "m")).plane.distance == 2000);
+    CHECK(std::get<Half>(shape_of(R"({"type": "half", "normal": [1, 0, 0], "distance": 2})", "m")).plane.distance ==
+          2000);
     CHECK(one_matrix(tree_of(R"({"object": "a", "translate": [1, 2, 3], "scale": 2})", "cm")) ==
           one_matrix(tree_of(R"({"object": "a", "matrix": [2, 0, 0, 10, 0, 2, 0, 20, 0, 0, 2, 30, 0, 0, 0, 1]})")));
-    CHECK(tree_of(R"({"object": "a", "matrix": [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]})", "ft").nodes[0].matrix[3] == 304.8);
+    CHECK(tree_of(R"({"object": "a", "matrix": [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]})", "ft")
+              .nodes[0]
+              .matrix[3] == 304.8);
 }
 
 TEST_CASE("json: trees become postfix, with a place for each node") {
@@ -147,16 +154,20 @@ TEST_CASE("json: trees become postfix, with a place for each node") {
 }
 
 TEST_CASE("json: placement is scale, then rotation, then translation, and from the outside in") {
-    CHECK(one_matrix(tree_of(R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4], "translate": [5, 6, 7]})")) ==
-          one_matrix(tree_of(R"({"object": "a", "matrix": [0, -3, 0, 5, 2, 0, 0, 6, 0, 0, 4, 7, 0, 0, 0, 1]})")));
-    const Tree nested = tree_of(R"({"union": [{"object": "a", "translate": [1, 0, 0]}], "rotate": {"axis": [0, 0, 1], "angle": 180}})");
+    CHECK(
+        one_matrix(tree_of(
+            R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4], "translate": [5, 6, 7]})")) ==
+        one_matrix(tree_of(R"({"object": "a", "matrix": [0, -3, 0, 5, 2, 0, 0, 6, 0, 0, 4, 7, 0, 0, 0, 1]})")));
+    const Tree nested =
+        tree_of(R"({"union": [{"object": "a", "translate": [1, 0, 0]}], "rotate": {"axis": [0, 0, 1], "angle": 180}})");
     REQUIRE(nested.nodes.size() == 2);
     CHECK(nested.nodes[0].matrix == Matrix{-1, 0, 0, -1, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
 }
 
 TEST_CASE("json: quarter turns are exact, others are rotations") {
     for (const double angle : {90., -90., 180., 270., 360., 450., -180.}) {
-        const Tree tree = tree_of(R"({"object": "a", "rotate": {"axis": [1, 0, 0], "angle": )" + std::to_string(angle) + "}}");
+        const Tree tree =
+            tree_of(R"({"object": "a", "rotate": {"axis": [1, 0, 0], "angle": )" + std::to_string(angle) + "}}");
         for (const double number : tree.nodes[0].matrix) CHECK(number == std::trunc(number));
     }
     const Matrix m = tree_of(R"({"object": "a", "rotate": {"axis": [1, 2, -2], "angle": 40}})").nodes[0].matrix;
@@ -219,7 +230,9 @@ TEST_CASE("json: the order of objects is that of the file, or the one that is gi
 }
 
 TEST_CASE("json: places count from the first byte of a value, after a byte order mark as well") {
-    const auto found = findings_of("\xEF\xBB\xBF{\"csgrt\": 1, \"solids\": {\n\t\"a/b~\": {\"type\": \"sphere\", \"center\": [0, 0, 0],\r\n  \"radius\": -2}}}");
+    const auto found = findings_of(
+        "\xEF\xBB\xBF{\"csgrt\": 1, \"solids\": {\n\t\"a/b~\": {\"type\": \"sphere\", \"center\": [0, 0, 0],\r\n  "
+        "\"radius\": -2}}}");
     REQUIRE(found.size() == 1);
     CHECK(found[0].place.file == "scene.json");
     CHECK(found[0].place.line == 3);
@@ -234,14 +247,16 @@ TEST_CASE("json: places count from the first byte of a value, after a byte order
 
 TEST_CASE("json: the place of every value is where it starts, whatever stands before it") {
     // Values of every kind behind each other, so that none hides that the one before ended too late.
-    for (const char* filler : {"0", "-1.5e3", "true", "null", "\"a\\\"b\\\\\"", "[]", "{}", "[1,[2]]", "{\"x\":{\"y\":3}}"}) {
+    for (const char* filler :
+         {"0", "-1.5e3", "true", "null", "\"a\\\"b\\\\\"", "[]", "{}", "[1,[2]]", "{\"x\":{\"y\":3}}"}) {
         for (const char* gap : {",", " , ", ",\n", "\t,\r\n"}) {
             const std::string before = std::string("{\"csgrt\":1,\"objects\":[") + filler + gap;
             std::vector<Diagnostic> found = findings_of(before + "false]}");
             const Diagnostic& last = found.back();
             INFO(before);
             CHECK(last.place.pointer == "/objects/1");
-            const std::size_t line_start = before.find_last_of('\n') == std::string::npos ? 0 : before.find_last_of('\n') + 1;
+            const std::size_t line_start =
+                before.find_last_of('\n') == std::string::npos ? 0 : before.find_last_of('\n') + 1;
             CHECK(last.place.column == static_cast<int>(before.size() - line_start + 1));
         }
     }
@@ -281,8 +296,9 @@ TEST_CASE("json: every mistake of a file is reported, in the order of the file")
         "objects": ["d"]})");
     std::string places;
     for (const Diagnostic& finding : found) places += finding.place.pointer + " ";
-    CHECK(places == "/titel /solids/a/center /solids/a/radius /solids/b /solids/a /combinations/c/tree/difference "
-                    "/combinations/c/region /combinations/c/material /objects/0 ");
+    CHECK(places ==
+          "/titel /solids/a/center /solids/a/radius /solids/b /solids/a /combinations/c/tree/difference "
+          "/combinations/c/region /combinations/c/material /objects/0 ");
 }
 
 TEST_CASE("json: a thousand mistakes are cut off") {

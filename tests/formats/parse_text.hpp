@@ -10,9 +10,7 @@
 
 namespace csgrt {
 
-inline Scene scene_of(const std::string& text) {
-    return parse_json_scene(TextSource("scene.json", text));
-}
+inline Scene scene_of(const std::string& text) { return parse_json_scene(TextSource("scene.json", text)); }
 
 /// The findings that a text gives; none if it is sound.
 inline std::vector<Diagnostic> findings_of(const std::string& text) {
@@ -32,7 +30,8 @@ inline Shape shape_of(const std::string& solid, const std::string& unit = "mm") 
 
 /// The tree of one combination. The objects need not exist for reading.
 inline Tree tree_of(const std::string& tree, const std::string& unit = "mm") {
-    const Scene scene = scene_of(R"({"csgrt": 1, "units": ")" + unit + R"(", "combinations": {"c": {"tree": )" + tree + "}}}");
+    const Scene scene =
+        scene_of(R"({"csgrt": 1, "units": ")" + unit + R"(", "combinations": {"c": {"tree": )" + tree + "}}}");
     return std::get<Combination>(scene.objects.at(0)).tree;
 }
 

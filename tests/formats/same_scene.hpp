@@ -73,8 +73,6 @@ private:
     std::string bytes_;
 };
 
-inline bool same_scene(const Scene& a, const Scene& b) {
-    return SceneBytes(a).bytes() == SceneBytes(b).bytes();
-}
+inline bool same_scene(const Scene& a, const Scene& b) { return SceneBytes(a).bytes() == SceneBytes(b).bytes(); }
 
 }  // namespace csgrt

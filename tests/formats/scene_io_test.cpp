@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 /// A folder of its own, gone at the end.
 class Folder {
 public:
-    Folder() : path_(fs::temp_directory_path() / ("csgrt_scene_io_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
+    Folder()
+        : path_(fs::temp_directory_path() /
+                ("csgrt_scene_io_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
         fs::create_directories(path_);
     }
     ~Folder() { fs::remove_all(path_); }

@@ -12,17 +12,13 @@ inline Object ball(std::string name, double radius = 1) {
     return Solid{std::move(name), Ell{{}, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}};
 }
 
-inline Object solid(std::string name, Shape shape) {
-    return Solid{std::move(name), std::move(shape), {}};
-}
+inline Object solid(std::string name, Shape shape) { return Solid{std::move(name), std::move(shape), {}}; }
 
 inline TreeNode leaf(std::string name, const Matrix& matrix = identity) {
     return {Operator::leaf, 0, std::move(name), matrix, {}};
 }
 
-inline TreeNode node(Operator op, std::uint32_t arity) {
-    return {op, arity, {}, identity, {}};
-}
+inline TreeNode node(Operator op, std::uint32_t arity) { return {op, arity, {}, identity, {}}; }
 
 inline Tree union_of(const std::vector<std::string>& names) {
     Tree tree;

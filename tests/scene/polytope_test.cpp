@@ -14,7 +14,8 @@ namespace {
 
 std::vector<Plane> cube_planes(double half, const Vec3& center = {}) {
     std::vector<Plane> planes;
-    for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+    for (const Vec3& n :
+         {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
         planes.push_back({n, half + dot(n, center)});
     }
     return planes;

@@ -19,7 +19,8 @@ TEST_CASE("scene model: a shape has BRL-CAD's name") {
 }
 
 TEST_CASE("scene model: what no combination uses is on top, in the order of the file") {
-    Scene scene = make_scene({ball("z"), ball("a"), combination("c", union_of({"a"})), combination("b", union_of({"c", "gone"}))});
+    Scene scene = make_scene(
+        {ball("z"), ball("a"), combination("c", union_of({"a"})), combination("b", union_of({"c", "gone"}))});
     CHECK(top_objects(scene) == std::vector<std::string>{"z", "b"});
     scene.top = {"a"};
     CHECK(top_objects(scene) == std::vector<std::string>{"a"});

@@ -16,9 +16,7 @@ void check_one(const std::vector<Diagnostic>& found, const std::string& part_of_
     CHECK(found[0].message.find(part_of_message) != std::string::npos);
 }
 
-Tree tree(std::vector<TreeNode> nodes) {
-    return {std::move(nodes)};
-}
+Tree tree(std::vector<TreeNode> nodes) { return {std::move(nodes)}; }
 
 }  // namespace
 
@@ -28,8 +26,9 @@ TEST_CASE("validate: a sound scene") {
 }
 
 TEST_CASE("validate: looks at what is reached, and nothing else") {
-    const Scene scene = make_scene({ball("good"), ball("bad", 0), combination("uses_bad", union_of({"bad"})),
-                                    combination("uses_good", union_of({"good"})), combination("lost", union_of({"gone"}))});
+    const Scene scene =
+        make_scene({ball("good"), ball("bad", 0), combination("uses_bad", union_of({"bad"})),
+                    combination("uses_good", union_of({"good"})), combination("lost", union_of({"gone"}))});
     CHECK(validate(scene, {"uses_good"}).empty());
     CHECK(validate(scene, {"uses_bad"}).size() == 3);
     check_one(validate(scene, {"lost"}), "'lost' uses 'gone', which does not exist");
@@ -39,8 +38,9 @@ TEST_CASE("validate: looks at what is reached, and nothing else") {
 }
 
 TEST_CASE("validate: an object that many use is reported once") {
-    const Scene scene = make_scene({solid("bad", Tor{{}, {0, 0, 1}, 1, 2}), combination("b", union_of({"bad", "bad", "bad"})),
-                                    combination("c", union_of({"b", "bad", "b"}))});
+    const Scene scene =
+        make_scene({solid("bad", Tor{{}, {0, 0, 1}, 1, 2}), combination("b", union_of({"bad", "bad", "bad"})),
+                    combination("c", union_of({"b", "bad", "b"}))});
     check_one(validate(scene), "tube");
 }
 
@@ -56,10 +56,12 @@ TEST_CASE("validate: two objects of one name") {
 TEST_CASE("validate: cycles show their path, also when nothing is on top") {
     check_one(validate(make_scene({combination("a", union_of({"b"})), combination("b", union_of({"a"}))})),
               "'a' contains itself: a/b/a");
-    const Scene below = make_scene({ball("s"), combination("top", union_of({"s", "a"})), combination("a", union_of({"b", "s"})),
-                                    combination("b", union_of({"c"})), combination("c", union_of({"b"}))});
+    const Scene below =
+        make_scene({ball("s"), combination("top", union_of({"s", "a"})), combination("a", union_of({"b", "s"})),
+                    combination("b", union_of({"c"})), combination("c", union_of({"b"}))});
     check_one(validate(below), "'b' contains itself: b/c/b");
-    check_one(validate(make_scene({ball("s"), combination("x", union_of({"s", "x"}))}), {"x"}), "'x' contains itself: x/x");
+    check_one(validate(make_scene({ball("s"), combination("x", union_of({"s", "x"}))}), {"x"}),
+              "'x' contains itself: x/x");
 }
 
 TEST_CASE("validate: trees that are no trees") {
@@ -86,7 +88,8 @@ TEST_CASE("validate: matrices") {
     check_one(found({1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}), "singular");
     check_one(found({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}), "0 0 0 1");
     check_one(found({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}), "0 0 0 1");
-    check_one(found({1, 0, 0, std::numeric_limits<double>::infinity(), 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}), "not finite");
+    check_one(found({1, 0, 0, std::numeric_limits<double>::infinity(), 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}),
+              "not finite");
 }
 
 TEST_CASE("validate: settings, colours and finishes") {
@@ -107,9 +110,11 @@ TEST_CASE("validate: settings, colours and finishes") {
 }
 
 TEST_CASE("validate: a solid that is not supported names its users") {
-    const Scene scene = make_scene({solid("hose", Unsupported{"pipe"}), ball("a"), combination("pump", union_of({"a", "hose"})),
-                                    combination("car", union_of({"pump", "hose"})), combination("bus", union_of({"a"}))});
-    check_one(validate(scene, {"car"}), "'hose' is a solid of type 'pipe', which csgrt does not support; used by 'pump' and on 1 other leg");
+    const Scene scene =
+        make_scene({solid("hose", Unsupported{"pipe"}), ball("a"), combination("pump", union_of({"a", "hose"})),
+                    combination("car", union_of({"pump", "hose"})), combination("bus", union_of({"a"}))});
+    check_one(validate(scene, {"car"}),
+              "'hose' is a solid of type 'pipe', which csgrt does not support; used by 'pump' and on 1 other leg");
     CHECK(validate(scene, {"bus"}).empty());
     check_one(validate(scene, {"hose"}), "does not support");
 }
@@ -121,9 +126,9 @@ TEST_CASE("validate: copies of copies are counted without making them") {
         objects.push_back(combination("c" + std::to_string(i), union_of({below, below})));
     }
     const Scene scene = make_scene(std::move(objects));
-    CHECK(validate(scene, {"c24"}).empty());                          // 16,777,216
+    CHECK(validate(scene, {"c24"}).empty());  // 16,777,216
     check_one(validate(scene, {"c25"}), "'c25' expands to 33554432 solids");
-    check_one(validate(scene), "'c25' expands to 33554432 solids");   // not 2^200
+    check_one(validate(scene), "'c25' expands to 33554432 solids");  // not 2^200
     check_one(validate(scene, {"c24", "c24"}), "the scene expands to 33554432 solids");
 }
 
@@ -142,7 +147,8 @@ TEST_CASE("validate: nesting is limited, and costs no stack up to there and beyo
 
 TEST_CASE("validate: many findings are cut off, and their number is told") {
     std::vector<Object> objects;
-    for (int i = 0; i < 70; ++i) objects.push_back(ball("b" + std::to_string(i), std::numeric_limits<double>::infinity()));
+    for (int i = 0; i < 70; ++i)
+        objects.push_back(ball("b" + std::to_string(i), std::numeric_limits<double>::infinity()));
     const auto found = validate(make_scene(std::move(objects)));
     REQUIRE(found.size() == 51);
     CHECK(found.back().message == "and 20 more findings");
