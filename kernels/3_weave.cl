@@ -8,10 +8,10 @@
 //   bits A B C    100 101 111 110 010            which segments cover the partition
 //
 // First the ends themselves are linked in order (t, then number). Then one pass from the front takes all ends within
-// Frame.tolerance of the first of them as one event, so that surfaces that coincide change together, whichever comes
+// Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that surfaces that coincide change together, whichever comes
 // first: a segment that begins and ends in one event vanishes. The event's t is that of its first end.
 // A partition's node is the node of its event's first end, so the list needs no memory but the 2 * segments nodes.
-#include "shared/layout.h"
+#include "camera.h"
 
 // Links the ray's ends by ascending t; equal t by ascending number. Most ends come nearly sorted: looked for from the back.
 static u32 link_ends(__global const End* ends, __global PartitionNode* list, u32 count) {
@@ -40,11 +40,14 @@ static u32 link_ends(__global const End* ends, __global PartitionNode* list, u32
 
 static int has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
 
-__kernel void weave(__global const Frame* frame, __global const RayCount* offsets, __global End* all_ends,
-                    __global PartitionNode* all_nodes, __global u32* all_bits, __global RayResult* results) {
+__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
+                    __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
+                    __global RayResult* results) {
     u32 id = (u32)get_global_id(0);
     RayResult result;
     RayCount offset;
+    ray3 r;
+    real tolerance;
     u32 segments, words, e, open, open_bits, last;
     __global End* ends;
     __global PartitionNode* list;
@@ -54,7 +57,7 @@ __kernel void weave(__global const Frame* frame, __global const RayCount* offset
     result.partitions = result.overlaps = 0;
     offset = offsets[id];
     segments = offsets[id + 1].segments - offset.segments;
-    if (segments == 0) {
+    if (segments == 0 || !ray_of(frame, rays, frame->first_ray + id, &r)) {
         results[id] = result;
         return;
     }
@@ -62,6 +65,7 @@ __kernel void weave(__global const Frame* frame, __global const RayCount* offset
     list = all_nodes + 2 * (size_t)offset.segments;
     bits = all_bits + offset.words;
     words = words_of(segments);
+    tolerance = tolerance_along(frame, r);
 
     e = link_ends(ends, list, 2 * segments);
     open = NONE;       // the partition that the front stands in
@@ -77,7 +81,7 @@ __kernel void weave(__global const Frame* frame, __global const RayCount* offset
         do {
             now[e >> 6] ^= 1u << (e >> 1 & 31u);
             e = list[e].next;
-        } while (e != NONE && (ends[e].t == t || ends[e].t - t <= frame->tolerance));
+        } while (e != NONE && (ends[e].t == t || ends[e].t - t <= tolerance));
         // The surface there is the first end whose segment does not vanish: one that begins, for the partition behind;
         // one that ends, for the partition before.
         {

@@ -51,4 +51,13 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
     }
 }
 
+// The frame's tolerance in units of the ray's own direction, which a listed ray brings in any length.
+FN real tolerance_along(GLOBAL const Frame* f, ray3 r) {
+    vec3 d = r.d;
+    real longest = real_max(real_abs(d.x), real_max(real_abs(d.y), real_abs(d.z)));
+    if (!f->listed) return f->tolerance;
+    d = scale(d, REAL(1) / longest);  // the squares of 1e-200 and of 1e200 are no numbers
+    return f->tolerance / (longest * real_sqrt(dot3(d, d)));
+}
+
 #endif

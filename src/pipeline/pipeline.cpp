@@ -143,7 +143,7 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
 
     const Event store = store_segments_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.reals, s.planes,
                                                s.plane_refs, s.nodes, rays_, counts_, ends_);
-    const Event weave = weave_.launch(tile.rays, group, frame_, counts_, ends_, partitions_, bits_, results_);
+    const Event weave = weave_.launch(tile.rays, group, frame_, rays_, counts_, ends_, partitions_, bits_, results_);
     const Event evaluate = evaluate_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.regions,
                                             s.region_lists, s.trees, counts_, ends_, partitions_, bits_, candidates_, results_);
     Event shade;

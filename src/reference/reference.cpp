@@ -60,7 +60,8 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     claims.first_seen = SIZE_MAX;
     collect_ends(scene_, ray, frame.t_min, claims.ends);
     if (claims.ends.empty()) return;
-    const std::vector<WovenPartition> woven = weave(claims.ends, frame.tolerance);
+    const kernel::ray3 r{{ray.origin.x, ray.origin.y, ray.origin.z}, {ray.direction.x, ray.direction.y, ray.direction.z}};
+    const std::vector<WovenPartition> woven = weave(claims.ends, kernel::tolerance_along(&frame, r));
     claims.woven = woven.size();
 
     std::vector<std::uint32_t> solids, table, claimants;

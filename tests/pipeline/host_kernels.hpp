@@ -88,7 +88,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
                        scene.nodes.data(), rays.data(), run.offsets.data(), run.ends.data());
     });
     each([&] {
-        kernel::weave(&frame, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data());
+        kernel::weave(&frame, rays.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
+                      run.results.data());
     });
     each([&] {
         evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.region_lists.data(), scene.trees.data(),

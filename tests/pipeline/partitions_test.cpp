@@ -173,8 +173,7 @@ TEST_CASE("BRL-CAD's models agree with the oracle along rays", "[.long]") {
     }
 }
 
-// A known defect: shoot compares the tolerance in units of the direction. Expected to fail until it is mended.
-TEST_CASE("the tolerance is in millimetres, whatever the length of the direction", "[pipeline][oracle][!shouldfail]") {
+TEST_CASE("the tolerance is in millimetres, whatever the length of the direction", "[pipeline][oracle]") {
     Scene scene;
     scene.objects = {Solid{"plate",
                            Arb{{{{-1, -1, 0},

@@ -21,14 +21,15 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     const auto segments = static_cast<std::uint32_t>(ends.size() / 2);
     const std::uint32_t words = kernel::words_of(segments);
     kernel::Frame frame{};
-    frame.ray_count = 1;
+    frame.ray_count = frame.listed = 1;
+    const kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
     frame.tolerance = tolerance;
     const std::vector<kernel::RayCount> offsets = {{0, 0, 0}, {segments, kernel::partitions_of(segments) * words, 0}};
     std::vector<kernel::PartitionNode> nodes(ends.size());
     std::vector<std::uint32_t> bits(offsets[1].words, 0xdeadbeefu);  // memory comes as it was left
     kernel::RayResult result{};
     kernel::global_id = 0;
-    kernel::weave(&frame, offsets.data(), ends.data(), nodes.data(), bits.data(), &result);
+    kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &result);
     Woven woven;
     std::uint32_t before = NONE;
     for (std::uint32_t n = result.first; n != NONE; n = nodes[n].next) {
