@@ -4,7 +4,8 @@
 #include "traverse.h"
 
 __kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                         __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
+                         __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
+                         __global const BvhNode* inner_nodes,
                          __global const BvhNode* nodes, __global const RayRecord* rays, __global RayCount* counts) {
     u32 id = (u32)get_global_id(0);
     Geometry g;
@@ -15,6 +16,8 @@ __kernel void count_hits(__global const Frame* frame, __global const SolidRecord
     g.reals = reals;
     g.planes = planes;
     g.plane_refs = plane_refs;
+    g.words = words;
+    g.inner_nodes = inner_nodes;
     count.segments = count.words = count.regions = 0;
     if (ray_of(frame, rays, frame->first_ray + id, &r)) {
         walk_state w = walk(frame, g, nodes, r, 0);

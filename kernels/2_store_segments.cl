@@ -5,7 +5,8 @@
 #include "traverse.h"
 
 __kernel void store_segments(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                             __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
+                             __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
+                             __global const BvhNode* inner_nodes,
                              __global const BvhNode* nodes, __global const RayRecord* rays,
                              __global const RayCount* offsets, __global End* ends) {
     u32 id = (u32)get_global_id(0);
@@ -17,5 +18,7 @@ __kernel void store_segments(__global const Frame* frame, __global const SolidRe
     g.reals = reals;
     g.planes = planes;
     g.plane_refs = plane_refs;
+    g.words = words;
+    g.inner_nodes = inner_nodes;
     if (ray_of(frame, rays, frame->first_ray + id, &r)) walk(frame, g, nodes, r, ends + 2 * (size_t)offsets[id].segments);
 }

@@ -5,7 +5,8 @@
 #include "shading.h"
 
 __kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                    __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
+                    __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
+                    __global const BvhNode* inner_nodes,
                     __global const RegionRecord* regions, __global const MaterialRecord* materials,
                     __global const LightRecord* lights, __global const RayCount* offsets,
                     __global const End* all_ends, __global const PartitionNode* all_nodes,
@@ -30,6 +31,8 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         g.reals = reals;
         g.planes = planes;
         g.plane_refs = plane_refs;
+        g.words = words;
+        g.inner_nodes = inner_nodes;
         n = normal_at(g, solids[end.solid], r, end.t, end.surface);
         if (partition.in_end & 1u) n = scale(n, REAL(-1));
         pixel = hit_pixel(frame, lights, materials[regions[region].material], r, end.t, n);

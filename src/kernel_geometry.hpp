@@ -6,7 +6,7 @@
 namespace csgrt::kernel {
 
 #include "../kernels/camera.h"
-#include "../kernels/geometry/solid.h"
+#include "../kernels/geometry/collect.h"
 #include "../kernels/shading.h"
 
 }  // namespace csgrt::kernel

@@ -2,7 +2,6 @@
 // a reader converts a file's own units when it loads.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,71 +10,9 @@
 #include <vector>
 
 #include <csgrt/error.hpp>
+#include <csgrt/solids.hpp>
 
 namespace csgrt {
-
-struct Vec3 {
-    double x = 0, y = 0, z = 0;
-    friend bool operator==(const Vec3&, const Vec3&) = default;
-};
-
-/// 4x4 matrix, row-major, applied to column vectors: p' = M p. The last row is 0 0 0 w; BRL-CAD's uniform scale
-/// 1/w is divided out by the readers, so here w is 1.
-using Matrix = std::array<double, 16>;
-inline constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-/// Axis-aligned box; empty while any low > high.
-struct Box {
-    Vec3 low, high;
-};
-
-/// Half-space: inside is normal . p <= distance. The normal is a unit vector, outward.
-struct Plane {
-    Vec3 normal;
-    double distance = 0;
-};
-
-// ---- Solids. Names and parameters are BRL-CAD's (librt's rtgeom.h). ----
-
-/// Ellipsoid: centre and three semi-axes, linearly independent.
-struct Ell {
-    Vec3 v, a, b, c;
-};
-/// Truncated general cone: base ellipse (v; a, b), top ellipse (v + h; c, d); c parallel to a, d parallel to b.
-/// Cylinders, cones, elliptical and oblique forms are all this one.
-struct Tgc {
-    Vec3 v, h, a, b, c, d;
-};
-/// arb4 to arb8: convex polyhedron of up to six faces, given by eight vertices in BRL-CAD's order
-/// (faces 0123, 4567, 0347, 1265, 0154, 3267); arb4 to arb7 repeat vertices.
-struct Arb {
-    std::array<Vec3, 8> vertices;
-};
-/// Convex polyhedron: the intersection of half-spaces. Must be bounded.
-struct Arbn {
-    std::vector<Plane> planes;
-};
-/// Half-space.
-struct Half {
-    Plane plane;
-};
-/// Torus: centre, axis (any length), radius of the circle r_a, radius of the tube r_h, 0 < r_h <= r_a.
-struct Tor {
-    Vec3 v, h;
-    double r_a = 0, r_h = 0;
-};
-/// Elliptical hyperboloid: base centre v, height vector h towards the apex, unit direction a of the semi-axis r_1,
-/// semi-axes r_1 and r_2 at the base, and c, the distance from the apex to the vertex of the asymptotic cone.
-struct Ehy {
-    Vec3 v, h, a;
-    double r_1 = 0, r_2 = 0, c = 0;
-};
-/// A solid that csgrt knows by name only: refused, with its name and its user, when a rendered object needs it.
-struct Unsupported {
-    std::string type;
-};
-
-using Shape = std::variant<Ell, Tgc, Arb, Arbn, Half, Tor, Ehy, Unsupported>;
 
 /// BRL-CAD's name of a shape's type: "ell", "tgc", "arb8", ...
 CSGRT_API const char* type_name(const Shape& shape);

@@ -27,6 +27,8 @@ typedef struct {
     GLOBAL const real* reals;
     GLOBAL const PlaneRecord* planes;
     GLOBAL const PlaneRef* plane_refs;
+    GLOBAL const u32* words;
+    GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many parts
 } Geometry;
 
 FN hits no_hits(void) {

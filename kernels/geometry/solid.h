@@ -1,4 +1,4 @@
-// Any solid: the one place that knows all types. A program holds only the types that its scene has
+// Any solid of at most two segments, and any solid's normal: the place that knows all types (with collect.h). A program holds only the types that its scene has
 // (-DCSGRT_SOLIDS=<bits>): code that is not there costs no registers.
 #ifndef CSGRT_SOLID_H
 #define CSGRT_SOLID_H
@@ -6,7 +6,9 @@
 #include "arb.h"
 #include "ehy.h"
 #include "ell.h"
+#include "eto.h"
 #include "half.h"
+#include "quadric.h"
 #include "tgc.h"
 #include "tor.h"
 
@@ -30,10 +32,16 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
     if (solid.type == SOLID_HALF) return half_intersect(g, solid, r);
 #endif
 #if HAS_SOLID(SOLID_TOR)
-    if (solid.type == SOLID_TOR) return tor_intersect(g.reals + solid.first_real, r);
+    if (solid.type == SOLID_TOR) return tor_intersect(g, solid, r);
 #endif
 #if HAS_SOLID(SOLID_EHY)
     if (solid.type == SOLID_EHY) return ehy_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_QUADRIC)
+    if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_ETO)
+    if (solid.type == SOLID_ETO) return eto_intersect(g.reals + solid.first_real, r);
 #endif
     return no_hits();
 }
@@ -55,10 +63,16 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     if (solid.type == SOLID_HALF) n = face_normal(g, solid.first_plane);
 #endif
 #if HAS_SOLID(SOLID_TOR)
-    if (solid.type == SOLID_TOR) n = tor_normal(g.reals + solid.first_real, r, t);
+    if (solid.type == SOLID_TOR) n = tor_normal(g, solid, r, t, surface);
 #endif
 #if HAS_SOLID(SOLID_EHY)
     if (solid.type == SOLID_EHY) n = ehy_normal(g, solid, r, t, surface);
+#endif
+#if HAS_SOLID(SOLID_QUADRIC)
+    if (solid.type == SOLID_QUADRIC) n = quadric_normal(g, solid, r, t, surface);
+#endif
+#if HAS_SOLID(SOLID_ETO)
+    if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

@@ -1,4 +1,5 @@
-// Torus: local circle of radius 1 in z = 0. Parameters: affine (12), ratio (tube radius / circle radius). Surface 0.
+// Torus: local circle of radius 1 in z = 0. Parameters: affine (12), ratio (tube radius / circle radius). Planes: none,
+// or those that cut a bend out of it. Surface 0; 1 + i is plane i.
 //
 //   (|p|^2 - 1 - ratio^2)^2 + 4 (z^2 - ratio^2) < 0
 //
@@ -9,6 +10,7 @@
 #define CSGRT_TOR_H
 
 #include "affine.h"
+#include "plane.h"
 #include "polynomial.h"
 
 #define TOR_MARGIN REAL(1.000001)  // the piece is a little larger than the torus, so that its ends are outside
@@ -45,7 +47,7 @@ FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
     return u;
 }
 
-FN hits tor_intersect(GLOBAL const real* p, ray3 r) {
+FN hits tor_pieces(GLOBAL const real* p, ray3 r) {
     local_ray l = to_local(p, r);
     real ratio = p[12];
     real outer = (REAL(1) + ratio) * TOR_MARGIN;
@@ -85,10 +87,39 @@ FN hits tor_intersect(GLOBAL const real* p, ray3 r) {
     return spans_between(s, 0, roots, count & ~1, 0);
 }
 
-FN vec3 tor_normal(GLOBAL const real* p, ray3 r, real t) {
-    vec3 at = local_point(to_local(p, r), t);
-    real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
-    real radial = (rho - REAL(1)) / rho;
+FN hits append_within(hits h, span s, real in, u32 in_surface, real out, u32 out_surface) {
+    if (s.low > in) {
+        in = s.low;
+        in_surface = s.low_surface;
+    }
+    if (s.high < out) {
+        out = s.high;
+        out_surface = s.high_surface;
+    }
+    return append(h, in, in_surface, out, out_surface);
+}
+
+FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
+    span s = whole_line();
+    hits all, h = no_hits();
+    u32 i;
+    for (i = 0; i < solid.plane_count; ++i) s = clip_to_face(s, g, solid.first_plane + i, r, 1 + i);
+    if (!(s.low < s.high)) return h;
+    all = tor_pieces(g.reals + solid.first_real, r);
+    if (solid.plane_count == 0) return all;
+    if (all.count > 0) h = append_within(h, s, all.in0, all.in0_surface, all.out0, all.out0_surface);
+    if (all.count > 1) h = append_within(h, s, all.in1, all.in1_surface, all.out1, all.out1_surface);
+    return h;
+}
+
+FN vec3 tor_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+    GLOBAL const real* p = g.reals + solid.first_real;
+    vec3 at;
+    real rho, radial;
+    if (surface != 0) return face_normal(g, solid.first_plane + surface - 1);
+    at = local_point(to_local(p, r), t);
+    rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
+    radial = (rho - REAL(1)) / rho;
     return affine_normal(p, make_vec3(at.x * radial, at.y * radial, at.z));
 }
 

@@ -7,6 +7,8 @@
 
 // ---- Solids ----
 // A solid's parameters are `real`s from SolidRecord.first_real on; what they mean stands in geometry/<solid>.h.
+// Solids of any size keep the rest in `words` (u32) from first_word on, which several may share: positions in `words`,
+// `reals` and `inner_nodes` of what they are made of.
 // Its planes (faces, end caps) are PlaneRefs from first_plane on, into the one world-space table of planes.
 
 #define SOLID_ELL 0
@@ -15,11 +17,22 @@
 #define SOLID_HALF 3
 #define SOLID_TOR 4
 #define SOLID_EHY 5
-#define SOLID_TYPES 6
+#define SOLID_QUADRIC 6  // epa, rpc, rhc, hyp: one quadric cut by planes
+#define SOLID_ETO 7
+#define SOLID_PART 8
+#define SOLID_SUPERELL 9
+#define SOLID_HRT 10
+#define SOLID_METABALL 11
+#define SOLID_MESH 12     // closed surfaces of triangles: bot, ars, nmg, dsp, vol
+#define SOLID_PLATE 13    // triangles with thickness
+#define SOLID_EXTRUDE 14  // what curves enclose, moved along a line: extrude, ebm
+#define SOLID_REVOLVE 15
+#define SOLID_TYPES 16
 
 typedef struct {
     u32 type;
     u32 first_real;
+    u32 first_word;                  // into words, for solids of any size: counts, indices
     u32 first_plane, plane_count;    // into plane_refs
     u32 first_region, region_count;  // into region_lists: the regions whose trees contain this solid, ascending
 } SolidRecord;

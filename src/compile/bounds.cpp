@@ -1,31 +1,14 @@
 #include "compile/bounds.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
-#include "compile/linear.hpp"
 #include "compile/polyhedron.hpp"
+#include "compile/tight_box.hpp"
 
 namespace csgrt {
 
 namespace {
-
-/// Half the size of an ellipsoid's box: columns are its semi-axes. An ellipse has a zero column.
-Wide half_size(const WideMatrix& axes) {
-    return {std::hypot(axes[0].x, axes[1].x, axes[2].x), std::hypot(axes[0].y, axes[1].y, axes[2].y),
-            std::hypot(axes[0].z, axes[1].z, axes[2].z)};
-}
-
-Box box_around(const Wide& center, const Wide& half) { return {narrow(center - half), narrow(center + half)}; }
-
-Box ellipse_box(const Matrix& m, const Wide& center, const Wide& a, const Wide& b) {
-    return box_around(transform_point(m, center),
-                      half_size({transform_direction(m, a), transform_direction(m, b), Wide(0)}));
-}
-
-Box parallelogram_box(const Matrix& m, const Wide& center, const Wide& a, const Wide& b) {
-    return box_around(transform_point(m, center),
-                      glm::abs(transform_direction(m, a)) + glm::abs(transform_direction(m, b)));
-}
 
 Box corners_box(const Arb& arb, const Matrix& m) {
     Box box = empty_box;
@@ -33,58 +16,60 @@ Box corners_box(const Arb& arb, const Matrix& m) {
     return box;
 }
 
-struct Tight {
-    const Matrix& m;
+Box around_planes(const std::vector<Plane>& planes, const Vec3& near = {}) {
+    const Box box = polyhedron_box(planes, near);
+    if (!is_finite(box)) return box;
+    if (is_empty(box)) {
+        // Never hit; any place will do.
+        const Vec3 foot =
+            planes.empty() ? Vec3{} : narrow(wide(planes[0].normal) * static_cast<long double>(planes[0].distance));
+        return {foot, foot};
+    }
+    // Vertices are found to about 1e-15 of the cube that they were sought in, which is not much larger than the
+    // solid.
+    const double pad = 1e-9 * diagonal(box);
+    return {{box.low.x - pad, box.low.y - pad, box.low.z - pad},
+            {box.high.x + pad, box.high.y + pad, box.high.z + pad}};
+}
 
-    Box operator()(const Ell& s) const {
-        return box_around(transform_point(m, wide(s.v)),
-                          half_size(linear_part(m) * WideMatrix(wide(s.a), wide(s.b), wide(s.c))));
-    }
-    Box operator()(const Tgc& s) const {
-        return united(ellipse_box(m, wide(s.v), wide(s.a), wide(s.b)),
-                      ellipse_box(m, wide(s.v) + wide(s.h), wide(s.c), wide(s.d)));
-    }
-    Box operator()(const Arb& s) const {
-        const ArbFaces faces = arb_faces(s, m);
-        return faces.is_hull ? corners_box(s, m)
-                             : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
-    }
-    Box operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
-    Box operator()(const Half&) const { return whole_space; }
-    // The circle's box, and around it that of the tube's ball.
-    Box operator()(const Tor& s) const {
-        const Wide h = glm::normalize(wide(s.h));
-        // The plane of the circle is that of the projections of x, y, z; its box comes from |e_i - (e_i . h) h|.
-        const WideMatrix linear = linear_part(m);
-        const WideMatrix disc = linear * (WideMatrix(1) - glm::outerProduct(h, h));
-        return box_around(transform_point(m, wide(s.v)), static_cast<long double>(s.r_a) * half_size(disc) +
-                                                             static_cast<long double>(s.r_h) * half_size(linear));
-    }
-    // Inside the cylinder over its base.
-    Box operator()(const Ehy& s) const {
-        const Wide a = glm::normalize(wide(s.a));
-        const Wide b = glm::normalize(glm::cross(wide(s.h), a)) * static_cast<long double>(s.r_2);
-        return united(ellipse_box(m, wide(s.v), a * static_cast<long double>(s.r_1), b),
-                      ellipse_box(m, wide(s.v) + wide(s.h), a * static_cast<long double>(s.r_1), b));
-    }
-    Box operator()(const Unsupported&) const { return {}; }
+}  // namespace
 
-    static Box around_planes(const std::vector<Plane>& planes, const Vec3& near = {}) {
-        const Box box = polyhedron_box(planes, near);
-        if (!is_finite(box)) return box;
-        if (is_empty(box)) {
-            // Never hit; any place will do.
-            const Vec3 foot =
-                planes.empty() ? Vec3{} : narrow(wide(planes[0].normal) * static_cast<long double>(planes[0].distance));
-            return {foot, foot};
-        }
-        // Vertices are found to about 1e-15 of the cube that they were sought in, which is not much larger than the
-        // solid.
-        const double pad = 1e-9 * diagonal(box);
-        return {{box.low.x - pad, box.low.y - pad, box.low.z - pad},
-                {box.high.x + pad, box.high.y + pad, box.high.z + pad}};
-    }
-};
+Box Tight::operator()(const Ell& s) const {
+    return box_around(transform_point(m, wide(s.v)),
+                      half_size(linear_part(m) * WideMatrix(wide(s.a), wide(s.b), wide(s.c))));
+}
+Box Tight::operator()(const Tgc& s) const {
+    return united(ellipse_box(m, wide(s.v), wide(s.a), wide(s.b)),
+                  ellipse_box(m, wide(s.v) + wide(s.h), wide(s.c), wide(s.d)));
+}
+Box Tight::operator()(const Arb& s) const {
+    const ArbFaces faces = arb_faces(s, m);
+    return faces.is_hull ? corners_box(s, m)
+                         : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
+}
+Box Tight::operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
+Box Tight::operator()(const Half&) const { return whole_space; }
+// The circle's box, and around it that of the tube's ball.
+Box Tight::operator()(const Tor& s) const {
+    const Wide h = glm::normalize(wide(s.h));
+    // The plane of the circle is that of the projections of x, y, z; its box comes from |e_i - (e_i . h) h|.
+    const WideMatrix linear = linear_part(m);
+    const WideMatrix disc = linear * (WideMatrix(1) - glm::outerProduct(h, h));
+    return box_around(transform_point(m, wide(s.v)), static_cast<long double>(s.r_a) * half_size(disc) +
+                                                         static_cast<long double>(s.r_h) * half_size(linear));
+}
+// Inside the cylinder over its base.
+Box Tight::operator()(const Ehy& s) const {
+    const Wide a = glm::normalize(wide(s.a));
+    const Wide b = glm::normalize(glm::cross(wide(s.h), a)) * static_cast<long double>(s.r_2);
+    return united(ellipse_box(m, wide(s.v), a * static_cast<long double>(s.r_1), b),
+                  ellipse_box(m, wide(s.v) + wide(s.h), a * static_cast<long double>(s.r_1), b));
+}
+Box Tight::operator()(const Unsupported&) const { return {}; }
+Box Tight::operator()(const Pipe&) const { throw std::logic_error("a pipe is boxed piece by piece"); }
+Box Tight::operator()(const Cline&) const { throw std::logic_error("a cline is boxed piece by piece"); }
+
+namespace {
 
 /// BRL-CAD takes a cone for a right elliptical cylinder, with an exact box, within these tolerances.
 bool is_right_cylinder(const Tgc& s, const Matrix& m) {
@@ -123,8 +108,26 @@ struct BrlCad {
 
 }  // namespace
 
-Box solid_box(const Shape& shape, const Matrix& matrix) {
-    Box box = std::visit(Tight{matrix}, shape);
+namespace {
+
+/// Around the part of a torus between two planes through its axis, less than half of it: the balls of the tube along
+/// the arc lie within the hull of those at its ends and at the corner of their tangents.
+Box bend_box(const Tor& s, const Matrix& m, const std::vector<Plane>& cuts) {
+    const Wide axis = glm::normalize(wide(s.h)), from = -wide(cuts[0].normal), to = wide(cuts[1].normal);
+    const long double radius = s.r_a, tube = s.r_h;
+    const Wide v = wide(s.v), first = v + radius * glm::cross(from, axis), last = v + radius * glm::cross(to, axis);
+    const long double sine = glm::dot(axis, glm::cross(from, to)), cosine = glm::dot(from, to);
+    const Wide corner = first + radius * sine / (1 + cosine) * from;
+    const Wide half = tube * half_size(linear_part(m));
+    Box box = empty_box;
+    for (const Wide& p : {first, last, corner}) box = united(box, box_around(transform_point(m, p), half));
+    return intersected(box, Tight{m}(s));
+}
+
+}  // namespace
+
+Box solid_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts) {
+    Box box = cuts.empty() ? std::visit(Tight{matrix}, shape) : bend_box(std::get<Tor>(shape), matrix, cuts);
     if (!is_finite(box)) return box;
     // A few roundings of each coordinate, and of what was added up to it.
     const auto widen = [](double& low, double& high) {
@@ -138,7 +141,9 @@ Box solid_box(const Shape& shape, const Matrix& matrix) {
     return box;
 }
 
-Box brlcad_box(const Shape& shape, const Matrix& matrix) { return std::visit(BrlCad{matrix}, shape); }
+Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts) {
+    return cuts.empty() ? std::visit(BrlCad{matrix}, shape) : bend_box(std::get<Tor>(shape), matrix, cuts);
+}
 
 Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {
     std::vector<Box> stack;

@@ -10,11 +10,12 @@
 namespace csgrt {
 
 /// Around everything that a ray can hit of the solid: tight, and rounded outward. Infinite if it is not bounded.
-Box solid_box(const Shape& shape, const Matrix& matrix);
+/// `cuts` (a torus only; see Piece) leave what is inside them.
+Box solid_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts = {});
 
 /// The box that BRL-CAD gives the solid, which is wider for some (cones, hyperboloids), and not rounded. The boxes of
 /// regions and with them its view of a model come from these.
-Box brlcad_box(const Shape& shape, const Matrix& matrix);
+Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts = {});
 
 /// BRL-CAD's rules for a tree: union and xor hold both, intersection what is common, difference the left side;
 /// `boxes` is one a solid. A complement is the whole space.

@@ -1,6 +1,6 @@
 #include "compile/claims.hpp"
 
-#include "kernel_geometry.hpp"
+#include "compile/tables.hpp"
 
 namespace csgrt {
 namespace {
@@ -10,8 +10,7 @@ kernel::ray3 to_kernel(const Ray& r) {
 }
 
 Vec3 normal(const CompiledScene& scene, const kernel::ray3& ray, const kernel::End& end, bool flip) {
-    const kernel::Geometry g{scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data()};
-    kernel::vec3 n = kernel::normal_at(g, scene.solids[end.solid], ray, end.t, end.surface);
+    kernel::vec3 n = kernel::normal_at(tables(scene), scene.solids[end.solid], ray, end.t, end.surface);
     if (flip) n = kernel::scale(n, -1);
     return {n.x, n.y, n.z};
 }
@@ -25,7 +24,8 @@ RayPartitions to_partitions(const CompiledScene& scene, const Ray& ray, const st
     while (i < claims.size()) {
         const ClaimedPartition& first = claims[i];
         std::size_t last = i;
-        while (last + 1 < claims.size() && claims[last + 1].region == first.region && claims[last + 1].in.t == claims[last].out.t)
+        while (last + 1 < claims.size() && claims[last + 1].region == first.region &&
+               claims[last + 1].in.t == claims[last].out.t)
             ++last;
         const ClaimedPartition& end = claims[last];
         Partition p;

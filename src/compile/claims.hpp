@@ -9,16 +9,15 @@ namespace csgrt {
 
 /// A partition that at least one region claimed.
 struct ClaimedPartition {
-    kernel::End in, out;              ///< the ends that bound it; their t is the partition's
-    bool in_leaves = false;           ///< `in` is where its solid ENDS (a subtraction exposes it): the normal is flipped
-    bool out_enters = false;          ///< `out` is where its solid begins
-    std::uint32_t region = 0;         ///< the lowest claimant
+    kernel::End in, out;       ///< the ends that bound it; their t is the partition's
+    bool in_leaves = false;    ///< `in` is where its solid ENDS (a subtraction exposes it): the normal is flipped
+    bool out_enters = false;   ///< `out` is where its solid begins
+    std::uint32_t region = 0;  ///< the lowest claimant
     std::vector<std::uint32_t> claimants;  ///< all of them, ascending; only kept if there are several
 };
 
-/// Joins neighbours of one region, leaves out what ends behind the ray's start, computes the normals, lists the overlaps.
-/// `claims` in order of distance.
+/// Joins neighbours of one region, leaves out what ends behind the ray's start, computes the normals, lists the
+/// overlaps. `claims` in order of distance.
 RayPartitions to_partitions(const CompiledScene& scene, const Ray& ray, const std::vector<ClaimedPartition>& claims);
-
 
 }  // namespace csgrt

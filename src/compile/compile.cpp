@@ -20,10 +20,6 @@ namespace csgrt {
 
 namespace {
 
-const Solid& solid_of(const Scene& scene, const Instance& instance) {
-    return std::get<Solid>(scene.objects[instance.object]);
-}
-
 /// The sphere around all bounded solids, from the box around their boxes.
 void set_sphere(const std::vector<Box>& boxes, CompiledScene& compiled) {
     Box all = empty_box;
@@ -61,7 +57,7 @@ Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& c
     if (reach == 0) {
         reach = 1;
         for (const Instance& instance : flat.instances)
-            if (const auto* half = std::get_if<Half>(&solid_of(scene, instance).shape))
+            if (const auto* half = std::get_if<Half>(&shape_of(scene, flat, instance)))
                 reach = std::max(reach, 2 * std::fabs(transform_plane(instance.matrix, half->plane).distance));
     }
     const Vec3& c = compiled.center;
@@ -72,14 +68,18 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
                  const std::vector<Box>& boxes, CompiledScene& compiled) {
     const Box common = common_box(scene, flat, compiled);
     PlaneTable planes(compiled.center, 0.5 * diagonal(common));
+    SharedParts shared;
     for (const std::uint32_t i : order) {
-        const Solid& solid = solid_of(scene, flat.instances[i]);
+        const Instance& instance = flat.instances[i];
+        const Solid& solid = std::get<Solid>(scene.objects[instance.object]);
+        const Shape& shape = shape_of(scene, flat, instance);
         const bool bounded = is_finite(boxes[i]);
-        pack_solid(solid.shape, flat.instances[i].matrix, bounded ? boxes[i] : common, compiled, planes);
+        pack_solid(shape, cuts_of(flat, instance), instance.matrix, bounded ? boxes[i] : common, compiled, planes,
+                   shared);
         compiled.solid_info.push_back({solid.name, type_name(solid.shape)});
         compiled.solid_boxes.push_back(boxes[i]);
         compiled.solid_types |= 1u << compiled.solids.back().type;
-        if (!bounded && !std::holds_alternative<Half>(solid.shape))
+        if (!bounded && !std::holds_alternative<Half>(shape))
             compiled.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
     }
     compiled.planes = planes.take();
@@ -177,7 +177,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     std::vector<Box> boxes, brlcad_boxes;
     boxes.reserve(flat.instances.size());
     for (const Instance& instance : flat.instances)
-        boxes.push_back(solid_box(solid_of(scene, instance).shape, instance.matrix));
+        boxes.push_back(solid_box(shape_of(scene, flat, instance), instance.matrix, cuts_of(flat, instance)));
     set_sphere(boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(boxes, compiled);
     pack_solids(scene, flat, order, boxes, compiled);
@@ -186,7 +186,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     for (std::uint32_t i = 0; i < order.size(); ++i) {
         number[order[i]] = i;
         const Instance& instance = flat.instances[order[i]];
-        brlcad_boxes.push_back(brlcad_box(solid_of(scene, instance).shape, instance.matrix));
+        brlcad_boxes.push_back(brlcad_box(shape_of(scene, flat, instance), instance.matrix, cuts_of(flat, instance)));
     }
     std::uint64_t leaves = 0;
     for (FlatRegion& region : flat.regions) {

@@ -12,8 +12,8 @@
 
 namespace csgrt {
 
-/// A region's tree as the model gives it (after flattening), in postfix order, for the reference: it shares nothing with
-/// the linearized words but the numbers of the solids.
+/// A region's tree as the model gives it (after flattening), in postfix order, for the reference: it shares nothing
+/// with the linearized words but the numbers of the solids.
 struct FlatTree {
     struct Node {
         Operator op = Operator::leaf;
@@ -29,6 +29,8 @@ struct CompiledScene {
     std::vector<double> reals;
     std::vector<kernel::PlaneRecord> planes;
     std::vector<kernel::PlaneRef> plane_refs;
+    std::vector<std::uint32_t> words;
+    std::vector<kernel::BvhNode> inner_nodes;
     std::vector<std::uint32_t> region_lists;
     std::vector<kernel::RegionRecord> regions;
     std::vector<std::uint32_t> trees;
@@ -38,21 +40,21 @@ struct CompiledScene {
     std::uint32_t unbounded_count = 0;
 
     // Stays on the host.
-    std::vector<FlatTree> flat_trees;       ///< one a region
-    std::vector<RegionInfo> region_info;    ///< one a region
-    std::vector<SolidInfo> solid_info;      ///< one a solid
-    std::vector<Box> solid_boxes;           ///< one a solid; infinite for the unbounded
-    Box bounds;                             ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
-    Vec3 center;                            ///< of the sphere around all bounded solids
+    std::vector<FlatTree> flat_trees;     ///< one a region
+    std::vector<RegionInfo> region_info;  ///< one a region
+    std::vector<SolidInfo> solid_info;    ///< one a solid
+    std::vector<Box> solid_boxes;         ///< one a solid; infinite for the unbounded
+    Box bounds;                           ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
+    Vec3 center;                          ///< of the sphere around all bounded solids
     double radius = 0;
-    std::uint32_t solid_types = 0;          ///< bit SOLID_x: the scene has such solids
-    std::uint32_t operators = 0;            ///< bit OP_x: trees that need a walk have such operators
-    std::uint32_t instances = 0;            ///< leaves over all trees
-    std::uint32_t tree_stack = 0;           ///< the deepest stack that any walk needs, <= TREE_STACK
+    std::uint32_t solid_types = 0;  ///< bit SOLID_x: the scene has such solids
+    std::uint32_t operators = 0;    ///< bit OP_x: trees that need a walk have such operators
+    std::uint32_t instances = 0;    ///< leaves over all trees
+    std::uint32_t tree_stack = 0;   ///< the deepest stack that any walk needs, <= TREE_STACK
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4, tolerance = 0.0005;
-    std::uint64_t hash = 0;                 ///< FNV-1a over everything that crosses the bus: the same scene, the same number
-    std::vector<std::string> notes;         ///< worth telling: objects without solids, air regions left out, ...
+    std::uint64_t hash = 0;          ///< FNV-1a over everything that crosses the bus: the same scene, the same number
+    std::vector<std::string> notes;  ///< worth telling: objects without solids, air regions left out, ...
 };
 
 struct CompileOptions {
@@ -60,6 +62,7 @@ struct CompileOptions {
 };
 
 /// Validates and compiles `objects` of `scene` (empty: its top objects). Throws Error (scene) with every finding.
-CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects = {}, const CompileOptions& options = {});
+CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects = {},
+                      const CompileOptions& options = {});
 
 }  // namespace csgrt

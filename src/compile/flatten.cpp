@@ -32,7 +32,7 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 
 struct InstanceHash {
     std::size_t operator()(const Instance& instance) const {
-        std::uint64_t hash = 14695981039346656037u ^ instance.object;
+        std::uint64_t hash = (14695981039346656037u ^ instance.object) * 1099511628211u ^ instance.piece;
         for (const double value : instance.matrix) {
             std::uint64_t bits;
             std::memcpy(&bits, &value, sizeof bits);
@@ -43,7 +43,9 @@ struct InstanceHash {
     }
 };
 struct InstanceEqual {
-    bool operator()(const Instance& a, const Instance& b) const { return a.object == b.object && a.matrix == b.matrix; }
+    bool operator()(const Instance& a, const Instance& b) const {
+        return a.object == b.object && a.piece == b.piece && a.matrix == b.matrix;
+    }
 };
 
 /// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
@@ -72,7 +74,7 @@ private:
     void enter(std::uint32_t object, const Matrix& matrix);
     void operate(Operator op, std::uint32_t arity);
     void append(Operator op, std::size_t arity);
-    std::uint32_t instance_of(std::uint32_t object, const Matrix& matrix);
+    std::uint32_t instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix);
 
     const Scene& scene_;
     const ObjectIndex& index_;
@@ -145,11 +147,21 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
     }
     ++leaves_;
     operands_.push_back({tree_->nodes.size(), Kind::tree});
-    tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, matrix)});
+    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
+    if (!std::holds_alternative<Pipe>(shape) && !std::holds_alternative<Cline>(shape)) {
+        tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, 0, matrix)});
+        return;
+    }
+    auto known = result_.composites.find(object);
+    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(shape)).first;
+    for (FlatTree::Node node : known->second.tree.nodes) {
+        if (node.op == Operator::leaf) node.solid = instance_of(object, node.solid, matrix);
+        tree_->nodes.push_back(node);
+    }
 }
 
-std::uint32_t Flattener::instance_of(std::uint32_t object, const Matrix& matrix) {
-    Instance instance{object, matrix};
+std::uint32_t Flattener::instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix) {
+    Instance instance{object, piece, matrix};
     for (double& value : instance.matrix) value += 0.0;  // -0 and 0 are one place
     const auto number = static_cast<std::uint32_t>(result_.instances.size());
     const auto [entry, added] = known_.emplace(instance, number);
@@ -232,6 +244,18 @@ void drop_unused(FlatScene& flat) {
 }
 
 }  // namespace
+
+const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance) {
+    const auto composite = flat.composites.find(instance.object);
+    if (composite != flat.composites.end()) return composite->second.pieces[instance.piece].shape;
+    return std::get<Solid>(scene.objects[instance.object]).shape;
+}
+
+const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance) {
+    static const std::vector<Plane> none;
+    const auto composite = flat.composites.find(instance.object);
+    return composite != flat.composites.end() ? composite->second.pieces[instance.piece].cuts : none;
+}
 
 FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
     FlatScene result;

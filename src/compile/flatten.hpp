@@ -3,15 +3,18 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
+#include "compile/pieces.hpp"
 
 namespace csgrt {
 
 /// A solid in its place. Two places of one solid with bit-equal matrices are one instance.
 struct Instance {
     std::uint32_t object = 0;  ///< into Scene::objects
+    std::uint32_t piece = 0;   ///< of a solid that is made of others
     Matrix matrix{};           ///< from the root: M_top ... M_leg
 };
 
@@ -22,10 +25,15 @@ struct FlatRegion {
 };
 
 struct FlatScene {
-    std::vector<Instance> instances;  ///< all that trees use, in the order of first use
-    std::vector<FlatRegion> regions;  ///< in the order of the walk
+    std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
+    std::vector<FlatRegion> regions;                       ///< in the order of the walk
+    std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
     std::vector<std::string> notes;
 };
+
+/// The shape of an instance, and what is cut off it.
+const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance);
+const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance);
 
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
 /// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is.

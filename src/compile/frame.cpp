@@ -64,7 +64,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     const Camera& camera = view.camera;
     if (view.width < 1 || view.height < 1 || view.width > 32768 || view.height > 32768)
         refuse("the size of a picture must be 1 to 32768 pixels each way");
-    if (!(camera.perspective >= 0 && camera.perspective < 180)) refuse("perspective must be 0 or an angle below 180 degrees");
+    if (!(camera.perspective >= 0 && camera.perspective < 180))
+        refuse("perspective must be 0 or an angle below 180 degrees");
 
     PreparedFrame result;
     const Box box = framing_box(scene);
@@ -76,7 +77,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     double sin_a, cos_a, sin_e, cos_e;
     sine_cosine(finite(camera.azimuth, "azimuth"), sin_a, cos_a);
     sine_cosine(finite(camera.elevation, "elevation"), sin_e, cos_e);
-    const dvec3 back(cos_e * cos_a, cos_e * sin_a, sin_e), right(-sin_a, cos_a, 0), up(-sin_e * cos_a, -sin_e * sin_a, cos_e);
+    const dvec3 back(cos_e * cos_a, cos_e * sin_a, sin_e), right(-sin_a, cos_a, 0),
+        up(-sin_e * cos_a, -sin_e * sin_a, cos_e);
 
     // Orthographic, BRL-CAD's eye stands back sqrt(2) times half the view's size; in perspective where the picture
     // plane through the centre just fills the angle of view.
@@ -101,7 +103,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
 
     result.lights = scene.lights;
     if (result.lights.empty()) {
-        // BRL-CAD's own light: half a view back from the eye and half a view to its left. Fitted to its pictures of spheres.
+        // BRL-CAD's own light: half a view back from the eye and half a view to its left. Fitted to its pictures of
+        // spheres.
         const dvec3 at = eye + half * (back - right);
         result.lights.push_back({at.x, at.y, at.z, 1, 1, 1});
     }

@@ -14,10 +14,11 @@ struct PreparedFrame {
     double view_size = 0;      ///< height of the picture at the centre, millimetres
     Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
     Vec3 center;
-    std::uint64_t rays = 0;    ///< numbers of rays: pixels, filled up to whole blocks
+    std::uint64_t rays = 0;  ///< numbers of rays: pixels, filled up to whole blocks
 };
 
-/// BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that make no sense.
+/// BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that make no
+/// sense.
 PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1);
 
 /// The frame of a list of rays: no camera, no lights, everything along the whole line.

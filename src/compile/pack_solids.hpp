@@ -1,6 +1,8 @@
 // Solids -> SolidRecord, reals and plane references, as geometry/<solid>.h reads them.
 #pragma once
 
+#include <unordered_map>
+
 #include <csgrt/scene.hpp>
 
 #include "compile/compiled_scene.hpp"
@@ -8,9 +10,14 @@
 
 namespace csgrt {
 
+/// Where in CompiledScene::words the parts of a solid of many parts begin, by the address of its Shape (or of what it
+/// holds): its other places use the same.
+using SharedParts = std::unordered_map<const void*, std::uint32_t>;
+
 /// Appends a solid in its place to solids, reals and plane_refs of `scene`, and its faces to `planes`. `box` is the
 /// solid's own, or the scene's if it is not bounded. Its regions are not filled in.
 /// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
-void pack_solid(const Shape& shape, const Matrix& matrix, const Box& box, CompiledScene& scene, PlaneTable& planes);
+void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
+                CompiledScene& scene, PlaneTable& planes, SharedParts& shared);
 
 }  // namespace csgrt

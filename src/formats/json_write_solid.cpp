@@ -87,6 +87,10 @@ struct ToJson {
                 {"c", unit.length(s.c)}};
     }
 
+    template <class Other>
+    ordered_json operator()(const Other& s) const {
+        return {{"type", "unsupported"}, {"was", type_name(s)}};
+    }
     ordered_json operator()(const Unsupported& s) const { return {{"type", "unsupported"}, {"was", s.type}}; }
 };
 

@@ -32,6 +32,8 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene)
       reals(device, "solids' parameters", scene.reals),
       planes(device, "planes", scene.planes),
       plane_refs(device, "references to planes", scene.plane_refs),
+      words(device, "solids' parts", scene.words),
+      inner_nodes(device, "bounding volumes of solids' parts", scene.inner_nodes),
       region_lists(device, "solids' regions", scene.region_lists),
       regions(device, "regions", scene.regions),
       trees(device, "trees", scene.trees),
@@ -111,7 +113,7 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
     const SceneBuffers& s = buffers_;
     const kernel::RayCount zero{};
     counts_.upload(&zero, sizeof zero, tile.rays * sizeof zero);
-    const Event count = count_hits_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.nodes,
+    const Event count = count_hits_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, s.nodes,
                                            rays_, counts_);
     const double scan_time = scan(static_cast<std::uint32_t>(entries));
     counts_.read(&tile.total, sizeof tile.total, tile.rays * sizeof tile.total);
@@ -142,13 +144,13 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
     candidates_.reserve(candidate_bytes);
 
     const Event store = store_segments_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.reals, s.planes,
-                                               s.plane_refs, s.nodes, rays_, counts_, ends_);
+                                               s.plane_refs, s.words, s.inner_nodes, s.nodes, rays_, counts_, ends_);
     const Event weave = weave_.launch(tile.rays, group, frame_, rays_, counts_, ends_, partitions_, bits_, results_);
     const Event evaluate = evaluate_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.regions,
                                             s.region_lists, s.trees, counts_, ends_, partitions_, bits_, candidates_, results_);
     Event shade;
     if (pictured)
-        shade = shade_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.regions, s.materials,
+        shade = shade_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, s.regions, s.materials,
                               lights_, counts_, ends_, partitions_, results_, pixels_);
     counts.store_segments += milliseconds(store);
     counts.weave += milliseconds(weave);

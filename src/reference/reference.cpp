@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "kernel_geometry.hpp"
+#include "compile/tables.hpp"
 #include "reference/intersect.hpp"
 #include "reference/weave.hpp"
 
@@ -60,7 +60,8 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     claims.first_seen = SIZE_MAX;
     collect_ends(scene_, ray, frame.t_min, claims.ends);
     if (claims.ends.empty()) return;
-    const kernel::ray3 r{{ray.origin.x, ray.origin.y, ray.origin.z}, {ray.direction.x, ray.direction.y, ray.direction.z}};
+    const kernel::ray3 r{{ray.origin.x, ray.origin.y, ray.origin.z},
+                         {ray.direction.x, ray.direction.y, ray.direction.z}};
     const std::vector<WovenPartition> woven = weave(claims.ends, kernel::tolerance_along(&frame, r));
     claims.woven = woven.size();
 
@@ -132,7 +133,7 @@ void Reference::parallel(std::size_t count, const std::function<bool(double)>& p
 std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
                                              ReferenceCounts& counts) const {
     const kernel::Frame& frame = prepared.frame;
-    const kernel::Geometry g{scene_.solids.data(), scene_.reals.data(), scene_.planes.data(), scene_.plane_refs.data()};
+    const kernel::Geometry g = tables(scene_);
     std::vector<kernel::Pixel> pixels(std::size_t{frame.width} * frame.height);
     parallel(pixels.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;
@@ -172,7 +173,8 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, cons
 }
 
 std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                            const std::function<bool(double)>& progress, ReferenceCounts& counts) const {
+                                            const std::function<bool(double)>& progress,
+                                            ReferenceCounts& counts) const {
     std::vector<RayPartitions> results(rays.size());
     parallel(rays.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;

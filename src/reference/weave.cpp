@@ -15,7 +15,8 @@ bool contains(const std::vector<std::uint32_t>& list, std::uint32_t value) {
 std::vector<WovenPartition> weave(const std::vector<kernel::End>& ends, double tolerance) {
     std::vector<std::uint32_t> order(ends.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return ends[a].t < ends[b].t; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return ends[a].t < ends[b].t; });
 
     std::vector<WovenPartition> partitions;
     std::vector<std::uint32_t> covering;

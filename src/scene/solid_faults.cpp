@@ -178,7 +178,10 @@ struct FaultsOf {
         return faults;
     }
 
-    Faults operator()(const Unsupported&) const { return {}; }
+    template <class Other>
+    Faults operator()(const Other&) const {
+        return {};
+    }
 };
 
 }  // namespace

@@ -46,6 +46,18 @@ private:
         if (value) add_one(*value);
     }
     template <class T>
+    void add_one(const std::vector<T>& values) {
+        add_one(values.size());
+        for (const T& value : values) add_one(value);
+    }
+    void add_one(const Sketch& sketch) {
+        add(sketch.name, sketch.vertices, sketch.curves.size(), sketch.reversed);
+        for (const Sketch::Curve& curve : sketch.curves) {
+            add(curve.index());
+            std::visit([this](const auto& it) { add_curve(it); }, curve);
+        }
+    }
+    template <class T>
     void add_one(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -58,7 +70,29 @@ private:
         add(shape.planes.size());
         for (const Plane& plane : shape.planes) add(plane);
     }
+    void add_shape(const Metaball& s) {
+        add(s.method, s.threshold, s.points.size());
+        for (const Metaball::Point& p : s.points) add(p.position, p.strength, p.softness);
+    }
+    void add_shape(const Pipe& s) {
+        for (const Pipe::Point& p : s.points) add(p.position, p.outer, p.inner, p.bend);
+    }
+    void add_shape(const Bot& s) {
+        add(s.mode, s.orientation, s.vertices, s.faces, s.thickness, s.append, s.normals, s.face_normals);
+    }
+    void add_shape(const Ars& s) { add(s.curves); }
+    void add_shape(const Nmg& s) { add(s.vertices, s.faces); }
+    void add_shape(const Ebm& s) { add(s.width, s.depth, s.height, s.matrix, s.cells); }
+    void add_shape(const Vol& s) { add(s.width, s.depth, s.height, s.low, s.high, s.cell, s.matrix, s.cells); }
+    void add_shape(const Dsp& s) { add(s.width, s.depth, s.smooth, s.cut, s.matrix, s.heights); }
+    void add_shape(const Extrude& s) { add(s.v, s.h, s.a, s.b, s.sketch); }
+    void add_shape(const Revolve& s) { add(s.v, s.axis, s.r, s.angle, s.sketch); }
     void add_shape(const Unsupported& shape) { add(shape.type); }
+
+    void add_curve(const Sketch::Line& c) { add(c.start, c.end); }
+    void add_curve(const Sketch::Arc& c) { add(c.start, c.end, c.radius, c.center_left, c.clockwise); }
+    void add_curve(const Sketch::Bezier& c) { add(c.points); }
+    void add_curve(const Sketch::Nurb& c) { add(c.order, c.knots, c.points, c.weights); }
 
     void add_combination(const Combination& c) {
         add(c.tree.nodes.size(), c.region, c.region_id, c.air, c.material_id, c.los, c.color, c.finish.has_value(),

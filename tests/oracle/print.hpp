@@ -46,7 +46,10 @@ struct ShapePrinter {
         print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
         out << " r_1 " << s.r_1 << " r_2 " << s.r_2 << " c " << s.c;
     }
-    void operator()(const Unsupported& s) const { out << s.type; }
+    template <class Other>
+    void operator()(const Other& s) const {
+        out << type_name(s);
+    }
 };
 
 inline std::string describe(const Shape& shape, const Matrix& matrix) {

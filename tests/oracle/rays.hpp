@@ -78,7 +78,8 @@ struct FeatureFinder {
     }
     void operator()(const Arb& arb) const { vertices({arb.vertices.begin(), arb.vertices.end()}); }
     void operator()(const Arbn& arbn) const { vertices(vertices_of(arbn.planes)); }
-    void operator()(const Unsupported&) const {}
+    template <class Other>
+    void operator()(const Other&) const {}
 };
 
 }  // namespace detail

@@ -67,7 +67,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.offsets.resize(count + 1);
     each([&] {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.nodes.data(), rays.data(), run.offsets.data());
+                   scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(), run.offsets.data());
     });
     RayCount sum{};
     for (RayCount& c : run.offsets) {
@@ -85,7 +85,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.pixels.resize(count);
     each([&] {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.nodes.data(), rays.data(), run.offsets.data(), run.ends.data());
+                       scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(),
+                       run.offsets.data(), run.ends.data());
     });
     each([&] {
         kernel::weave(&frame, rays.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
@@ -99,8 +100,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     if (!frame.listed) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                  scene.regions.data(), scene.materials.data(), prepared.lights.data(), run.offsets.data(), run.ends.data(),
-                  run.nodes.data(), run.results.data(), run.pixels.data());
+                  scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
+                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(),
+                  run.pixels.data());
         });
     }
     return run;

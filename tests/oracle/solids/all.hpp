@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 #include <variant>
 
 #include "ehy.hpp"
@@ -13,8 +14,9 @@
 
 namespace csgrt::oracle {
 
-inline ImplicitSolid implicit(const Unsupported& shape, const QAffine&) {
-    throw std::invalid_argument("the oracle knows no solid of type " + shape.type);
+template <class Other>
+ImplicitSolid implicit(const Other& shape, const QAffine&) {
+    throw std::invalid_argument(std::string("the oracle knows no solid of type ") + type_name(shape));
 }
 inline ImplicitSolid implicit(const Shape& shape, const QAffine& place) {
     return std::visit([&](const auto& s) { return implicit(s, place); }, shape);

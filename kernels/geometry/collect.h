@@ -1,0 +1,36 @@
+// Any solid's segments along a ray, as ends: the one door through which the walk, the reference and the tests come.
+#ifndef CSGRT_COLLECT_H
+#define CSGRT_COLLECT_H
+
+#include "crossings.h"
+#include "solid.h"
+
+FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
+    End e;
+    e.solid = solid;
+    e.t = in;
+    e.surface = in_surface;
+    ends[0] = e;
+    e.t = out;
+    e.surface = out_surface;
+    ends[1] = e;
+}
+
+// Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
+// two a segment, in then out, by ascending distance. `index` is the solid's own.
+FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
+    hits h;
+    u32 count = 0;
+    h = intersect(g, solid, r);
+    if (h.count > 0 && h.out0 >= t_min) {
+        if (ends) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
+        ++count;
+    }
+    if (h.count > 1 && h.out1 >= t_min) {
+        if (ends) put_segment(ends + 2 * count, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
+        ++count;
+    }
+    return count;
+}
+
+#endif

@@ -1,0 +1,80 @@
+// Solids that a ray may cross any number of times (meshes, extrusions, ...) hand over their crossings here, in any order.
+// They are sorted in place, in the ray's own memory, and paired from the front: in, out, in, out.
+//
+//   crossings    |     |   |        |          of a closed surface: an even number
+//   ends         in   out  in      out
+//
+// A surface that is not closed leaves one over: it becomes a segment of no length, which the weave drops.
+#ifndef CSGRT_CROSSINGS_H
+#define CSGRT_CROSSINGS_H
+
+#include "hits.h"
+
+#define LEAVES 0x80000000u  // set in End.surface of an end where the ray leaves such a solid
+
+typedef struct {
+    GLOBAL End* ends;  // where the solid's ends go; 0: they are only counted
+    u32 solid;
+    real t_min;         // segments that end before this are not wanted
+    u32 behind, ahead;  // crossings before t_min, and the others
+    real last;          // the last one before t_min
+    u32 last_surface;
+} crossings;
+
+FN crossings no_crossings(u32 solid, real t_min, GLOBAL End* ends) {
+    crossings c;
+    c.ends = ends;
+    c.solid = solid;
+    c.t_min = t_min;
+    c.behind = c.ahead = c.last_surface = 0;
+    c.last = 0;
+    return c;
+}
+
+// One more crossing. Crossings at one t are ordered by surface, so the order in which they are found does not matter.
+FN crossings cross(crossings c, real t, u32 surface) {
+    if (t < c.t_min) {
+        if (c.behind == 0 || t > c.last || (t == c.last && surface > c.last_surface)) {
+            c.last = t;
+            c.last_surface = surface;
+        }
+        ++c.behind;
+        return c;
+    }
+    if (c.ends) {
+        u32 i = c.ahead;
+        End e;
+        while (i > 0 && (c.ends[i - 1].t > t || (c.ends[i - 1].t == t && c.ends[i - 1].surface > surface))) {
+            c.ends[i] = c.ends[i - 1];
+            --i;
+        }
+        e.t = t;
+        e.solid = c.solid;
+        e.surface = surface;
+        c.ends[i] = e;
+    }
+    ++c.ahead;
+    return c;
+}
+
+// Pairs the crossings; returns the number of segments.
+FN u32 close_crossings(crossings c) {
+    u32 inside = c.behind & 1u;  // at t_min
+    u32 count = c.ahead + inside, i;
+    if (c.ahead == 0) return 0;
+    if (c.ends) {
+        if (inside) {
+            End e;
+            for (i = c.ahead; i > 0; --i) c.ends[i] = c.ends[i - 1];
+            e.t = c.last;
+            e.solid = c.solid;
+            e.surface = c.last_surface;
+            c.ends[0] = e;
+        }
+        if (count & 1u) c.ends[count] = c.ends[count - 1];
+        for (i = 1; i <= count; i += 2) c.ends[i].surface |= LEAVES;
+    }
+    return (count + 1) / 2;
+}
+
+#endif

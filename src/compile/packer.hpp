@@ -1,0 +1,62 @@
+// What all pack_*.cpp share: how one solid is written as geometry/<solid>.h reads it.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/linear.hpp"
+#include "compile/pack_solids.hpp"
+#include "compile/planes.hpp"
+
+namespace csgrt {
+
+/// Writes one solid. pack_solids.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
+/// pack_sketches.cpp what outlines make, pack_meshes.cpp what triangles make.
+struct Packer {
+    const Matrix& matrix;
+    const Box& box;
+    CompiledScene& scene;
+    PlaneTable& planes;
+    SharedParts& shared;
+    kernel::SolidRecord record{};
+
+    void real(long double value) { scene.reals.push_back(static_cast<double>(value)); }
+    /// center and L, the inverse of the matrix whose columns are the local axes in the world.
+    void frame(const Wide& center, const WideMatrix& axes);
+    void face(const Plane& plane) { scene.plane_refs.push_back(planes.add(plane, box)); }
+    /// Faces of a polyhedron; several in one plane are one.
+    void faces(const std::vector<Plane>& all);
+
+    void operator()(const Ell& s);
+    void operator()(const Tgc& s);
+    void operator()(const Arb& s);
+    void operator()(const Arbn& s);
+    void operator()(const Half& s);
+    void operator()(const Tor& s);
+    void operator()(const Ehy& s);
+    void operator()(const Part& s);
+    void operator()(const Epa& s);
+    void operator()(const Rpc& s);
+    void operator()(const Rhc& s);
+    void operator()(const Eto& s);
+    void operator()(const Hyp& s);
+    void operator()(const Superell& s);
+    void operator()(const Hrt& s);
+    void operator()(const Metaball& s);
+    void operator()(const Pipe& s);
+    void operator()(const Cline& s);
+    void operator()(const Bot& s);
+    void operator()(const Ars& s);
+    void operator()(const Nmg& s);
+    void operator()(const Ebm& s);
+    void operator()(const Vol& s);
+    void operator()(const Dsp& s);
+    void operator()(const Extrude& s);
+    void operator()(const Revolve& s);
+    void operator()(const Unsupported& s);
+};
+
+}  // namespace csgrt

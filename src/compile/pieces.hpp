@@ -1,0 +1,27 @@
+// Solids that are made of others: a pipe is tubes and bends, a cline a cylinder with or without a bore.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+/// One solid as the kernels know it.
+struct Piece {
+    Shape shape;
+    std::vector<Plane> cuts;  ///< a torus only, two at most: what is inside all of them is kept
+};
+
+struct Pieces {
+    std::vector<Piece> pieces;  ///< none: the solid is one by itself
+    FlatTree tree;              ///< leaves are numbers of pieces
+};
+
+/// Takes a pipe or a cline apart. The solid must be sound (see solid_faults).
+Pieces pieces_of(const Shape& shape);
+
+}  // namespace csgrt

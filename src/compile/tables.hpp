@@ -1,0 +1,14 @@
+// A compiled scene's tables as the kernels' geometry takes them.
+#pragma once
+
+#include "compile/compiled_scene.hpp"
+#include "kernel_geometry.hpp"
+
+namespace csgrt {
+
+inline kernel::Geometry tables(const CompiledScene& scene) {
+    return {scene.solids.data(),     scene.reals.data(), scene.planes.data(),
+            scene.plane_refs.data(), scene.words.data(), scene.inner_nodes.data()};
+}
+
+}  // namespace csgrt

@@ -1,0 +1,64 @@
+// What all bounds_*.cpp share: the box around everything that a ray can hit of one solid.
+#pragma once
+
+#include <cmath>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/linear.hpp"
+
+namespace csgrt {
+
+/// Half the size of an ellipsoid's box: columns are its semi-axes. An ellipse has a zero column.
+inline Wide half_size(const WideMatrix& axes) {
+    return {std::hypot(axes[0].x, axes[1].x, axes[2].x), std::hypot(axes[0].y, axes[1].y, axes[2].y),
+            std::hypot(axes[0].z, axes[1].z, axes[2].z)};
+}
+
+inline Box box_around(const Wide& center, const Wide& half) { return {narrow(center - half), narrow(center + half)}; }
+
+inline Box ellipse_box(const Matrix& m, const Wide& center, const Wide& a, const Wide& b) {
+    return box_around(transform_point(m, center),
+                      half_size({transform_direction(m, a), transform_direction(m, b), Wide(0)}));
+}
+
+inline Box parallelogram_box(const Matrix& m, const Wide& center, const Wide& a, const Wide& b) {
+    return box_around(transform_point(m, center),
+                      glm::abs(transform_direction(m, a)) + glm::abs(transform_direction(m, b)));
+}
+
+/// The box of a solid that `m` places, before it is rounded outward (see solid_box). bounds.cpp has the solids of
+/// planes and quadrics, the other bounds_*.cpp what pack_*.cpp of that name have.
+struct Tight {
+    const Matrix& m;
+
+    Box operator()(const Ell& s) const;
+    Box operator()(const Tgc& s) const;
+    Box operator()(const Arb& s) const;
+    Box operator()(const Arbn& s) const;
+    Box operator()(const Half& s) const;
+    Box operator()(const Tor& s) const;
+    Box operator()(const Ehy& s) const;
+    Box operator()(const Part& s) const;
+    Box operator()(const Epa& s) const;
+    Box operator()(const Rpc& s) const;
+    Box operator()(const Rhc& s) const;
+    Box operator()(const Eto& s) const;
+    Box operator()(const Hyp& s) const;
+    Box operator()(const Superell& s) const;
+    Box operator()(const Hrt& s) const;
+    Box operator()(const Metaball& s) const;
+    Box operator()(const Pipe& s) const;
+    Box operator()(const Cline& s) const;
+    Box operator()(const Bot& s) const;
+    Box operator()(const Ars& s) const;
+    Box operator()(const Nmg& s) const;
+    Box operator()(const Ebm& s) const;
+    Box operator()(const Vol& s) const;
+    Box operator()(const Dsp& s) const;
+    Box operator()(const Extrude& s) const;
+    Box operator()(const Revolve& s) const;
+    Box operator()(const Unsupported& s) const;
+};
+
+}  // namespace csgrt
