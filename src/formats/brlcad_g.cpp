@@ -40,7 +40,7 @@ public:
             read_objects(bytes.size());
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take();
+        scene_.objects = objects_.take(source_.name());
         return std::move(scene_);
     }
 
@@ -82,7 +82,8 @@ private:
         if (object.minor == minor_combination) {
             objects_.add(read_combination(object, std::move(place)), object.offset);
         } else {
-            objects_.add(Solid{object.name, read_g_solid(object.minor, object.body), std::move(place)}, object.offset);
+            BrlcadItem item{read_g_solid(object.minor, object.body)};
+            objects_.add(object.name, std::move(item), std::move(place), object.offset);
         }
     }
 

@@ -17,6 +17,7 @@ public:
     /// `name` is what diagnostics call the file.
     ByteSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
 
+    const std::string& name() const noexcept { return name_; }
     std::string_view bytes() const noexcept { return bytes_; }
 
     Place place(std::size_t offset, std::string object = {}) const override;

@@ -1,4 +1,5 @@
 // BRL-CAD's own models: as many solids and regions as its library counts, the same paths, the same box.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -59,7 +60,8 @@ std::size_t solids_as_brlcad_counts(const FlatScene& flat) {
     std::size_t count = 0;
     for (const FlatRegion& region : flat.regions) {
         for (const FlatTree::Node& node : region.tree.nodes) {
-            if (node.op != Operator::leaf) continue;
+            // A pipe or a cline is one solid there.
+            if (node.op != Operator::leaf || flat.instances[node.solid].piece > 0) continue;
             int& used = uses[flat.instances[node.solid].object];
             if (used < 100 && seen.count(node.solid) != 0) continue;
             seen.insert(node.solid);
@@ -68,6 +70,14 @@ std::size_t solids_as_brlcad_counts(const FlatScene& flat) {
         }
     }
     return count;
+}
+
+/// The solids for which BRL-CAD's box is known here.
+bool has_brlcad_box(const Shape& shape) {
+    return std::holds_alternative<Ell>(shape) || std::holds_alternative<Tgc>(shape) ||
+           std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape) ||
+           std::holds_alternative<Half>(shape) || std::holds_alternative<Tor>(shape) ||
+           std::holds_alternative<Ehy>(shape);
 }
 
 }  // namespace
@@ -106,17 +116,24 @@ TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it fin
         for (const std::string& path : truth.paths) CHECK(paths.count(path) == 1);
         if (set == "goliath") {
             // Walked by several threads at once: which solids come within the first 100 is chance.
-            CHECK(flat.instances.size() == 3336);
-            CHECK(flat.instances.size() < truth.solids);
+            const auto solids = std::count_if(flat.instances.begin(), flat.instances.end(),
+                                              [](const Instance& instance) { return instance.piece == 0; });
+            CHECK(solids == 3336);
+            CHECK(static_cast<std::size_t>(solids) < truth.solids);
         } else {
-            CHECK(solids_as_brlcad_counts(flat) == truth.solids);
+            // There a grip is a solid that no ray meets; here it is the empty set.
+            const std::size_t grips = set == "solids" ? 1 : 0;
+            CHECK(solids_as_brlcad_counts(flat) + grips == truth.solids);
         }
 
         std::vector<Box> boxes;
         bool all_known = true;
         for (const Instance& instance : flat.instances) {
             const Shape& shape = std::get<Solid>(scene.objects[instance.object]).shape;
-            all_known = all_known && !std::holds_alternative<Unsupported>(shape);
+            if (!has_brlcad_box(shape)) {
+                all_known = false;
+                break;
+            }
             boxes.push_back(brlcad_box(shape, instance.matrix));
         }
         if (!all_known) continue;
