@@ -17,10 +17,10 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min
     u32 node_count = mesh[MESH_NODE_COUNT], i = 0;
     upright_ray u = make_upright(to_local(g.reals + solid.first_real, r));
     slab_ray s;
-    ray3 local;
-    local.o = u.ray.o;
-    local.d = u.ray.d;
-    s = make_slab_ray(local, make_vec3(0, 0, 0), MESH_RADIUS, -REAL_INFINITY);
+    ray3 inner;
+    inner.o = u.ray.o;
+    inner.d = u.ray.d;
+    s = make_slab_ray(inner, make_vec3(0, 0, 0), MESH_RADIUS, -REAL_INFINITY);
     if (!s.hits_sphere) return 0;
     while (i < node_count) {
         BvhNode node = nodes[i];
