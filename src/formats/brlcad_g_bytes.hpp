@@ -44,6 +44,13 @@ public:
     /// The same, where the highest bit is a sign.
     std::int64_t signed_number(unsigned width, const char* what);
 
+    /// A number of 4 bytes.
+    std::uint32_t word(const char* what) { return static_cast<std::uint32_t>(number(2, what)); }
+    /// The same, if it counts things of `size` bytes each, and all of them can still stand here.
+    std::uint32_t count(std::size_t size, const char* what);
+    /// The same, if it is less than `end`.
+    std::uint32_t index(std::size_t end, const char* what);
+
     /// A finite double.
     double real(const char* what);
     Vec3 vec3(const char* what);
