@@ -84,6 +84,7 @@ private:
     std::vector<Frame> frames_;
     std::unordered_map<Instance, std::uint32_t, InstanceHash, InstanceEqual> known_;
     std::unordered_map<const Combination*, Kind> hollow_;  ///< without solids below, and the constant that they are
+    std::unordered_set<std::uint32_t> skipped_;
     std::uint64_t references_ = 0, leaves_ = 0;
 };
 
@@ -145,9 +146,17 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         }
         return;
     }
+    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
+    if (const auto* unsupported = std::get_if<Unsupported>(&shape)) {  // validate has let it pass
+        if (skipped_.insert(object).second) {
+            result_.skipped.push_back(name_of(scene_.objects[object]) + " (" + unsupported->type + ")" +
+                                      (frames_.empty() ? "" : ", used by " + frames_.back().combination->name));
+        }
+        operands_.push_back({tree_->nodes.size(), Kind::nothing});
+        return;
+    }
     ++leaves_;
     operands_.push_back({tree_->nodes.size(), Kind::tree});
-    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
     if (!std::holds_alternative<Pipe>(shape) && !std::holds_alternative<Cline>(shape)) {
         tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, 0, matrix)});
         return;

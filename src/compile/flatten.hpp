@@ -28,6 +28,7 @@ struct FlatScene {
     std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
     std::vector<FlatRegion> regions;                       ///< in the order of the walk
     std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
+    std::vector<std::string> skipped;  ///< solids of unknown types, which are empty sets: name, type, user
     std::vector<std::string> notes;
 };
 
