@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/mesh_faults.hpp"
 #include "scene/polytope.hpp"
 #include "scene/vector.hpp"
 
@@ -177,6 +178,8 @@ struct FaultsOf {
         require_positive(faults, "c, the distance from the apex to the asymptotes,", s.c);
         return faults;
     }
+
+    Faults operator()(const Bot& s) const { return mesh_faults(s); }
 
     template <class Other>
     Faults operator()(const Other&) const {
