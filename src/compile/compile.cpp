@@ -165,7 +165,8 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     if (std::vector<Diagnostic> findings = validate(scene, objects, options.skip_unsupported); !findings.empty())
         throw Error(Status::scene, std::move(findings));
 
-    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air);
+    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air,
+                             options.skip_unsupported);
     CompiledScene compiled;
     compiled.notes = std::move(flat.notes);
     compiled.skipped = std::move(flat.skipped);

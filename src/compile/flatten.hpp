@@ -38,6 +38,7 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
 /// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is.
-FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air);
+/// `skip_unsupported`: solids of unknown types are empty sets; else they are leaves like any other.
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air, bool skip_unsupported = false);
 
 }  // namespace csgrt
