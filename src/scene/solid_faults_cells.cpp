@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "scene/solid_faults_of.hpp"
 
@@ -7,8 +8,8 @@ namespace csgrt {
 namespace {
 
 void check_placement(Faults& faults, const Matrix& m) {
-    if (!std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); })) {
-        faults.push_back("the matrix has a number that is not finite");
+    if (!std::all_of(m.begin(), m.end(), [](double x) { return std::abs(x) <= farthest; })) {
+        faults.push_back("the matrix has a number that is not finite, or far too large");
     } else if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
         faults.push_back("the matrix must end in the row 0 0 0 1");
     } else if (dependent({m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]})) {
@@ -54,8 +55,10 @@ Faults FaultsOf::operator()(const Ebm& s) const {
 Faults FaultsOf::operator()(const Vol& s) const {
     Faults faults;
     if (!all_finite(faults, s.cell)) return faults;
-    if (!(s.cell.x > 0 && s.cell.y > 0 && s.cell.z > 0)) {
-        faults.push_back("a cell must be longer than 0 along each axis");
+    for (const double side : {s.cell.x, s.cell.y, s.cell.z}) {
+        if (side > 0 && side <= farthest) continue;
+        faults.push_back("the sides of a cell must be greater than 0, and not far too large");
+        break;
     }
     check_placement(faults, s.matrix);
     if (s.low > s.high) {

@@ -7,12 +7,6 @@ namespace csgrt {
 
 namespace {
 
-/// Vertices are at most this far from the origin: squares of such lengths are numbers still.
-constexpr double farthest = 1e150;
-
-/// Vertices of a flat face may lie off its plane by this part of its size.
-constexpr double flatness = 1e-3;
-
 /// One sentence about the first vertex that is not a place; nothing else is worth saying then.
 bool check_places(Faults& faults, const std::vector<Vec3>& places, const std::string& what) {
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -47,17 +41,7 @@ void check_plates(Faults& faults, const Bot& s) {
     }
 }
 
-/// Newell's: the sum over the edges, of the length of twice the area.
-Vec3 normal_of(const Nmg::Loop& loop, const std::vector<Vec3>& vertices) {
-    Vec3 sum;
-    const Vec3& origin = vertices[loop.front()];
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        sum = sum + cross(vertices[loop[i]] - origin, vertices[loop[(i + 1) % loop.size()]] - origin);
-    }
-    return sum;
-}
-
-/// The first fault of a face, or nothing.
+/// The first fault of a face, or nothing. One that is not flat is cut into triangles as it is seen along its normal.
 std::string face_fault(const std::vector<Nmg::Loop>& face, const std::vector<Vec3>& vertices) {
     if (face.empty()) return " has no outline";
     for (const Nmg::Loop& loop : face) {
@@ -65,17 +49,14 @@ std::string face_fault(const std::vector<Nmg::Loop>& face, const std::vector<Vec
         const std::uint32_t vertex = *std::max_element(loop.begin(), loop.end());
         if (vertex >= vertices.size()) return uses_missing_vertex(vertex, vertices.size());
     }
-    const Vec3 normal = normal_of(face.front(), vertices);
-    if (length(normal) == 0) return " has no area";
-    const Vec3& origin = vertices[face.front().front()];
-    double size = 0, off = 0;
-    for (const Nmg::Loop& loop : face) {
-        for (const std::uint32_t vertex : loop) {
-            size = std::max(size, length(vertices[vertex] - origin));
-            off = std::max(off, std::abs(dot(unit(normal), vertices[vertex] - origin)));
-        }
+    return {};
+}
+
+bool has_area(const Nmg::Loop& loop, const std::vector<Vec3>& vertices) {
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+        if (has_area(vertices[loop[0]], vertices[loop[i - 1]], vertices[loop[i]])) return true;
     }
-    return off > flatness * size ? " is not flat" : "";
+    return false;
 }
 
 }  // namespace
@@ -103,7 +84,7 @@ Faults FaultsOf::operator()(const Bot& s) const {
 
 Faults FaultsOf::operator()(const Ars& s) const {
     Faults faults;
-    if (s.curves.size() < 3) return {"it has fewer than 3 curves"};
+    if (s.curves.size() < 2) return {"it has fewer than 2 curves"};
     const std::size_t count = s.curves.front().size();
     if (count < 3) return {"its curves have fewer than 3 points"};
     if (!require_at_most(faults, "points", s.curves.size() * count, Limits::triangles / 2)) return faults;
@@ -134,10 +115,13 @@ Faults FaultsOf::operator()(const Nmg& s) const {
     if (!require_at_most(faults, "corners of faces", corners, Limits::triangles)) return faults;
     if (!check_places(faults, s.vertices, "vertex ")) return faults;
     if (s.faces.empty()) return {"it has no faces"};
+    bool solid = false;
     for (std::size_t i = 0; i < s.faces.size(); ++i) {
         const std::string fault = face_fault(s.faces[i], s.vertices);
         if (!fault.empty()) return {"face " + std::to_string(i) + fault};
+        solid = solid || has_area(s.faces[i].front(), s.vertices);
     }
+    if (!solid) faults.push_back("none of its faces has an area");
     return faults;
 }
 

@@ -69,6 +69,9 @@ inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::abs(dot(unit(a), cross(unit(b), unit(c)))) < least_volume;
 }
 
+/// Vertices of meshes are at most this far from the origin: squares of such lengths are numbers still.
+inline constexpr double farthest = 1e150;
+
 struct IsFinite {
     bool operator()(double x) const { return std::isfinite(x); }
     bool operator()(const Vec3& v) const { return is_finite(v); }
