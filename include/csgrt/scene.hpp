@@ -114,6 +114,7 @@ struct Limits {
     static constexpr std::uint32_t file_nesting = 512;      ///< brackets inside brackets in a scene file
     static constexpr std::uint64_t instances = 20'000'000;  ///< solids after flattening, repeats counted
     static constexpr std::uint32_t faces = 65'535;          ///< of one arbn
+    static constexpr std::uint32_t curve_degree = 12;       ///< of a sketch's curves
     static constexpr int shine = 10'000;                    ///< beyond it a highlight is a point
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "scene/polytope.hpp"
+#include "scene/sketch_curves.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -57,6 +59,12 @@ void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
     } else if (!is_unit(plane.normal)) {
         faults.push_back("the normal" + which + " is not of length 1");
     }
+}
+
+std::string coordinate(long double x) {
+    std::ostringstream text;
+    text << x;
+    return text.str();
 }
 
 struct FaultsOf {
@@ -175,6 +183,25 @@ struct FaultsOf {
         require_positive(faults, "the semi-axis r1", s.r_1);
         require_positive(faults, "the semi-axis r2", s.r_2);
         require_positive(faults, "c, the distance from the apex to the asymptotes,", s.c);
+        return faults;
+    }
+
+    Faults operator()(const Extrude& s) const {
+        Faults faults;
+        if (!all_finite(faults, s.v, s.h, s.a, s.b)) return faults;
+        for (const auto& [name, axis] : {std::pair{"the height", s.h}, {"the axis a", s.a}, {"the axis b", s.b}}) {
+            if (length(axis) == 0) faults.push_back(std::string(name) + " has length 0");
+        }
+        if (faults.empty() && dependent(s.a, s.b, s.h))
+            faults.push_back("the axes a and b of the sketch and the height lie in one plane");
+        for (std::string& fault : sketch_faults(s.sketch)) faults.push_back(std::move(fault));
+        if (!faults.empty()) return faults;
+        std::vector<CurvePiece> pieces = curve_pieces(s.sketch);
+        if (const auto ends = close_gaps(pieces); !ends.empty()) {
+            faults.push_back("its sketch is not closed: an odd number of curves ends at (" + coordinate(ends[0].u) +
+                             ", " + coordinate(ends[0].v) + ")" +
+                             (ends.size() > 1 ? " and at " + std::to_string(ends.size() - 1) + " other points" : ""));
+        }
         return faults;
     }
 

@@ -1,0 +1,31 @@
+// A sketch's curves in one form: rational Bezier pieces.
+#pragma once
+
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// A control point and its weight.
+struct CurvePoint {
+    long double u = 0, v = 0, weight = 1;
+};
+/// A rational Bezier curve of degree size - 1; the weights at its ends are 1. Two points: a straight line.
+using CurvePiece = std::vector<CurvePoint>;
+
+/// All curves of a sound sketch (see `sketch_faults`). Where pieces meet in a vertex their ends are that vertex, bit by
+/// bit. Arcs come in pieces of at most 90 degrees, B-splines in one a span of their knots.
+std::vector<CurvePiece> curve_pieces(const Sketch& sketch);
+
+/// The points where an odd number of pieces ends: a closed outline has none.
+std::vector<CurvePoint> loose_ends(const std::vector<CurvePiece>& pieces);
+
+/// Joins loose ends that are nearer to each other than BRL-CAD tells points apart, by lines. Returns those that are
+/// left.
+std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces);
+
+/// What is wrong with the curves one by one; nothing is said about gaps between them.
+std::vector<std::string> sketch_faults(const Sketch& sketch);
+
+}  // namespace csgrt
