@@ -9,6 +9,7 @@
 #include "eto.h"
 #include "extrude.h"
 #include "half.h"
+#include "mesh.h"
 #include "quadric.h"
 #include "tgc.h"
 #include "tor.h"
@@ -77,6 +78,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) n = extrude_normal(g, solid, r, t, surface);
+#endif
+#if HAS_SOLID(SOLID_MESH)
+    if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

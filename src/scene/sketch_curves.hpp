@@ -27,5 +27,7 @@ std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces);
 
 /// What is wrong with the curves one by one; nothing is said about gaps between them.
 std::vector<std::string> sketch_faults(const Sketch& sketch);
+/// The same, and the gaps.
+std::vector<std::string> closed_sketch_faults(const Sketch& sketch);
 
 }  // namespace csgrt

@@ -1,6 +1,7 @@
 // What is wrong with a sketch, curve by curve.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "scene/sketch_curves.hpp"
 
@@ -82,6 +83,18 @@ std::vector<std::string> sketch_faults(const Sketch& sketch) {
         if (std::string fault = std::visit(CurveFault{sketch}, sketch.curves[i]); !fault.empty())
             faults.push_back("curve " + number(i) + " of its sketch " + fault);
     return faults;
+}
+
+std::vector<std::string> closed_sketch_faults(const Sketch& sketch) {
+    std::vector<std::string> faults = sketch_faults(sketch);
+    if (!faults.empty()) return faults;
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    const std::vector<CurvePoint> ends = close_gaps(pieces);
+    if (ends.empty()) return {};
+    std::ostringstream text;
+    text << "its sketch is not closed: an odd number of curves ends at (" << ends[0].u << ", " << ends[0].v << ")";
+    if (ends.size() > 1) text << " and at " << ends.size() - 1 << (ends.size() > 2 ? " other points" : " other point");
+    return {text.str()};
 }
 
 }  // namespace csgrt

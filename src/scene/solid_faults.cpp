@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "scene/mesh_faults.hpp"
 #include "scene/polytope.hpp"
 #include "scene/sketch_curves.hpp"
 #include "scene/vector.hpp"
@@ -59,12 +59,6 @@ void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
     } else if (!is_unit(plane.normal)) {
         faults.push_back("the normal" + which + " is not of length 1");
     }
-}
-
-std::string coordinate(long double x) {
-    std::ostringstream text;
-    text << x;
-    return text.str();
 }
 
 struct FaultsOf {
@@ -194,16 +188,10 @@ struct FaultsOf {
         }
         if (faults.empty() && dependent(s.a, s.b, s.h))
             faults.push_back("the axes a and b of the sketch and the height lie in one plane");
-        for (std::string& fault : sketch_faults(s.sketch)) faults.push_back(std::move(fault));
-        if (!faults.empty()) return faults;
-        std::vector<CurvePiece> pieces = curve_pieces(s.sketch);
-        if (const auto ends = close_gaps(pieces); !ends.empty()) {
-            faults.push_back("its sketch is not closed: an odd number of curves ends at (" + coordinate(ends[0].u) +
-                             ", " + coordinate(ends[0].v) + ")" +
-                             (ends.size() > 1 ? " and at " + std::to_string(ends.size() - 1) + " other points" : ""));
-        }
+        for (std::string& fault : closed_sketch_faults(s.sketch)) faults.push_back(std::move(fault));
         return faults;
     }
+    Faults operator()(const Bot& s) const { return mesh_faults(s); }
 
     template <class Other>
     Faults operator()(const Other&) const {
