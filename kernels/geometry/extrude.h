@@ -4,28 +4,21 @@
 // the walls over the sketch's pieces.
 //
 // Seen along the height the ray is a line in the sketch's plane. Each crossing of the outline turns inside into outside
-// (even-odd), and the ends cut the solid out of that prism:
-//
-//                     end                                     end
-//     -----|=========|=|===============|---------|=============|=====|-----> t
-//          x           in              x         x             out   x         x: crossings of the outline
-//
-// Crossings between the ends are the solid's own; at each end the parity of those before it says whether the ray
-// crosses it inside. On which side of the line a point lies is the sign of one expression, so all pieces that meet in a
-// point agree about it, and the count of crossings of a closed outline is even, vertices hit or not.
+// (even-odd), and the ends cut the solid out of that prism. On which side of the line a point lies is the sign of one
+// expression, so all pieces that meet in a point agree about it, and the count of crossings of a closed outline is
+// even, vertices hit or not.
 #ifndef CSGRT_EXTRUDE_H
 #define CSGRT_EXTRUDE_H
 
 #include "affine.h"
 #include "bernstein.h"
-#include "crossings.h"
 #include "curve.h"
+#include "cut.h"
 #include "plane.h"
 #include "polynomial.h"
 
 #define EXTRUDE_ENDS 2
-#define WALL_SLACK \
-    REAL(1e-9)  // between a crossing of a wall's plane and of its line: as rounding has it, in local units
+#define WALL_SLACK REAL(1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
 
 // A line in the sketch's plane; (dx, dy) is a unit vector.
 typedef struct {
@@ -35,47 +28,52 @@ typedef struct {
 FN real side_of(line2 l, real x, real y) { return difference_of_products(l.dx, y - l.oy, l.dy, x - l.ox); }
 FN real place_along(line2 l, real x, real y) { return real_fma(l.dx, x - l.ox, l.dy * (y - l.oy)); }
 
-// The crossings of one ray with an outline, counted and handed on as they are found.
+// The ray as the sketch sees it.
 typedef struct {
     local_ray ray;
     line2 line;
-    real speed;           // along the line, as t grows; 0: the ray runs along the height
-    span ends;            // between the ends of the solid
-    u32 in_odd, out_odd;  // crossings before ends.low, and before ends.high
-    crossings c;
-} outline_walk;
+    real speed;  // along the line, as t grows; 0: the ray runs along the height
+    real slack;  // WALL_SLACK in units of t
+} sketch_ray;
 
-FN outline_walk cross_outline(outline_walk w, real t, u32 surface) {
-    if (t < w.ends.low) {
-        w.in_odd ^= 1u;
-        w.out_odd ^= 1u;
-    } else if (t <= w.ends.high) {
-        w.out_odd ^= 1u;
-        w.c = cross(w.c, t, surface);
+// Along the height it has no direction there: then any line through the point will do.
+FN sketch_ray to_sketch(GLOBAL const real* p, ray3 r) {
+    sketch_ray w;
+    real most;
+    w.ray = to_local(p, r);
+    w.slack = WALL_SLACK / real_sqrt(dot3(w.ray.d, w.ray.d));
+    w.line.ox = w.ray.o.x;
+    w.line.oy = w.ray.o.y;
+    w.line.dx = 1;
+    w.line.dy = w.speed = 0;
+    most = real_max(real_abs(w.ray.d.x), real_abs(w.ray.d.y));
+    if (most > 0) {
+        real x = w.ray.d.x / most, y = w.ray.d.y / most;
+        real size = real_sqrt(real_fma(x, x, y * y));
+        w.line.dx = x / size;
+        w.line.dy = y / size;
+        w.speed = most * size;
     }
     return w;
 }
 
-// Where a ray along the height stands, instead: inside the outline if it has an odd number of crossings to one side.
-FN outline_walk pass_outline(outline_walk w, real place) {
-    if (place > 0) {
-        w.in_odd ^= 1u;
-        w.out_odd ^= 1u;
-    }
-    return w;
+// A place along the line as a distance. A ray along the height is inside the outline, all the way, if an odd number of
+// crossings lies to one side of it: those count as before everything, the others as after it.
+FN real distance_at(sketch_ray w, real place) {
+    if (w.speed == 0) return place > 0 ? -REAL_INFINITY : REAL_INFINITY;
+    return w.ray.shift + place / w.speed;
 }
 
-FN outline_walk meet_line(outline_walk w, GLOBAL const real* p, Geometry g, u32 plane, ray3 r, u32 surface) {
+FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plane, ray3 r, u32 surface) {
     real side0 = side_of(w.line, p[0], p[1]), side1 = side_of(w.line, p[2], p[3]);
-    real place, t;
-    if ((side0 > 0) == (side1 > 0)) return w;
+    real place, t, to_wall;
+    if ((side0 > 0) == (side1 > 0)) return k;
     place = place_along(w.line, p[0], p[1]);
     place = real_fma(place_along(w.line, p[2], p[3]) - place, side0 / (side0 - side1), place);
-    if (w.speed == 0) return pass_outline(w, place);
+    t = distance_at(w, place);
     // The wall's plane may be another solid's, too: its t is the one to take, but for rays that all but run along it.
-    t = face_distance(g, plane, r);
-    if (!(real_abs((t - w.ray.shift) * w.speed - place) <= WALL_SLACK)) t = w.ray.shift + place / w.speed;
-    return cross_outline(w, t, surface);
+    to_wall = face_distance(g, plane, r);
+    return cut_crossing(k, real_abs(to_wall - t) <= w.slack ? to_wall : t, surface);
 }
 
 // The point of a curve on the line, where it changes sides between two parameters.
@@ -98,66 +96,42 @@ FN void sides_of(GLOBAL const real* p, u32 degree, line2 l, real* c) {
     for (i = 0; i <= degree; ++i) c[i] = p[3 * i + 2] * side_of(l, p[3 * i], p[3 * i + 1]);
 }
 
-FN outline_walk meet_curve(outline_walk w, GLOBAL const real* p, u32 degree, u32 surface) {
+FN cut meet_curve(cut k, sketch_ray w, GLOBAL const real* p, u32 degree, u32 surface) {
     real c[BERNSTEIN_SIZE];
     sign_walk signs;
     sides_of(p, degree, w.line, c);
-    if (coefficient_changes(c, degree) == 0) return w;
+    if (coefficient_changes(c, degree) == 0) return k;
     signs = start_sign_walk(c);
     while (next_sign_change(c, degree, &signs)) {
         curve_point at = point_on_line(p, degree, w.line, signs);
-        real place = place_along(w.line, at.x / at.w, at.y / at.w);
-        w = w.speed == 0 ? pass_outline(w, place) : cross_outline(w, w.ray.shift + place / w.speed, surface);
+        k = cut_crossing(k, distance_at(w, place_along(w.line, at.x / at.w, at.y / at.w)), surface);
     }
-    return w;
-}
-
-// The ray as the sketch sees it. Along the height it has no direction there: then any line through the point will do.
-FN outline_walk start_outline_walk(GLOBAL const real* p, ray3 r) {
-    outline_walk w;
-    real most;
-    w.ray = to_local(p, r);
-    w.line.ox = w.ray.o.x;
-    w.line.oy = w.ray.o.y;
-    w.line.dx = 1;
-    w.line.dy = w.speed = 0;
-    w.in_odd = w.out_odd = 0;
-    most = real_max(real_abs(w.ray.d.x), real_abs(w.ray.d.y));
-    if (most > 0) {
-        real x = w.ray.d.x / most, y = w.ray.d.y / most;
-        real size = real_sqrt(real_fma(x, x, y * y));
-        w.line.dx = x / size;
-        w.line.dy = y / size;
-        w.speed = most * size;
-    }
-    return w;
+    return k;
 }
 
 FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     sketch s = sketch_of(g, solid);
     span ends = whole_line();
-    outline_walk w;
+    sketch_ray w;
+    cut k;
     u32 i;
     ends = clip_to_face(ends, g, solid.first_plane, r, 0);
     ends = clip_to_face(ends, g, solid.first_plane + 1, r, 1);
     if (!(ends.low < ends.high)) return c;
-    w = start_outline_walk(g.reals + solid.first_real, r);
-    w.ends = ends;
-    w.c = c;
+    w = to_sketch(g.reals + solid.first_real, r);
+    k = start_cut(ends, 1, c);
     for (i = 0; i < s.line_count; ++i) {
         u32 surface = EXTRUDE_ENDS + i;
-        w = meet_line(w, s.lines + 4 * i, g, solid.first_plane + surface, r, surface);
+        k = meet_line(k, w, s.lines + 4 * i, g, solid.first_plane + surface, r, surface);
     }
     for (i = 0; i < s.curve_count; ++i)
-        w = meet_curve(w, g.reals + s.curves[2 * i], s.curves[2 * i + 1], EXTRUDE_ENDS + s.line_count + i);
-    if (w.in_odd) w.c = cross(w.c, ends.low, ends.low_surface);
-    if (w.out_odd) w.c = cross(w.c, ends.high, ends.high_surface);
-    return w.c;
+        k = meet_curve(k, w, g.reals + s.curves[2 * i], s.curves[2 * i + 1], EXTRUDE_ENDS + s.line_count + i);
+    return end_cut(k);
 }
 
 // The normal of the wall over a curve where the ray crosses it nearest to t.
 FN vec3 curved_wall_normal(GLOBAL const real* p, GLOBAL const real* curve, u32 degree, ray3 r, real t) {
-    outline_walk w = start_outline_walk(p, r);
+    sketch_ray w = to_sketch(p, r);
     real c[BERNSTEIN_SIZE];
     real nearest = REAL_INFINITY;
     vec3 n = make_vec3(0, 0, 0);
@@ -167,7 +141,7 @@ FN vec3 curved_wall_normal(GLOBAL const real* p, GLOBAL const real* curve, u32 d
     while (next_sign_change(c, degree, &signs)) {
         curve_point at = point_on_line(curve, degree, w.line, signs);
         real x = at.x / at.w, y = at.y / at.w;
-        real off = real_abs(w.ray.shift + place_along(w.line, x, y) / w.speed - t);
+        real off = real_abs(distance_at(w, place_along(w.line, x, y)) - t);
         if (off < nearest) {
             nearest = off;
             n = make_vec3(real_fma(-y, at.dw, at.dy), -real_fma(-x, at.dw, at.dx), 0);  // across the tangent

@@ -11,6 +11,7 @@
 #include "half.h"
 #include "mesh.h"
 #include "quadric.h"
+#include "revolve.h"
 #include "tgc.h"
 #include "tor.h"
 
@@ -81,6 +82,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) n = revolve_normal(g, solid, r, t, surface);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

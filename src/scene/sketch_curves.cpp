@@ -184,4 +184,17 @@ std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces) {
     return left;
 }
 
+std::vector<CurvePiece> closed_pieces(const Sketch& sketch) {
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    close_gaps(pieces);
+    return pieces;
+}
+
+std::vector<CurvePiece> turned_pieces(const Sketch& sketch) {
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    for (const CurvePoint& end : close_gaps(pieces))
+        if (end.u != 0) pieces.push_back({end, {0, end.v, 1}});
+    return pieces;
+}
+
 }  // namespace csgrt

@@ -25,9 +25,17 @@ std::vector<CurvePoint> loose_ends(const std::vector<CurvePiece>& pieces);
 /// left.
 std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces);
 
+/// All curves and the lines that close gaps.
+std::vector<CurvePiece> closed_pieces(const Sketch& sketch);
+
+/// All curves of a profile that is turned about u = 0: ends that stay loose are joined to the axis, straight across.
+std::vector<CurvePiece> turned_pieces(const Sketch& sketch);
+
 /// What is wrong with the curves one by one; nothing is said about gaps between them.
 std::vector<std::string> sketch_faults(const Sketch& sketch);
-/// The same, and the gaps.
+/// What is wrong with the curves, or the gaps between them.
 std::vector<std::string> closed_sketch_faults(const Sketch& sketch);
+/// What is wrong with the curves, or that they lie beyond the axis.
+std::vector<std::string> turned_sketch_faults(const Sketch& sketch);
 
 }  // namespace csgrt

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "scene/sketch_curves.hpp"
+#include "scene/sketch_reach.hpp"
 
 namespace csgrt {
 
@@ -11,6 +12,8 @@ namespace {
 
 /// An arc's radius may fall short of half the chord by this part of it: rounding of a half circle's.
 constexpr double short_radius = 1e-5;
+/// By this part of its width a profile may lie beyond the axis: rounding.
+constexpr long double beyond_axis = 1e-9L;
 
 std::string number(std::uint64_t n) { return std::to_string(n); }
 
@@ -95,6 +98,19 @@ std::vector<std::string> closed_sketch_faults(const Sketch& sketch) {
     text << "its sketch is not closed: an odd number of curves ends at (" << ends[0].u << ", " << ends[0].v << ")";
     if (ends.size() > 1) text << " and at " << ends.size() - 1 << (ends.size() > 2 ? " other points" : " other point");
     return {text.str()};
+}
+
+std::vector<std::string> turned_sketch_faults(const Sketch& sketch) {
+    std::vector<std::string> faults = sketch_faults(sketch);
+    if (!faults.empty()) return faults;
+    const auto [least, greatest] = reach_of(curve_pieces(sketch), 1, 0);
+    if (!(greatest > 0)) return {"its sketch does not reach out from the axis"};
+    if (least < -beyond_axis * greatest) {
+        std::ostringstream text;
+        text << "its sketch crosses the axis, to " << least;
+        return {text.str()};
+    }
+    return {};
 }
 
 }  // namespace csgrt

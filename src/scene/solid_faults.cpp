@@ -191,6 +191,35 @@ struct FaultsOf {
         for (std::string& fault : closed_sketch_faults(s.sketch)) faults.push_back(std::move(fault));
         return faults;
     }
+    Faults operator()(const Revolve& s) const {
+        Faults faults;
+        if (!all_finite(faults, s.v, s.axis, s.r, s.angle)) return faults;
+        if (length(s.axis) == 0) faults.push_back("the axis has length 0");
+        if (length(s.r) == 0) faults.push_back("the direction r has length 0");
+        if (std::abs(dot(unit(s.r), unit(s.axis))) > angle_slack)
+            faults.push_back("the direction r must be perpendicular to the axis");
+        require_positive(faults, "the angle", s.angle);
+        for (std::string& fault : turned_sketch_faults(s.sketch)) faults.push_back(std::move(fault));
+        return faults;
+    }
+
+    Faults operator()(const Ebm& s) const {
+        Faults faults;
+        for (const double number : s.matrix)
+            if (!all_finite(faults, number, s.height)) return faults;
+        require_positive(faults, "the height", s.height);
+        const auto& m = s.matrix;
+        if (dependent({m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}))
+            faults.push_back("its matrix is singular");
+        const std::uint64_t count = std::uint64_t{s.width} * s.depth;
+        if (s.cells.size() != count)
+            faults.push_back("it has " + std::to_string(s.cells.size()) + " cells, not " + std::to_string(s.width) +
+                             " x " + std::to_string(s.depth));
+        else if (count == 0)
+            faults.push_back("it has no cells");
+        return faults;
+    }
+
     Faults operator()(const Bot& s) const { return mesh_faults(s); }
 
     template <class Other>

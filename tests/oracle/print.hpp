@@ -73,6 +73,18 @@ struct ShapePrinter {
         print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a), print(out, "b", s.b);
         (*this)(s.sketch);
     }
+    void operator()(const Revolve& s) const {
+        out << "revolve";
+        print(out, "v", s.v), print(out, "axis", s.axis), print(out, "r", s.r);
+        out << " angle " << s.angle;
+        (*this)(s.sketch);
+    }
+    void operator()(const Ebm& s) const {
+        out << "ebm " << s.width << " x " << s.depth << " height " << s.height << " matrix";
+        for (const double m : s.matrix) out << ' ' << m;
+        out << "\n    cells";
+        for (const auto cell : s.cells) out << ' ' << int{cell};
+    }
     template <class Other>
     void operator()(const Other& s) const {
         out << type_name(s);

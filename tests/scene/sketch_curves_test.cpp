@@ -106,21 +106,21 @@ TEST_CASE("sketches: faults of curves") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     check_fault(of(with({})), "no curves");
     check_curve(Sketch::Line{0, 4}, "refers to vertex 4, and there are 4");
-    check_curve(Sketch::Arc{0, 1, 0.9}, "less than half");
-    check_curve(Sketch::Arc{0, 1, 0}, "radius 0");
-    check_curve(Sketch::Arc{0, 1, nan}, "not finite");
+    check_curve(Sketch::Arc{0, 1, 0.9}, "has the radius 0.9");
+    check_curve(Sketch::Arc{0, 1, 0}, "has the radius 0");
+    check_curve(Sketch::Arc{0, 1, nan}, "has a radius that is not finite");
     check_curve(Sketch::Arc{0, 0, 1}, "starts and ends in one point");
-    check_curve(Sketch::Arc{0, 0, -1}, "circle of radius 0");
-    check_curve(Sketch::Bezier{{0}}, "fewer than two points");
-    check_curve(Sketch::Bezier{std::vector<std::uint32_t>(14, 0)}, "of degree 13; at most 12");
-    check_curve(Sketch::Nurb{1, {0, 1}, {0}, {}}, "of order 1");
-    check_curve(Sketch::Nurb{0xffffffff, {0, 1}, {0}, {}}, "of degree 4294967294");
+    check_curve(Sketch::Arc{0, 0, -1}, "is a circle of radius 0");
+    check_curve(Sketch::Bezier{{0}}, "has fewer than two points");
+    check_curve(Sketch::Bezier{std::vector<std::uint32_t>(14, 0)}, "is of degree 13; at most 12");
+    check_curve(Sketch::Nurb{1, {0, 1}, {0}, {}}, "is of order 1");
+    check_curve(Sketch::Nurb{0xffffffff, {0, 1}, {0}, {}}, "is of degree 4294967294");
     check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1}, {0, 1, 2}, {}}, "has 5 knots, not 6");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 0, 0, 0}, {0, 1, 2}, {}}, "span nothing");
-    check_curve(Sketch::Nurb{3, {0, 0, 1, 0, 1, 1}, {0, 1, 2}, {}}, "do not ascend");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, nan}, {0, 1, 2}, {}}, "not finite");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 2}, {1, 0, 1}}, "not greater than 0");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 2}, {1, 1}}, "2 weights for 3 points");
+    check_curve(Sketch::Nurb{3, {0, 0, 0, 0, 0, 0}, {0, 1, 2}, {}}, "has knots that span nothing");
+    check_curve(Sketch::Nurb{3, {0, 0, 1, 0, 1, 1}, {0, 1, 2}, {}}, "has knots that do not ascend");
+    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, nan}, {0, 1, 2}, {}}, "has a knot or a weight that is not finite");
+    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 2}, {1, 0, 1}}, "has a weight that is not greater than 0");
+    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 2}, {1, 1}}, "has 2 weights for 3 points");
     check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 9}, {}}, "refers to vertex 9");
     Sketch infinite = with(closed);
     infinite.vertices[1].u = nan;
@@ -130,4 +130,47 @@ TEST_CASE("sketches: faults of curves") {
     check_fault(flat, "lie in one plane");
     flat.h = {0, 0, 0};
     check_fault(flat, "the height has length 0");
+}
+
+TEST_CASE("sketches: profiles are joined to the axis, and may not cross it") {
+    const auto turned = [](Sketch sketch) { return Revolve{{0, 0, 0}, {0, 0, 2}, {3, 0, 0}, 1, std::move(sketch)}; };
+    const Sketch open = with({Sketch::Line{1, 2}});
+    CHECK(solid_faults(turned(open)).empty());
+    const auto pieces = turned_pieces(open);
+    REQUIRE(pieces.size() == 3);
+    for (std::size_t i = 1; i < 3; ++i) {
+        CHECK(pieces[i][0].u == 2);
+        CHECK(pieces[i][1].u == 0);
+        CHECK(pieces[i][0].v == pieces[i][1].v);
+    }
+    CHECK(turned_pieces(with({Sketch::Line{0, 1}, Sketch::Line{1, 3}})).size() == 2);  // ends on the axis
+    check_fault(turned(with({Sketch::Line{0, 3}})), "does not reach out from the axis");
+    check_fault(turned(with({Sketch::Arc{2, 0, -1}})), "crosses the axis, to");
+    Revolve bad = turned(open);
+    bad.angle = 0;
+    check_fault(bad, "the angle must be greater than 0");
+    bad.angle = 1, bad.r = {1, 0, 1};
+    check_fault(bad, "perpendicular");
+    bad.r = {1, 0, 0}, bad.axis = {0, 0, 0};
+    check_fault(bad, "the axis has length 0");
+}
+
+TEST_CASE("sketches: pictures of cells") {
+    Ebm ebm;
+    ebm.width = 2, ebm.depth = 3, ebm.height = 1, ebm.cells.assign(6, 1);
+    CHECK(solid_faults(ebm).empty());
+    ebm.cells.pop_back();
+    check_fault(ebm, "it has 5 cells, not 2 x 3");
+    ebm.cells.assign(6, 0);
+    ebm.height = 0;
+    check_fault(ebm, "the height must be greater than 0");
+    ebm.height = 1, ebm.matrix[0] = 0;
+    check_fault(ebm, "matrix is singular");
+    ebm.matrix[0] = std::numeric_limits<double>::infinity();
+    check_fault(ebm, "not finite");
+    ebm = {};
+    ebm.height = 1, ebm.width = 0xffffffff, ebm.depth = 0xffffffff;
+    check_fault(ebm, "it has 0 cells, not 4294967295 x 4294967295");
+    ebm.width = 0;
+    check_fault(ebm, "no cells");
 }

@@ -5,19 +5,19 @@
 
 #include "compile/bounds.hpp"
 #include "compile/linear.hpp"
-#include "compile/sketch_box.hpp"
-#include "oracle/extruded.hpp"
-#include "oracle/sketches.hpp"
+#include "compile/axis_frame.hpp"
+#include "oracle/profiles.hpp"
+#include "oracle/revolved.hpp"
+#include "scene/sketch_reach.hpp"
 
 using namespace csgrt;
 
 namespace {
 
 /// Many points of a sketch's curves.
-std::vector<oracle::QVec> points_of(const Sketch& sketch) {
+std::vector<oracle::QVec> points_of(const Sketch& sketch, int steps = 2000) {
     using namespace oracle;
     std::vector<QVec> points;
-    constexpr int steps = 2000;
     const Outline outline(sketch);
     std::vector<Outline::Rational> rationals = outline.spans();
     for (const Sketch::Curve& curve : sketch.curves) {
@@ -47,6 +47,15 @@ std::vector<oracle::QVec> points_of(const Sketch& sketch) {
     return points;
 }
 
+void check_tight(const Box& box, const Box& surface, double slack) {
+    const auto check = [&](double outer, double inner) {
+        CHECK(outer >= inner - 1e-13);
+        CHECK(outer <= inner + slack);
+    };
+    check(-box.low.x, -surface.low.x), check(-box.low.y, -surface.low.y), check(-box.low.z, -surface.low.z);
+    check(box.high.x, surface.high.x), check(box.high.y, surface.high.y), check(box.high.z, surface.high.z);
+}
+
 }  // namespace
 
 TEST_CASE("bounds: the box of an extrusion is tight") {
@@ -65,14 +74,39 @@ TEST_CASE("bounds: the box of an extrusion is tight") {
                                 static_cast<long double>(p.y) * wide(shape.b) + z * wide(shape.h);
                 extend(surface, narrow(transform_point(m, at)));
             }
-        const Box box = solid_box(shape, m);
-        const auto check = [](double outer, double inner) {
-            CHECK(outer >= inner - 1e-14);
-            CHECK(outer <= inner + 1e-4);
-        };
-        check(-box.low.x, -surface.low.x), check(-box.low.y, -surface.low.y), check(-box.low.z, -surface.low.z);
-        check(box.high.x, surface.high.x), check(box.high.y, surface.high.y), check(box.high.z, surface.high.z);
+        check_tight(solid_box(shape, m), surface, 1e-4);
     }
+}
+
+TEST_CASE("bounds: the box of a revolve is tight, whatever its angle") {
+    oracle::Random random(6);
+    for (std::size_t form = 0; form < oracle::profile_form_count; ++form)
+        for (const double angle : {0.3, 2.0, 3.5, 5.5, 6.283185307179586}) {
+            INFO(oracle::profile_forms[form] << ", angle " << angle);
+            Revolve shape;
+            shape.v = {1, 2, 3}, shape.axis = {0, 3, 4}, shape.r = {0, -4, 3}, shape.angle = angle;
+            shape.sketch = oracle::ProfileMaker(random).make(form);
+            const Matrix m{0, -2, 0, 5, 2, 0, 0.5, 0, 0, 0, 1, -4, 0, 0, 0, 1};
+            const AxisFrame axes = axis_frame(shape);
+            Box surface = empty_box;
+            for (const oracle::QVec& p : points_of(oracle::closed_to_axis(shape.sketch), 200))
+                for (int i = 0; i <= 100; ++i) {
+                    const long double turn = static_cast<long double>(angle) * i / 100;
+                    const auto u = static_cast<long double>(p.x), v = static_cast<long double>(p.y);
+                    const Wide at =
+                        wide(shape.v) + u * (std::cos(turn) * axes.x + std::sin(turn) * axes.y) + v * axes.z;
+                    extend(surface, narrow(transform_point(m, at)));
+                }
+            check_tight(solid_box(shape, m), surface, 1e-2);
+        }
+}
+
+TEST_CASE("bounds: the box of an ebm holds its solid cells only") {
+    Ebm ebm;
+    ebm.width = 4, ebm.depth = 3, ebm.height = 2;
+    ebm.cells = {0, 0, 0, 0, 0, 7, 1, 0, 0, 0, 0, 0};
+    ebm.matrix[3] = 10;
+    check_tight(solid_box(ebm, identity), {{11, 1, 0}, {13, 2, 2}}, 1e-13);
 }
 
 TEST_CASE("bounds: how far curves reach") {

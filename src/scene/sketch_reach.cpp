@@ -1,4 +1,4 @@
-#include "compile/sketch_box.hpp"
+#include "scene/sketch_reach.hpp"
 
 #include <algorithm>
 #include <cmath>
