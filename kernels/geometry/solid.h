@@ -7,9 +7,11 @@
 #include "ehy.h"
 #include "ell.h"
 #include "eto.h"
+#include "extrude.h"
 #include "half.h"
 #include "mesh.h"
 #include "quadric.h"
+#include "revolve.h"
 #include "tgc.h"
 #include "tor.h"
 
@@ -75,8 +77,14 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
 #endif
+#if HAS_SOLID(SOLID_EXTRUDE)
+    if (solid.type == SOLID_EXTRUDE) n = extrude_normal(g, solid, r, t, surface);
+#endif
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) n = revolve_normal(g, solid, r, t, surface);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/sketch_curves.hpp"
 #include "scene/sketch_faults.hpp"
 #include "scene/solid_faults_of.hpp"
 
@@ -96,7 +97,12 @@ Faults FaultsOf::operator()(const Extrude& s) const {
     const Faults of_sketch = sketch_faults(s.sketch);
     add(faults, of_sketch);
     if (!of_sketch.empty()) return faults;
-    if (const std::vector<std::uint32_t> open = open_ends(s.sketch); !open.empty()) {
+    // Gaps that BRL-CAD does not see are closed; so they are no faults.
+    const auto still_open = [&] {
+        std::vector<CurvePiece> pieces = curve_pieces(s.sketch);
+        return !close_gaps(pieces).empty();
+    };
+    if (const std::vector<std::uint32_t> open = open_ends(s.sketch); !open.empty() && still_open()) {
         faults.push_back("its sketch is open at vertex " + std::to_string(open.front()) +
                          ": curves must form closed loops");
     }
