@@ -8,6 +8,7 @@
 #include "ell.h"
 #include "eto.h"
 #include "half.h"
+#include "part.h"
 #include "quadric.h"
 #include "tgc.h"
 #include "tor.h"
@@ -43,6 +44,9 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) return eto_intersect(g.reals + solid.first_real, r);
 #endif
+#if HAS_SOLID(SOLID_PART)
+    if (solid.type == SOLID_PART) return part_intersect(g.reals + solid.first_real, r);
+#endif
     return no_hits();
 }
 
@@ -73,6 +77,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_PART)
+    if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

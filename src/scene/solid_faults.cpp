@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/curved_faults.hpp"
+#include "scene/fault_rules.hpp"
 #include "scene/polytope.hpp"
 #include "scene/vector.hpp"
 
@@ -11,34 +13,12 @@ namespace csgrt {
 
 namespace {
 
-using Faults = std::vector<std::string>;
-
 /// Three vectors whose box has less than this part of the volume of a right-angled one lie in a plane, as far as
 /// double precision can tell after they have been inverted.
 constexpr double least_volume = 1e-10;
 
-/// Sine of the angle that vectors called parallel (cosine: perpendicular) may differ by. BRL-CAD's databases keep
-/// vectors of single precision, off by up to 1e-6; its ray tracer refuses beyond a cosine of 0.999.
-constexpr double angle_slack = 1e-3;
-
 bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::abs(dot(unit(a), cross(unit(b), unit(c)))) < least_volume;
-}
-
-/// Reports a number that is not finite, once a solid. Nothing else is worth saying about such a solid.
-template <class... Numbers>
-bool all_finite(Faults& faults, const Numbers&... numbers) {
-    struct {
-        bool operator()(double x) const { return std::isfinite(x); }
-        bool operator()(const Vec3& v) const { return is_finite(v); }
-    } finite;
-    if ((finite(numbers) && ...)) return true;
-    faults.push_back("it has a number that is not finite");
-    return false;
-}
-
-void require_positive(Faults& faults, const char* name, double value) {
-    if (!(value > 0)) faults.push_back(std::string(name) + " must be greater than 0");
 }
 
 /// The end of a tgc that tapers along `end` must keep the direction of `start`.
@@ -177,6 +157,13 @@ struct FaultsOf {
         require_positive(faults, "c, the distance from the apex to the asymptotes,", s.c);
         return faults;
     }
+
+    Faults operator()(const Part& s) const { return curved_faults(s); }
+    Faults operator()(const Epa& s) const { return curved_faults(s); }
+    Faults operator()(const Rpc& s) const { return curved_faults(s); }
+    Faults operator()(const Rhc& s) const { return curved_faults(s); }
+    Faults operator()(const Eto& s) const { return curved_faults(s); }
+    Faults operator()(const Hyp& s) const { return curved_faults(s); }
 
     template <class Other>
     Faults operator()(const Other&) const {
