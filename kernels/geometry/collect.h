@@ -3,6 +3,7 @@
 #define CSGRT_COLLECT_H
 
 #include "crossings.h"
+#include "mesh.h"
 #include "solid.h"
 
 FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
@@ -21,6 +22,9 @@ FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real o
 FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
     hits h;
     u32 count = 0;
+#if HAS_SOLID(SOLID_MESH)
+    if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
+#endif
     h = intersect(g, solid, r);
     if (h.count > 0 && h.out0 >= t_min) {
         if (ends) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);

@@ -8,6 +8,7 @@
 #include "ell.h"
 #include "eto.h"
 #include "half.h"
+#include "mesh.h"
 #include "part.h"
 #include "quadric.h"
 #include "tgc.h"
@@ -80,6 +81,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_MESH)
+    if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

@@ -28,6 +28,9 @@ FN real real_abs(real x) { return fabs(x); }
 FN real real_sqrt(real x) { return __builtin_sqrt(x); }
 FN real real_fma(real a, real b, real c) { return __builtin_fma(a, b, c); }
 FN real real_abs(real x) { return x < 0 ? -x : x; }
+// As OpenCL's: of a NaN and a number, the number.
+FN float fmin(float a, float b) { return a < b || b != b ? a : b; }
+FN float fmax(float a, float b) { return a > b || b != b ? a : b; }
 #endif
 
 #define REAL(x) ((real)(x))

@@ -3,7 +3,12 @@
 
 namespace csgrt {
 
-Box Tight::operator()(const Bot&) const { return {}; }
+Box Tight::operator()(const Bot& s) const {
+    Box box = empty_box;
+    for (const auto& face : s.faces)
+        for (const std::uint32_t corner : face) extend(box, narrow(transform_point(m, wide(s.vertices[corner]))));
+    return box;
+}
 
 Box Tight::operator()(const Ars&) const { return {}; }
 

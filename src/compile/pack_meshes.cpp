@@ -1,9 +1,102 @@
-// Solids that triangles make.
+// Solids that triangles make: the triangles and their hierarchy once, in their own space; then each place.
+#include <algorithm>
+#include <cmath>
+
+#include "compile/bvh.hpp"
 #include "compile/packer.hpp"
+#include "compile/triangles.hpp"
+#include "kernel_geometry.hpp"
 
 namespace csgrt {
 
-void Packer::operator()(const Bot&) { throw Error(Status::scene, "solids of type 'bot' cannot be rendered"); }
+namespace {
+
+/// Where the kernels see a mesh: its vertices less `center`, over `scale`, a power of two, so that they lie within
+/// MESH_RADIUS.
+struct MeshFrame {
+    Vec3 center;
+    double scale = 1;
+
+    Vec3 operator()(const Vec3& vertex) const {
+        return narrow((wide(vertex) - wide(center)) / static_cast<long double>(scale));
+    }
+};
+
+MeshFrame frame_of(const Triangles& mesh) {
+    Box box = empty_box;
+    for (const auto& face : mesh.faces)
+        for (const std::uint32_t corner : face) extend(box, mesh.vertices[corner]);
+    MeshFrame frame;
+    if (is_empty(box)) return frame;
+    frame.center = narrow(0.5L * (wide(box.low) + wide(box.high)));
+    long double radius = 0;
+    for (const auto& face : mesh.faces)
+        for (const std::uint32_t corner : face)
+            radius = std::max(radius, glm::length(wide(mesh.vertices[corner]) - wide(frame.center)));
+    constexpr long double margin = 1.001L;  // rounding, in single precision too, takes no vertex past the radius
+    int exponent = 0;
+    std::frexp(radius * margin, &exponent);
+    frame.scale = std::ldexp(1.0, exponent);
+    return frame;
+}
+
+/// Before the vertices stand center and scale, which only the host reads. Returns the mesh's first word.
+std::uint32_t add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene) {
+    constexpr std::size_t most = std::size_t{1} << (32 - BVH_LEAF_SHIFT);
+    if (mesh.faces.size() >= most)
+        throw Error(Status::scene, "a mesh of " + std::to_string(mesh.faces.size()) +
+                                       " triangles cannot be rendered; less than 2^28 can");
+    const auto first_word = scene.words.size(), first_node = scene.inner_nodes.size();
+    for (const double x : {frame.center.x, frame.center.y, frame.center.z, frame.scale}) scene.reals.push_back(x);
+    const auto first_real = scene.reals.size();
+
+    std::vector<Vec3> local;
+    local.reserve(mesh.vertices.size());
+    scene.reals.reserve(first_real + 3 * mesh.vertices.size());
+    for (const Vec3& vertex : mesh.vertices) {
+        local.push_back(frame(vertex));
+        for (const double x : {local.back().x, local.back().y, local.back().z}) scene.reals.push_back(x);
+    }
+    std::vector<Box> boxes;
+    boxes.reserve(mesh.faces.size());
+    for (const auto& face : mesh.faces) {
+        boxes.push_back(empty_box);
+        for (const std::uint32_t corner : face) extend(boxes.back(), local[corner]);
+    }
+    const Hierarchy hierarchy = build_bvh(boxes, {}, 1, 0);
+    scene.inner_nodes.insert(scene.inner_nodes.end(), hierarchy.nodes.begin(), hierarchy.nodes.end());
+
+    scene.words.resize(first_word + MESH_TRIANGLES);
+    scene.words[first_word + MESH_VERTICES] = static_cast<std::uint32_t>(first_real);
+    scene.words[first_word + MESH_NODES] = static_cast<std::uint32_t>(first_node);
+    scene.words[first_word + MESH_NODE_COUNT] = static_cast<std::uint32_t>(hierarchy.nodes.size());
+    for (const std::uint32_t face : hierarchy.order)
+        scene.words.insert(scene.words.end(), mesh.faces[face].begin(), mesh.faces[face].end());
+    return static_cast<std::uint32_t>(first_word);
+}
+
+/// Puts a mesh in its place; `triangles` is called for the first one.
+template <class Of>
+void place_mesh(Packer& packer, const void* solid, const Matrix& matrix, const Of& triangles) {
+    CompiledScene& scene = packer.scene;
+    const auto [known, is_new] = packer.shared.emplace(solid, 0u);
+    if (is_new) {
+        const Triangles mesh = triangles();
+        known->second = add_mesh(mesh, frame_of(mesh), scene);
+    }
+    packer.record.type = SOLID_MESH;
+    packer.record.first_word = known->second;
+    packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
+    const double* f = scene.reals.data() + scene.words[known->second + MESH_VERTICES] - 4;
+    const long double scale = f[3];
+    packer.frame(transform_point(matrix, {f[0], f[1], f[2]}), linear_part(matrix) * scale);
+}
+
+}  // namespace
+
+void Packer::operator()(const Bot& s) {
+    place_mesh(*this, &s, identity, [&] { return triangles_of(s); });
+}
 
 void Packer::operator()(const Ars&) { throw Error(Status::scene, "solids of type 'ars' cannot be rendered"); }
 

@@ -6,6 +6,7 @@
 
 #include "scene/curved_faults.hpp"
 #include "scene/fault_rules.hpp"
+#include "scene/mesh_faults.hpp"
 #include "scene/polytope.hpp"
 #include "scene/vector.hpp"
 
@@ -164,6 +165,7 @@ struct FaultsOf {
     Faults operator()(const Rhc& s) const { return curved_faults(s); }
     Faults operator()(const Eto& s) const { return curved_faults(s); }
     Faults operator()(const Hyp& s) const { return curved_faults(s); }
+    Faults operator()(const Bot& s) const { return mesh_faults(s); }
 
     template <class Other>
     Faults operator()(const Other&) const {

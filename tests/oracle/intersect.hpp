@@ -97,7 +97,11 @@ Sets solve_curve(const Curve& f, std::size_t k, const ScaledRay& ray, const Chan
     const auto turns = f.turns(-ray.reach, ray.reach);
     quad from = -ray.reach;
     const auto stretch = [&](quad to) {
-        if (from < to && f((from + to) / 2) <= 0) sets.exact.push_back({bound(from), bound(to)});
+        // The sign between two roots: at the middle, or at an end of the range, whichever is farther from 0.
+        quad most = from < to ? f((from + to) / 2) : quad(1);
+        for (const quad end : {-ray.reach, ray.reach})
+            if ((from == end || to == end) && absolute(f(end)) > absolute(most)) most = f(end);
+        if (from < to && most <= 0) sets.exact.push_back({bound(from), bound(to)});
         from = to;
     };
     for (const quad s : crossings) stretch(s);

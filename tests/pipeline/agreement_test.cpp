@@ -1,5 +1,6 @@
 // The device and the reference agree to the last bit: every channel of every pixel, every partition of every ray,
 // whatever the view and however small the tiles.
+#include <cstdlib>
 #include <cstring>
 #include <random>
 
@@ -69,16 +70,23 @@ std::vector<Ray> random_rays(const Box& box, int count) {
     return rays;
 }
 
+/// The device that CSGRT_DEVICE chooses (as --device does), or the default one.
+Settings on_device() {
+    Settings settings;
+    if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
+    return settings;
+}
+
 void require_agreement(const Scene& scene, const std::vector<std::string>& objects, int size, int rays) {
     Settings by_reference;
     by_reference.reference = true;
     Renderer reference(scene, objects, by_reference);
-    Renderer device(scene, objects);
+    Renderer device(scene, objects, on_device());
     const std::uint64_t scene_bytes = [&] {
         device.render({.width = 8, .height = 8, .camera = {}});
         return device.statistics().device_bytes;
     }();
-    Settings little;
+    Settings little = on_device();
     little.max_memory = scene_bytes + 400'000;  // some dozen tiles
     Renderer tiled(scene, objects, little);
     for (const double perspective : {0.0, 40.0}) {
@@ -145,7 +153,7 @@ TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][
 TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a crash", "[agreement]") {
     const auto files = test::scene_files();
     if (files.empty()) return;
-    Settings settings;
+    Settings settings = on_device();
     settings.max_memory = 20'000;
     try {
         Renderer renderer(load_scene(files.front()), {}, settings);

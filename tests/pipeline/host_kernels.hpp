@@ -15,8 +15,6 @@ namespace csgrt::kernel {
 inline thread_local std::size_t global_id = 0;
 inline std::size_t get_global_id(int) { return global_id; }
 inline u32 clz(u32 x) { return static_cast<u32>(std::countl_zero(x)); }
-inline float fmin(float a, float b) { return __builtin_fminf(a, b); }
-inline float fmax(float a, float b) { return __builtin_fmaxf(a, b); }
 using std::size_t;
 
 #define __kernel [[maybe_unused]] static inline

@@ -1,0 +1,105 @@
+// A ray and the triangles of one mesh, watertight: what bounds a volume is crossed an even number of times, whatever the
+// rounding, through edges and vertices too.
+//
+// The ray is turned into the axis that it runs along most and sheared upright (Woop, Benthin, Wald 2013), and so are
+// the vertices, each by the same arithmetic for all its triangles:
+//
+//        y |    c                 The ray is the point 0. It meets a triangle whose three edges all have it on the
+//          |   / \                same side: sign(a x b) = sign(b x c) = sign(c x a).
+//          |  / 0 \               These signs are exact. A zero (0 on an edge, or on a vertex) is decided as if the ray
+//          | a-----b              stood a hair aside, at (e, e^2): then every point of the plane lies in exactly as many
+//          +---------- x          triangles as a point beside it (simulation of simplicity, Edelsbrunner, Muecke 1990).
+//
+// Parameters: affine (12). A mesh keeps its vertices around its middle, scaled by a power of two so that all of them lie
+// within MESH_RADIUS of it.
+#ifndef CSGRT_TRIANGLE_H
+#define CSGRT_TRIANGLE_H
+
+#include "affine.h"
+#include "polynomial.h"
+
+#define MESH_RADIUS REAL(1)
+
+// Words of a mesh, which all its places share; then three vertices a triangle, in the order of the hierarchy's leaves.
+#define MESH_VERTICES 0    // where in `reals` they are
+#define MESH_NODES 1       // where in `inner_nodes` its hierarchy is
+#define MESH_NODE_COUNT 2
+#define MESH_TRIANGLES 3   // the first triangle's word
+
+typedef struct {
+    local_ray ray;
+    int axis;      // along which it runs most
+    real slope_x;  // by which the others are sheared
+    real slope_y;
+} upright_ray;
+
+// The axis comes last, the others before it in their cyclic order.
+FN vec3 turned(vec3 v, int axis) {
+    return axis == 2 ? v : axis == 1 ? make_vec3(v.z, v.x, v.y) : make_vec3(v.y, v.z, v.x);
+}
+
+FN upright_ray make_upright(local_ray l) {
+    upright_ray u;
+    real x = real_abs(l.d.x), y = real_abs(l.d.y), z = real_abs(l.d.z);
+    vec3 d;
+    u.axis = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
+    d = turned(l.d, u.axis);
+    u.ray = l;
+    u.slope_x = d.x / d.z;
+    u.slope_y = d.y / d.z;
+    return u;
+}
+
+// So small a coordinate is rounding, and products of two of them would leave the range in which they are exact.
+FN real flushed(real x) { return real_abs(x) < REAL(0x1p-50) ? REAL(0) : x; }
+
+// A vertex seen along the ray: (x, y) is 0 on it, z measures along its main axis.
+FN vec3 upright_vertex(upright_ray u, GLOBAL const real* v) {
+    vec3 p = turned(subtract(make_vec3(v[0], v[1], v[2]), u.ray.o), u.axis);
+    return make_vec3(flushed(real_fma(-u.slope_x, p.z, p.x)), flushed(real_fma(-u.slope_y, p.z, p.y)), p.z);
+}
+
+// On which side of the edge from a to b the ray passes: 1, -1, or 0 for an edge that has no length.
+// `product` is a x b; its rate of change as 0 moves to (e, e^2) decides where it is 0.
+FN int side_of_edge(vec3 a, vec3 b, real product) {
+    real rate = product != 0 ? product : a.y != b.y ? a.y - b.y : b.x - a.x;
+    return rate > 0 ? 1 : rate < 0 ? -1 : 0;
+}
+
+typedef struct {
+    int hit;
+    real t;  // the ray's own
+} triangle_hit;
+
+FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners) {
+    triangle_hit h;
+    vec3 a = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
+    vec3 b = upright_vertex(u, vertices + 3 * (size_t)corners[1]);
+    vec3 c = upright_vertex(u, vertices + 3 * (size_t)corners[2]);
+    real wc = difference_of_products(a.x, b.y, a.y, b.x);
+    real wa = difference_of_products(b.x, c.y, b.y, c.x);
+    real wb = difference_of_products(c.x, a.y, c.y, a.x);
+    int side = side_of_edge(a, b, wc);
+    real z;
+    h.hit = side != 0 && side_of_edge(b, c, wa) == side && side_of_edge(c, a, wb) == side;
+    h.t = 0;
+    if (!h.hit) return h;
+    // No weight has the other sign, and not all are 0, because then the triangle has no area and no inside.
+    z = real_fma(wc, c.z, real_fma(wb, b.z, wa * a.z)) / (wa + wb + wc);
+    z = real_max(real_min(a.z, real_min(b.z, c.z)), real_min(real_max(a.z, real_max(b.z, c.z)), z));
+    h.t = u.ray.shift + z / turned(u.ray.d, u.axis).z;
+    return h;
+}
+
+// Across the triangle, in the mesh's own space.
+FN vec3 triangle_normal(GLOBAL const real* vertices, GLOBAL const u32* corners) {
+    GLOBAL const real* a = vertices + 3 * (size_t)corners[0];
+    GLOBAL const real* b = vertices + 3 * (size_t)corners[1];
+    GLOBAL const real* c = vertices + 3 * (size_t)corners[2];
+    vec3 p = make_vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    vec3 q = make_vec3(c[0] - a[0], c[1] - a[1], c[2] - a[2]);
+    return make_vec3(difference_of_products(p.y, q.z, p.z, q.y), difference_of_products(p.z, q.x, p.x, q.z),
+                     difference_of_products(p.x, q.y, p.y, q.x));
+}
+
+#endif
