@@ -42,8 +42,7 @@ MeshFrame frame_of(const Triangles& mesh) {
 
 /// Before the vertices stand center and scale, which only the host reads. Returns the mesh's first word.
 std::uint32_t add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene) {
-    constexpr std::size_t most = std::size_t{1} << (32 - BVH_LEAF_SHIFT);
-    if (mesh.faces.size() >= most)
+    if (mesh.faces.size() > most_triangles)
         throw Error(Status::scene, "a mesh of " + std::to_string(mesh.faces.size()) +
                                        " triangles cannot be rendered; less than 2^28 can");
     const auto first_word = scene.words.size(), first_node = scene.inner_nodes.size();
@@ -75,13 +74,13 @@ std::uint32_t add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledSc
     return static_cast<std::uint32_t>(first_word);
 }
 
-/// Puts a mesh in its place; `triangles` is called for the first one.
-template <class Of>
-void place_mesh(Packer& packer, const void* solid, const Matrix& matrix, const Of& triangles) {
+/// Puts a solid's mesh in its place. `own` places the mesh in the solid.
+template <class S>
+void place_mesh(Packer& packer, const S& solid, const Matrix& own) {
     CompiledScene& scene = packer.scene;
-    const auto [known, is_new] = packer.shared.emplace(solid, 0u);
+    const auto [known, is_new] = packer.shared.emplace(&solid, 0u);
     if (is_new) {
-        const Triangles mesh = triangles();
+        const Triangles mesh = triangles_of(solid);
         known->second = add_mesh(mesh, frame_of(mesh), scene);
     }
     packer.record.type = SOLID_MESH;
@@ -89,21 +88,15 @@ void place_mesh(Packer& packer, const void* solid, const Matrix& matrix, const O
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
     const double* f = scene.reals.data() + scene.words[known->second + MESH_VERTICES] - 4;
     const long double scale = f[3];
-    packer.frame(transform_point(matrix, {f[0], f[1], f[2]}), linear_part(matrix) * scale);
+    packer.frame(transform_point(own, {f[0], f[1], f[2]}), linear_part(own) * scale);
 }
 
 }  // namespace
 
-void Packer::operator()(const Bot& s) {
-    place_mesh(*this, &s, identity, [&] { return triangles_of(s); });
-}
-
-void Packer::operator()(const Ars&) { throw Error(Status::scene, "solids of type 'ars' cannot be rendered"); }
-
-void Packer::operator()(const Nmg&) { throw Error(Status::scene, "solids of type 'nmg' cannot be rendered"); }
-
-void Packer::operator()(const Vol&) { throw Error(Status::scene, "solids of type 'vol' cannot be rendered"); }
-
-void Packer::operator()(const Dsp&) { throw Error(Status::scene, "solids of type 'dsp' cannot be rendered"); }
+void Packer::operator()(const Bot& s) { place_mesh(*this, s, identity); }
+void Packer::operator()(const Ars& s) { place_mesh(*this, s, identity); }
+void Packer::operator()(const Nmg& s) { place_mesh(*this, s, identity); }
+void Packer::operator()(const Vol& s) { place_mesh(*this, s, grid_matrix(s)); }
+void Packer::operator()(const Dsp& s) { place_mesh(*this, s, s.matrix); }
 
 }  // namespace csgrt

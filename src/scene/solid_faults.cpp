@@ -166,6 +166,10 @@ struct FaultsOf {
     Faults operator()(const Eto& s) const { return curved_faults(s); }
     Faults operator()(const Hyp& s) const { return curved_faults(s); }
     Faults operator()(const Bot& s) const { return mesh_faults(s); }
+    Faults operator()(const Ars& s) const { return mesh_faults(s); }
+    Faults operator()(const Nmg& s) const { return mesh_faults(s); }
+    Faults operator()(const Vol& s) const { return mesh_faults(s); }
+    Faults operator()(const Dsp& s) const { return mesh_faults(s); }
 
     template <class Other>
     Faults operator()(const Other&) const {
