@@ -84,6 +84,13 @@ void check_profile(Faults& faults, const Sketch& sketch) {
     }
 }
 
+/// Do ends stay loose? Gaps that BRL-CAD does not see are closed, so they are no faults.
+bool is_open(const Sketch& sketch) {
+    if (open_ends(sketch).empty()) return false;
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    return !close_gaps(pieces).empty();
+}
+
 void add(Faults& faults, Faults more) { std::move(more.begin(), more.end(), std::back_inserter(faults)); }
 
 }  // namespace
@@ -96,16 +103,9 @@ Faults FaultsOf::operator()(const Extrude& s) const {
     if (sound && dependent(s.a, s.b, s.h)) faults.push_back("the vectors a and b and the height lie in one plane");
     const Faults of_sketch = sketch_faults(s.sketch);
     add(faults, of_sketch);
-    if (!of_sketch.empty()) return faults;
-    // Gaps that BRL-CAD does not see are closed; so they are no faults.
-    const auto still_open = [&] {
-        std::vector<CurvePiece> pieces = curve_pieces(s.sketch);
-        return !close_gaps(pieces).empty();
-    };
-    if (const std::vector<std::uint32_t> open = open_ends(s.sketch); !open.empty() && still_open()) {
-        faults.push_back("its sketch is open at vertex " + std::to_string(open.front()) +
-                         ": curves must form closed loops");
-    }
+    if (!of_sketch.empty() || !is_open(s.sketch)) return faults;
+    faults.push_back("its sketch is open at vertex " + std::to_string(open_ends(s.sketch).front()) +
+                     ": curves must form closed loops");
     return faults;
 }
 
