@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "scene/sketch_curves.hpp"
 #include "scene/sketch_faults.hpp"
@@ -19,7 +20,7 @@ constexpr double rounding = 1e-9;
 struct LeastU {
     const Sketch& sketch;
 
-    double operator()(const Sketch::Line& c) const { return least({c.start, c.end}); }
+    double operator()(const Sketch::Line& c) const { return std::min(u_of(c.start), u_of(c.end)); }
     double operator()(const Sketch::Arc& c) const { return least_u(sketch, c); }
     double operator()(const Sketch::Bezier& c) const {
         std::vector<double> knots(2 * c.points.size(), 0.0);
@@ -27,10 +28,9 @@ struct LeastU {
         return (*this)(Sketch::Nurb{static_cast<std::uint32_t>(c.points.size()), std::move(knots), c.points, {}});
     }
     double operator()(const Sketch::Nurb& c) const {
-        double found = least({c.points.front(), c.points.back()});
+        double found = std::min(u_of(c.points.front()), u_of(c.points.back()));
         for (std::size_t span = c.order - 1; span < c.points.size(); ++span) {
-            const auto first = c.points.begin() + static_cast<std::ptrdiff_t>(span + 1 - c.order);
-            if (least({first, first + c.order}) >= 0) continue;
+            if (least(std::span(c.points).subspan(span + 1 - c.order, c.order)) >= 0) continue;
             constexpr int steps = 32;
             for (int i = 0; i <= steps; ++i) {
                 const double t = c.knots[span] + (c.knots[span + 1] - c.knots[span]) * i / steps;
@@ -40,9 +40,10 @@ struct LeastU {
         return found;
     }
 
-    double least(const std::vector<std::uint32_t>& vertices) const {
+    double u_of(std::uint32_t vertex) const { return sketch.vertices[vertex].u; }
+    double least(std::span<const std::uint32_t> vertices) const {
         double u = HUGE_VAL;
-        for (const std::uint32_t vertex : vertices) u = std::min(u, sketch.vertices[vertex].u);
+        for (const std::uint32_t vertex : vertices) u = std::min(u, u_of(vertex));
         return u;
     }
 
