@@ -11,7 +11,7 @@ namespace {
 bool check_places(Faults& faults, const std::vector<Vec3>& places, const std::string& what) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const bool finite = is_finite(places[i]);
-        if (finite && length(places[i]) <= farthest) continue;
+        if (finite && length(places[i]) <= most_distant) continue;
         faults.push_back(what + std::to_string(i) +
                          (finite ? " lies too far away" : " has a number that is not finite"));
         return false;

@@ -70,7 +70,7 @@ inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 /// Vertices of meshes are at most this far from the origin: squares of such lengths are numbers still.
-inline constexpr double farthest = 1e150;
+inline constexpr double most_distant = 1e150;
 
 struct IsFinite {
     bool operator()(double x) const { return std::isfinite(x); }

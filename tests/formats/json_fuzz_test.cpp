@@ -21,7 +21,7 @@ const std::string everything = R"({
     "s": {"type": "sphere", "center": [0, 0, 0], "radius": 1}, "e": {"type": "ell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 1, 0], "c": [0, 0, 1]},
     "k": {"type": "cone", "base": [0, 0, 0], "height": [0, 1, 1], "radius": 1, "top_radius": 0.5}, "b": {"type": "box", "low": [0, 0, 0], "high": [1, 1, 1]},
     "p": {"type": "arb4", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "h": {"type": "half", "normal": [0, 0, 1], "distance": -2},
-    "n": {"type": "arbn", "planes": [{"normal": [1, 1, 0], "distance": 1}, {"normal": [-1, 0, 0], "distance": 1}]},
+    "n": {"type": "arbn", "planes": [{"normal": [1, 1, 1], "distance": 1}, {"normal": [-1, 0, 0], "distance": 1}, {"normal": [0, -1, 0], "distance": 0}, {"normal": [0, 0, -1], "distance": 0}]},
     "t": {"type": "tor", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 2, "tube": 1},
     "y": {"type": "ehy", "base": [0, 0, 0], "height": [0, 0, 1], "a": [1, 0, 0], "r1": 1, "r2": 1, "c": 1}, "u": {"type": "unsupported", "was": "grip"},
     "pa": {"type": "part", "base": [0, 0, 0], "height": [0, 0, 3], "radius": 2, "top_radius": 1}, "ea": {"type": "epa", "base": [0, 0, 0], "height": [0, 0, 3], "a": [1, 0, 0], "r1": 2, "r2": 1},

@@ -53,8 +53,8 @@ TEST_CASE("solid faults: elliptical tori") {
     check_sound(Eto{none, z, {0, 0, 9}, 5, 5});  // touches the axis
     check_fault(Eto{none, z, {0, 0, 9}, 5, 5.1}, "reach across the axis");
     check_fault(Eto{none, z, {6, 0, 0}, 5, 1}, "reach across the axis");
-    check_fault(Eto{none, z, {3, 0, 3}, 3, 3.1}, "reach across the axis");
-    check_sound(Eto{none, z, {3, 0, 3}, 3.1, 3});
+    check_fault(Eto{none, z, {3, 0, 3}, 3.6, 3}, "reach across the axis");  // by sqrt(9 + 9 / 2)
+    check_sound(Eto{none, z, {3, 0, 3}, 3.7, 3});
     check_fault(Eto{none, none, none, 5, 1}, "the axis has length 0", 2);
     check_fault(Eto{none, z, z, 0, 0}, "the radius must be greater than 0", 2);
 }
