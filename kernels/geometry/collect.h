@@ -4,6 +4,7 @@
 
 #include "crossings.h"
 #include "mesh.h"
+#include "plate.h"
 #include "solid.h"
 
 FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
@@ -24,6 +25,9 @@ FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLO
     u32 count = 0;
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
 #endif
     h = intersect(g, solid, r);
     if (h.count > 0 && h.out0 >= t_min) {

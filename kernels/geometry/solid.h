@@ -8,7 +8,7 @@
 #include "ell.h"
 #include "eto.h"
 #include "half.h"
-#include "mesh.h"
+#include "plate.h"
 #include "quadric.h"
 #include "tgc.h"
 #include "tor.h"
@@ -76,7 +76,11 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
+    if (solid.type == SOLID_MESH) n = mesh_normal(g, g.words + solid.first_word, g.reals + solid.first_real, r, surface);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE)
+        n = mesh_normal(g, g.words + solid.first_word + PLATE_MESH, g.reals + solid.first_real, r, surface);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

@@ -56,6 +56,17 @@ Faults mesh_faults(const Bot& s) {
         if (corner < s.vertices.size()) continue;
         return {"face " + std::to_string(i) + no_vertex(corner, s.vertices.size())};
     }
+    if (s.mode != Bot::Mode::plate && s.mode != Bot::Mode::plate_nocos) return faults;
+    if (s.thickness.size() != s.faces.size())
+        faults.push_back("it has " + counted(s.thickness.size(), "thicknesses for ") +
+                         counted(s.faces.size(), "faces"));
+    if (!s.append.empty() && s.append.size() != s.faces.size())
+        faults.push_back("it says for " + std::to_string(s.append.size()) + " of " + counted(s.faces.size(), "faces") +
+                         " where their thickness lies");
+    const auto thin = [](double x) { return x >= 0 && x <= farthest; };
+    if (const auto bad = std::find_if_not(s.thickness.begin(), s.thickness.end(), thin); bad != s.thickness.end())
+        faults.push_back("the thickness of face " + std::to_string(bad - s.thickness.begin()) +
+                         " must not be less than 0");
     return faults;
 }
 
