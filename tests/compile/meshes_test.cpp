@@ -151,7 +151,7 @@ TEST_CASE("meshes: any size, from 1e-100 to 1e100", "[compile]") {
         REQUIRE(segments.size() == 1);
         CHECK(segments[0].in == Approx(2 * size));
         CHECK(segments[0].out == Approx(4 * size));
-        CHECK(segments[0].in_normal.z == -1);
-        CHECK(segments[0].out_normal.z == 1);
+        CHECK(segments[0].in_normal.z == Approx(-1));
+        CHECK(segments[0].out_normal.z == Approx(1));
     }
 }
