@@ -5,6 +5,7 @@
 #include "crossings.h"
 #include "extrude.h"
 #include "mesh.h"
+#include "plate.h"
 #include "revolve.h"
 #include "solid.h"
 
@@ -32,6 +33,9 @@ FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLO
 #endif
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
 #endif
     h = intersect(g, solid, r);
     if (h.count > 0 && h.out0 >= t_min) {

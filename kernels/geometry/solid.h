@@ -11,6 +11,7 @@
 #include "half.h"
 #include "mesh.h"
 #include "part.h"
+#include "plate.h"
 #include "quadric.h"
 #include "revolve.h"
 #include "tgc.h"
@@ -88,7 +89,11 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
+    if (solid.type == SOLID_MESH) n = mesh_normal(g, g.words + solid.first_word, g.reals + solid.first_real, r, surface);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE)
+        n = mesh_normal(g, g.words + solid.first_word + PLATE_MESH, g.reals + solid.first_real, r, surface);
 #endif
 #if HAS_SOLID(SOLID_REVOLVE)
     if (solid.type == SOLID_REVOLVE) n = revolve_normal(g, solid, r, t, surface);
