@@ -24,9 +24,6 @@ void check_fault(const Shape& shape, const std::string& part_of_message) {
     INFO(faults[0]);
     CHECK(faults[0].find(part_of_message) != std::string::npos);
 }
-void check_curve(const Sketch::Curve& curve, const std::string& part_of_message) {
-    check_fault(of(with({curve})), "curve 0 of its sketch " + part_of_message);
-}
 
 CurvePoint middle_of(const CurvePiece& piece) {
     CurvePiece p = piece;
@@ -96,40 +93,10 @@ TEST_CASE("sketches: gaps that BRL-CAD does not see are closed, others are repor
     CHECK(close_gaps(pieces).empty());
     CHECK(pieces.size() == 5);
     gap.vertices[4] = {0.1, 0};
-    check_fault(of(gap), "not closed: an odd number of curves ends at (");
+    check_fault(of(gap), "its sketch is open at vertex");
     // The same point under two numbers is one.
     gap.vertices[4] = {0, 0};
     CHECK(loose_ends(curve_pieces(gap)).empty());
-}
-
-TEST_CASE("sketches: faults of curves") {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    check_fault(of(with({})), "no curves");
-    check_curve(Sketch::Line{0, 4}, "refers to vertex 4, and there are 4");
-    check_curve(Sketch::Arc{0, 1, 0.9}, "has the radius 0.9");
-    check_curve(Sketch::Arc{0, 1, 0}, "has the radius 0");
-    check_curve(Sketch::Arc{0, 1, nan}, "has a radius that is not finite");
-    check_curve(Sketch::Arc{0, 0, 1}, "starts and ends in one point");
-    check_curve(Sketch::Arc{0, 0, -1}, "is a circle of radius 0");
-    check_curve(Sketch::Bezier{{0}}, "has fewer than two points");
-    check_curve(Sketch::Bezier{std::vector<std::uint32_t>(14, 0)}, "is of degree 13; at most 12");
-    check_curve(Sketch::Nurb{1, {0, 1}, {0}, {}}, "is of order 1");
-    check_curve(Sketch::Nurb{0xffffffff, {0, 1}, {0}, {}}, "is of degree 4294967294");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1}, {0, 1, 2}, {}}, "has 5 knots, not 6");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 0, 0, 0}, {0, 1, 2}, {}}, "has knots that span nothing");
-    check_curve(Sketch::Nurb{3, {0, 0, 1, 0, 1, 1}, {0, 1, 2}, {}}, "has knots that do not ascend");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, nan}, {0, 1, 2}, {}}, "has a knot or a weight that is not finite");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 2}, {1, 0, 1}}, "has a weight that is not greater than 0");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 2}, {1, 1}}, "has 2 weights for 3 points");
-    check_curve(Sketch::Nurb{3, {0, 0, 0, 1, 1, 1}, {0, 1, 9}, {}}, "refers to vertex 9");
-    Sketch infinite = with(closed);
-    infinite.vertices[1].u = nan;
-    check_fault(of(infinite), "vertex that is not finite");
-    Extrude flat = of(with(closed));
-    flat.h = {1, 1, 0};
-    check_fault(flat, "lie in one plane");
-    flat.h = {0, 0, 0};
-    check_fault(flat, "the height has length 0");
 }
 
 TEST_CASE("sketches: profiles are joined to the axis, and may not cross it") {
@@ -145,7 +112,7 @@ TEST_CASE("sketches: profiles are joined to the axis, and may not cross it") {
     }
     CHECK(turned_pieces(with({Sketch::Line{0, 1}, Sketch::Line{1, 3}})).size() == 2);  // ends on the axis
     check_fault(turned(with({Sketch::Line{0, 3}})), "does not reach out from the axis");
-    check_fault(turned(with({Sketch::Arc{2, 0, -1}})), "crosses the axis, to");
+    check_fault(turned(with({Sketch::Arc{2, 0, -1}})), "crosses the axis");
     Revolve bad = turned(open);
     bad.angle = 0;
     check_fault(bad, "the angle must be greater than 0");
@@ -153,24 +120,4 @@ TEST_CASE("sketches: profiles are joined to the axis, and may not cross it") {
     check_fault(bad, "perpendicular");
     bad.r = {1, 0, 0}, bad.axis = {0, 0, 0};
     check_fault(bad, "the axis has length 0");
-}
-
-TEST_CASE("sketches: pictures of cells") {
-    Ebm ebm;
-    ebm.width = 2, ebm.depth = 3, ebm.height = 1, ebm.cells.assign(6, 1);
-    CHECK(solid_faults(ebm).empty());
-    ebm.cells.pop_back();
-    check_fault(ebm, "it has 5 cells, not 2 x 3");
-    ebm.cells.assign(6, 0);
-    ebm.height = 0;
-    check_fault(ebm, "the height must be greater than 0");
-    ebm.height = 1, ebm.matrix[0] = 0;
-    check_fault(ebm, "matrix is singular");
-    ebm.matrix[0] = std::numeric_limits<double>::infinity();
-    check_fault(ebm, "not finite");
-    ebm = {};
-    ebm.height = 1, ebm.width = 0xffffffff, ebm.depth = 0xffffffff;
-    check_fault(ebm, "it has 0 cells, not 4294967295 x 4294967295");
-    ebm.width = 0;
-    check_fault(ebm, "no cells");
 }
