@@ -34,7 +34,7 @@ void check_plates(Faults& faults, const Bot& s) {
             faults.push_back("the thickness" + of + " must be 0 or more, and finite");
             return;
         }
-        if (s.append[i] > 1) {
+        if (!s.append.empty() && s.append[i] > 1) {
             faults.push_back("the side" + of + " must be 0 (half on each side) or 1 (behind the face)");
             return;
         }

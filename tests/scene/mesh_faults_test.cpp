@@ -118,20 +118,3 @@ TEST_CASE("solid faults: terrains") {
     check_fault(changed(dsp, [](Dsp& d) { d.depth = 0; }), "must be greater than 0");
     check_fault(changed(dsp, [](Dsp& d) { d.matrix[10] = 0; }), "the matrix is singular");
 }
-
-TEST_CASE("faults of plates", "[scene]") {
-    Bot bot = tetrahedron();
-    bot.mode = Bot::Mode::plate;
-    CHECK(fault(bot) == "it has 0 thicknesses for 4 faces");
-    bot.thickness.assign(4, 0.5);
-    CHECK(fault(bot).empty());
-    bot.append.assign(3, 1);
-    CHECK(fault(bot) == "it says for 3 of 4 faces where their thickness lies");
-    bot.append.push_back(0);
-    bot.thickness[1] = -1;
-    CHECK(fault(bot) == "the thickness of face 1 must not be less than 0");
-    bot.thickness[1] = not_a_number;
-    CHECK(fault(bot) == "the thickness of face 1 must not be less than 0");
-    bot.mode = Bot::Mode::surface;
-    CHECK(fault(bot).empty());
-}
