@@ -6,6 +6,7 @@
 
 #include "scene/sketch_curves.hpp"
 #include "scene/sketch_faults.hpp"
+#include "scene/sketch_reach.hpp"
 #include "scene/solid_faults_of.hpp"
 
 namespace csgrt {
@@ -78,9 +79,9 @@ void check_profile(Faults& faults, const Sketch& sketch) {
         faults.push_back("curve " + std::to_string(i) + " of its sketch crosses the axis: u must be 0 or more");
         return;
     }
-    double greatest = 0;
-    for (const Sketch::Point& p : sketch.vertices) greatest = std::max(greatest, p.u);
-    if (greatest <= slack) faults.push_back("its sketch does not reach out from the axis");
+    if (!(reach_of(curve_pieces(sketch), 1, 0).second > 0)) {
+        faults.push_back("its sketch does not reach out from the axis");
+    }
 }
 
 /// Do ends stay loose? Gaps that BRL-CAD does not see are closed, so they are no faults.
