@@ -99,19 +99,6 @@ TEST_CASE("meshes: boxes", "[compile]") {
     CHECK(near_box(solid_box(dsp, identity), {{0, 0, 0}, {20, 10, 3.5}}));
 }
 
-TEST_CASE("meshes: a volume without a solid cell is never hit", "[compile]") {
-    Renderer renderer(
-        scene({solid("s", one_cell(0)), ball("b"), region("r", {leg("s"), leg("b"), op(Operator::union_, 2)})}), {"r"},
-        [] {
-            Settings settings;
-            settings.reference = true;
-            return settings;
-        }());
-    const auto rays = renderer.shoot({{{0, 0, 9}, {0, 0, -1}}});
-    REQUIRE(rays[0].partitions.size() == 1);
-    CHECK(rays[0].partitions[0].in == Approx(8));
-}
-
 TEST_CASE("meshes: what is not closed leaves a crossing over, which claims nothing", "[compile]") {
     Bot open = cube();
     open.faces.erase(open.faces.begin(), open.faces.begin() + 2);  // no floor
