@@ -130,7 +130,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.settings = settings;
     impl.title = scene.title;
     auto start = Clock::now();
-    impl.scene = compile(scene, objects, {.air = settings.air});
+    impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
     impl.statistics.ms.compile = milliseconds_since(start);
     impl.statistics.precision = "double";
     if (settings.reference) {
@@ -178,6 +178,10 @@ Image Renderer::render(const View& view) {
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
     image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
+    if (!impl.scene.skipped.empty()) {
+        std::string& skipped = image.attributes["csgrt:skipped"];
+        for (const std::string& solid : impl.scene.skipped) skipped += (skipped.empty() ? "" : "; ") + solid;
+    }
     describe_camera(prepared, image);
     impl.statistics.ms.frame = milliseconds_since(start);
     return image;
@@ -216,6 +220,7 @@ const Box& Renderer::bounds() const { return impl_->scene.bounds; }
 const std::vector<RegionInfo>& Renderer::regions() const { return impl_->scene.region_info; }
 const std::vector<SolidInfo>& Renderer::solids() const { return impl_->scene.solid_info; }
 const Statistics& Renderer::statistics() const { return impl_->statistics; }
+const std::vector<std::string>& Renderer::skipped() const { return impl_->scene.skipped; }
 const std::vector<std::string>& Renderer::notes() const { return impl_->scene.notes; }
 
 }  // namespace csgrt

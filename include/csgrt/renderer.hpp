@@ -28,6 +28,7 @@ struct Settings {
     std::uint64_t max_memory = 0; ///< bytes of device memory; 0: what the device can give
     double tolerance = -1;        ///< millimetres; negative: the scene's
     bool air = false;             ///< keep air regions
+    bool skip_unsupported = false;///< leave out solids of types that csgrt does not know; Renderer::skipped() names them
     unsigned threads = 0;         ///< of the reference; 0: all
     /// Called now and then with the done fraction 0..1; returning false stops (Status::interrupted).
     std::function<bool(double)> progress;
@@ -70,6 +71,7 @@ struct RegionInfo {
 };
 struct SolidInfo {
     std::string name, type;
+    std::uint32_t piece = 0;  ///< a pipe is several solids: 0 is the first
 };
 
 /// Figures of the last call. Times in milliseconds; those of the five kernels are the device's own.
@@ -103,6 +105,8 @@ public:
     const std::vector<SolidInfo>& solids() const;
     const Statistics& statistics() const;
     /// What compilation left out or found worth telling: objects without solids, air regions, ...
+    /// Solids left out because csgrt does not know their type: "name (type), used by user".
+    const std::vector<std::string>& skipped() const;
     const std::vector<std::string>& notes() const;
 
 private:

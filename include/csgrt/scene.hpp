@@ -127,7 +127,9 @@ struct Limits {
 
 /// Checks everything that can be checked object by object: unknown members, cycles, degenerate solids, singular
 /// matrices, non-finite numbers, trees. Only objects reachable from `objects` (empty: from the top objects).
-/// Returns all findings; empty means the scene is sound.
-CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {});
+/// Returns all findings; empty means the scene is sound. `allow_unsupported`: solids of types that csgrt does not know are
+/// none (see Settings::skip_unsupported).
+CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {},
+                                           bool allow_unsupported = false);
 
 }  // namespace csgrt

@@ -1,5 +1,7 @@
 #include "commands.hpp"
 
+#include <cstdio>
+
 #include <csgrt/scene_io.hpp>
 
 #include "interrupt.hpp"
@@ -14,6 +16,12 @@ Settings with_progress(const Settings& settings, Progress& progress) {
         return !interrupted();
     };
     return result;
+}
+
+void report_skipped(const Renderer& renderer) {
+    std::string text;
+    for (const std::string& solid : renderer.skipped()) text += "csgrt: left out: " + solid + "\n";
+    std::fputs(text.c_str(), stderr);
 }
 
 Scene load_with_progress(const std::string& path) {

@@ -61,13 +61,15 @@ Status run(const InfoArguments& arguments) {
 
     Renderer renderer = compile_with_progress(scene, arguments);
     std::map<std::string, std::size_t> types;
-    for (const SolidInfo& solid : renderer.solids()) ++types[solid.type];
+    for (const SolidInfo& solid : renderer.solids())
+        if (solid.piece == 0) ++types[solid.type];
     text = "\n" + row("solids", count_text(types));
     text += row("regions", std::to_string(renderer.regions().size()));
     text += row("bounds", point(renderer.bounds().low) + " to " + point(renderer.bounds().high) + " mm");
     char compile[32];
     std::snprintf(compile, sizeof compile, "%.3g ms", renderer.statistics().ms.compile);
     text += row("compiled", compile);
+    for (const std::string& solid : renderer.skipped()) text += row("left out", solid);
     for (const std::string& note : renderer.notes()) text += row("note", note);
     print(text);
     return Status::ok;

@@ -84,6 +84,7 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
     option("--perspective", camera.perspective);
     option("--tolerance", arguments.settings.tolerance < 0 ? scene.tolerance : arguments.settings.tolerance);
     if (arguments.settings.air) text += " --air";
+    if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
     if (arguments.first_hit) text += " --first-hit";
     return text;
 }
@@ -100,6 +101,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     Progress progress;
     progress.stage("compiling");
     Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
+    report_skipped(renderer);
     check_interrupt();
 
     progress.stage("rendering");

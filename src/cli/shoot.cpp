@@ -43,6 +43,7 @@ Status run(const ShootArguments& arguments) {
     RayReader reader(arguments.rays);
     progress.stage("compiling");
     Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
+    report_skipped(renderer);
     check_interrupt();
 
     OutputFile out(arguments.output);

@@ -76,7 +76,7 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
         const bool bounded = is_finite(boxes[i]);
         pack_solid(shape, cuts_of(flat, instance), instance.matrix, bounded ? boxes[i] : common, compiled, planes,
                    shared);
-        compiled.solid_info.push_back({solid.name, type_name(solid.shape)});
+        compiled.solid_info.push_back({solid.name, type_name(solid.shape), instance.piece});
         compiled.solid_boxes.push_back(boxes[i]);
         compiled.solid_types |= 1u << compiled.solids.back().type;
         if (!bounded && !std::holds_alternative<Half>(shape))
@@ -162,15 +162,18 @@ void set_surroundings(const Scene& scene, CompiledScene& compiled) {
 }  // namespace
 
 CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects, const CompileOptions& options) {
-    if (std::vector<Diagnostic> findings = validate(scene, objects); !findings.empty())
+    if (std::vector<Diagnostic> findings = validate(scene, objects, options.skip_unsupported); !findings.empty())
         throw Error(Status::scene, std::move(findings));
 
-    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air);
+    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air,
+                             options.skip_unsupported);
     CompiledScene compiled;
     compiled.notes = std::move(flat.notes);
+    compiled.skipped = std::move(flat.skipped);
     if (flat.regions.empty()) {
         std::string message = "there is nothing to render";
         for (const std::string& note : compiled.notes) message += "\n" + note;
+        for (const std::string& solid : compiled.skipped) message += "\nleft out: " + solid;
         throw Error(Status::scene, message);
     }
 

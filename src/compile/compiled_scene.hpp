@@ -54,11 +54,13 @@ struct CompiledScene {
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4, tolerance = 0.0005;
     std::uint64_t hash = 0;          ///< FNV-1a over everything that crosses the bus: the same scene, the same number
+    std::vector<std::string> skipped;       ///< solids of unknown types: name, type, user
     std::vector<std::string> notes;  ///< worth telling: objects without solids, air regions left out, ...
 };
 
 struct CompileOptions {
-    bool air = false;  ///< keep air regions
+    bool air = false;               ///< keep air regions
+    bool skip_unsupported = false;  ///< solids of unknown types are empty sets
 };
 
 /// Validates and compiles `objects` of `scene` (empty: its top objects). Throws Error (scene) with every finding.

@@ -51,8 +51,8 @@ struct InstanceEqual {
 /// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
 class Flattener {
 public:
-    Flattener(const Scene& scene, const ObjectIndex& index, FlatScene& result)
-        : scene_(scene), index_(index), result_(result) {}
+    Flattener(const Scene& scene, const ObjectIndex& index, bool skip_unsupported, FlatScene& result)
+        : scene_(scene), index_(index), skip_unsupported_(skip_unsupported), result_(result) {}
 
     enum class Kind { tree, nothing, everything };
     Kind write(const RegionForest& forest, std::uint32_t term, FlatTree& tree);
@@ -78,12 +78,14 @@ private:
 
     const Scene& scene_;
     const ObjectIndex& index_;
+    const bool skip_unsupported_;
     FlatScene& result_;
     FlatTree* tree_ = nullptr;
     std::vector<Operand> operands_;
     std::vector<Frame> frames_;
     std::unordered_map<Instance, std::uint32_t, InstanceHash, InstanceEqual> known_;
     std::unordered_map<const Combination*, Kind> hollow_;  ///< without solids below, and the constant that they are
+    std::unordered_set<std::uint32_t> skipped_;
     std::uint64_t references_ = 0, leaves_ = 0;
 };
 
@@ -145,9 +147,17 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         }
         return;
     }
+    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
+    if (const auto* unsupported = std::get_if<Unsupported>(&shape); unsupported && skip_unsupported_) {
+        if (skipped_.insert(object).second) {
+            result_.skipped.push_back(name_of(scene_.objects[object]) + " (" + unsupported->type + ")" +
+                                      (frames_.empty() ? "" : ", used by " + frames_.back().combination->name));
+        }
+        operands_.push_back({tree_->nodes.size(), Kind::nothing});
+        return;
+    }
     ++leaves_;
     operands_.push_back({tree_->nodes.size(), Kind::tree});
-    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
     if (!std::holds_alternative<Pipe>(shape) && !std::holds_alternative<Cline>(shape)) {
         tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, 0, matrix)});
         return;
@@ -257,10 +267,10 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
     return composite != flat.composites.end() ? composite->second.pieces[instance.piece].cuts : none;
 }
 
-FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air, bool skip_unsupported) {
     FlatScene result;
     ObjectIndex index(scene);
-    Flattener flattener(scene, index, result);
+    Flattener flattener(scene, index, skip_unsupported, result);
     std::vector<std::string> air_regions, empty_regions;
     std::vector<Diagnostic> findings;
     const auto contains_space = [&](const std::string& what, const Place& place) {

@@ -28,6 +28,7 @@ struct FlatScene {
     std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
     std::vector<FlatRegion> regions;                       ///< in the order of the walk
     std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
+    std::vector<std::string> skipped;  ///< solids of unknown types, which are empty sets: name, type, user
     std::vector<std::string> notes;
 };
 
@@ -37,6 +38,7 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
 /// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is.
-FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air);
+/// `skip_unsupported`: solids of unknown types are empty sets; else they are leaves like any other.
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air, bool skip_unsupported = false);
 
 }  // namespace csgrt

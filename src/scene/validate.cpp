@@ -30,7 +30,8 @@ std::string count_of_solids(std::uint64_t count) {
 
 class Validation {
 public:
-    explicit Validation(const Scene& scene) : scene_(scene), objects_(scene.objects.size()) {}
+    Validation(const Scene& scene, bool allow_unsupported)
+        : scene_(scene), allow_unsupported_(allow_unsupported), objects_(scene.objects.size()) {}
 
     std::vector<Diagnostic> run(const std::vector<std::string>& named) {
         index_names();
@@ -41,7 +42,7 @@ public:
             walk(root);
             solids = saturating_sum(solids, objects_[root].solids);
         }
-        report_unsupported();
+        if (!allow_unsupported_) report_unsupported();
         if (found_.empty() && solids == 0) {
             add(roots.empty() ? Place{} : place_of(scene_.objects[roots.front()]),
                 "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
@@ -206,7 +207,7 @@ private:
                     message += " and on " + std::to_string(others) + (others == 1 ? " other leg" : " other legs");
                 }
             }
-            add(solid->place, std::move(message), "render objects that do not use it, or replace it");
+            add(solid->place, std::move(message), "render objects that do not use it, replace it, or leave it out with --skip-unsupported");
         }
     }
 
@@ -221,6 +222,7 @@ private:
     }
 
     const Scene& scene_;
+    const bool allow_unsupported_;
     std::vector<Reached> objects_;
     std::unordered_map<std::string_view, std::uint32_t> index_;
     std::vector<Frame> path_;
@@ -234,8 +236,8 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects) {
-    return Validation(scene).run(objects);
+std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool allow_unsupported) {
+    return Validation(scene, allow_unsupported).run(objects);
 }
 
 }  // namespace csgrt

@@ -109,13 +109,13 @@ TEST_CASE("help lists every option, and every option listed is understood") {
         {"",
          {"-o, --output FILE", "--format exr|png", "--size N|WxH", "--azimuth DEG", "--elevation DEG",
           "--perspective DEG", "--device NAME|cpu|gpu|N", "--reference", "--stats FILE", "--repeat N",
-          "--max-memory SIZE", "--tolerance MM", "--air", "--threads N", "--first-hit", "-h, --help"}},
+          "--max-memory SIZE", "--tolerance MM", "--air", "--skip-unsupported", "--threads N", "--first-hit", "-h, --help"}},
         {"shoot",
          {"--rays FILE", "-o, --output FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM", "--air", "--threads N", "-h, --help"}},
+          "--tolerance MM", "--air", "--skip-unsupported", "--threads N", "-h, --help"}},
         {"compare", {"--tolerance X", "-h, --help"}},
         {"devices", {"-h, --help"}},
-        {"info", {"--air", "--depth N", "-h, --help"}},
+        {"info", {"--air", "--skip-unsupported", "--depth N", "-h, --help"}},
         {"convert", {"-h, --help"}},
     };
     for (const Table& table : tables) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <string_view>
 #include <vector>
 
 #include "catch.hpp"
@@ -51,16 +52,16 @@ inline void check_broken(const Broken& broken) {
     CHECK(finding.excerpt.back() == '^');
 }
 
-inline const Combination& comb(const Scene& scene, const std::string& name) {
-    const Object* object = scene.find(name);
+inline const Combination& comb(const Scene& scene, std::string_view name) {
+    const Object* object = scene.find(std::string(name));
     REQUIRE(object != nullptr);
     REQUIRE(std::holds_alternative<Combination>(*object));
     return std::get<Combination>(*object);
 }
 
 template <class T>
-const T& shape(const Scene& scene, const std::string& name) {
-    const Object* object = scene.find(name);
+const T& shape(const Scene& scene, std::string_view name) {
+    const Object* object = scene.find(std::string(name));
     REQUIRE(object != nullptr);
     REQUIRE(std::holds_alternative<Solid>(*object));
     const Shape& any = std::get<Solid>(*object).shape;

@@ -22,6 +22,7 @@
 
 #include "intersect.hpp"
 #include "solids/all.hpp"
+#include "solids/pipe.hpp"
 
 namespace csgrt::oracle {
 
@@ -109,14 +110,17 @@ struct SceneAnswer {
 
 class SceneOracle {
 public:
-    /// `objects` of the scene, empty: its top objects. Air regions are left out.
-    explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {}) : scene_(scene) {
+    /// `objects` of the scene, empty: its top objects. Air regions are left out. `skip_unsupported`: solids of unknown
+    /// types are empty sets.
+    explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {},
+                         bool skip_unsupported = false)
+        : scene_(scene), skip_unsupported_(skip_unsupported) {
         for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
             for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
     }
 
     // Keeps the scene by reference; so a temporary will not do.
-    explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}) = delete;
+    explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}, bool = false) = delete;
 
     const std::vector<OracleRegion>& regions() const { return regions_; }
     const std::vector<ImplicitSolid>& solids() const { return solids_; }
@@ -220,7 +224,20 @@ private:
         throw Error(Status::scene, "there is no object '" + name + "'");
     }
 
+    /// What is in one of the outer parts and in none of the bores.
+    Expression composite(std::vector<PipePart> parts) {
+        Expression outer, bores;
+        for (PipePart& part : parts) {
+            (part.bore ? bores : outer).operands.push_back({Operator::leaf, {}, solids_.size()});
+            solids_.push_back(std::move(part.solid));
+        }
+        return bores.operands.empty() ? outer : apply(Operator::difference, outer, bores);
+    }
+
     Expression leaf(const Solid& solid, const QAffine& place) {
+        if (skip_unsupported_ && std::holds_alternative<Unsupported>(solid.shape)) return {};
+        if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
+        if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
         solids_.push_back(implicit(solid.shape, place));
         return {Operator::leaf, {}, solids_.size() - 1};
     }
@@ -297,6 +314,7 @@ private:
     }
 
     const Scene& scene_;
+    const bool skip_unsupported_;
     std::vector<ImplicitSolid> solids_;
     std::vector<OracleRegion> regions_;
 };
