@@ -3,8 +3,8 @@
 //
 //   F(rho) = alpha (rho - 1)^2 + 2 beta (rho - 1) z + gamma z^2 - 1 < 0
 //
-// With F(rho) = P - rho Q (P and Q free of rho's odd powers), F(rho) F(-rho) = P^2 - rho^2 Q^2 is a quartic along the ray,
-// and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Each root is polished on F itself.
+// F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Written
+// in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each root is polished on F itself.
 #ifndef CSGRT_ETO_H
 #define CSGRT_ETO_H
 
@@ -71,22 +71,25 @@ FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
     }
     if (!(low < high)) return no_hits();
     {
-        // rho^2 = r0 + r1 u + r2 u^2, z = z0 + z1 u
-        real r0 = real_fma(l.o.x, l.o.x, l.o.y * l.o.y);
+        // R = rho^2 - 1 = r0 + r1 u + r2 u^2, z = z0 + z1 u, G = gamma z^2 - 1 = g0 + g1 u + g2 u^2
+        real r0 = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - REAL(1);
         real r1 = REAL(2) * real_fma(l.o.x, d.x, l.o.y * d.y);
         real r2 = real_fma(d.x, d.x, d.y * d.y);
         real z0 = l.o.z, z1 = d.z;
-        // P = alpha rho^2 + gamma z^2 - 2 beta z + alpha - 1,  Q = 2 alpha - 2 beta z
-        real p0 = real_fma(alpha, r0, z0 * real_fma(gamma, z0, REAL(-2) * beta)) + (alpha - REAL(1));
-        real p1 = real_fma(alpha, r1, z1 * (REAL(2) * real_fma(gamma, z0, -beta)));
-        real p2 = real_fma(alpha, r2, gamma * z1 * z1);
-        real q0 = REAL(2) * real_fma(-beta, z0, alpha), q1 = REAL(-2) * beta * z1;
-        real s0 = q0 * q0, s1 = REAL(2) * q0 * q1, s2 = q1 * q1;
-        g.c[0] = difference_of_products(p0, p0, r0, s0);
-        g.c[1] = REAL(2) * p0 * p1 - real_fma(r0, s1, r1 * s0);
-        g.c[2] = real_fma(p1, p1, REAL(2) * p0 * p2) - real_fma(r0, s2, real_fma(r1, s1, r2 * s0));
-        g.c[3] = REAL(2) * p1 * p2 - real_fma(r1, s2, r2 * s1);
-        g.c[4] = difference_of_products(p2, p2, r2, s2);
+        real g0 = real_fma(gamma * z0, z0, REAL(-1)), g1 = REAL(2) * gamma * z0 * z1, g2 = gamma * z1 * z1;
+        // The product is alpha R (alpha R + 2 G + 4 beta z) + G (G + 4 (alpha - beta z)) - 4 (beta z)^2 R.
+        real b0 = beta * z0, b1 = beta * z1;
+        real a0 = alpha * r0, a1 = alpha * r1, a2 = alpha * r2;
+        real s0 = real_fma(REAL(4), b0, real_fma(REAL(2), g0, a0)), s1 = real_fma(REAL(4), b1, real_fma(REAL(2), g1, a1));
+        real s2 = real_fma(REAL(2), g2, a2);
+        real t0 = real_fma(REAL(4), alpha - b0, g0), t1 = real_fma(REAL(-4), b1, g1);
+        real q0 = REAL(4) * b0 * b0, q1 = REAL(8) * b0 * b1, q2 = REAL(4) * b1 * b1;
+        g.c[0] = real_fma(a0, s0, g0 * t0) - q0 * r0;
+        g.c[1] = real_fma(a0, s1, a1 * s0) + real_fma(g0, t1, g1 * t0) - real_fma(q0, r1, q1 * r0);
+        g.c[2] = real_fma(a0, s2, real_fma(a1, s1, a2 * s0)) + real_fma(g0, g2, real_fma(g1, t1, g2 * t0)) -
+                 real_fma(q0, r2, real_fma(q1, r1, q2 * r0));
+        g.c[3] = real_fma(a1, s2, a2 * s1) + real_fma(g1, g2, g2 * t1) - real_fma(q1, r2, q2 * r1);
+        g.c[4] = real_fma(a2, s2, g2 * g2) - q2 * r2;
     }
     count = sign_changes(g, low, high, roots);
     for (i = 0; i < count; ++i) {

@@ -18,6 +18,11 @@
 #define QUADRIC_SURFACE 0
 #define QUADRIC_PLANES 1
 
+// The form of v and w with nothing cancelled: what its rounding is relative to.
+FN real quadric_size(GLOBAL const real* p, vec3 v, vec3 w) {
+    return real_abs(p[12] * v.x * w.x) + real_abs(p[13] * v.y * w.y) + real_abs(p[14] * v.z * w.z);
+}
+
 FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = g.reals + solid.first_real;
     span s = whole_line();
@@ -39,9 +44,16 @@ FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     {
         real half_rate = REAL(0.5) * linear * l.d.z;
         real rest = real_fma(linear, l.o.z, at_zero);
+        real all_a = quadric_size(p, l.d, l.d), all_b = quadric_size(p, l.o, l.d) + real_abs(half_rate);
+        real all_c = quadric_size(p, l.o, l.o) + real_abs(linear * l.o.z) + real_abs(at_zero);
+        real of_squares = real_abs(qx * qy) * xy * xy + real_abs(qy * qz) * yz * yz + real_abs(qz * qx) * zx * zx;
         discriminant = discriminant + (half_rate * (REAL(2) * b + half_rate) - a * rest);
+        of_squares = of_squares + real_abs(half_rate) * (REAL(2) * real_abs(b) + real_abs(half_rate)) + real_abs(a * rest);
         b = b + half_rate;
         c = c + rest;
+        // Along a straight line of the surface a, b and c vanish together: then they are the better witnesses.
+        if (real_abs(b) * all_b + real_abs(a) * all_c + real_abs(c) * all_a < REAL(0.0625) * of_squares)
+            discriminant = difference_of_products(b, b, a, c);
     }
     return quadratic_inside(a, b, c, discriminant, l.shift, s, QUADRIC_SURFACE);
 }

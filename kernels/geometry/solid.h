@@ -9,6 +9,7 @@
 #include "eto.h"
 #include "half.h"
 #include "mesh.h"
+#include "part.h"
 #include "quadric.h"
 #include "tgc.h"
 #include "tor.h"
@@ -44,6 +45,9 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) return eto_intersect(g.reals + solid.first_real, r);
 #endif
+#if HAS_SOLID(SOLID_PART)
+    if (solid.type == SOLID_PART) return part_intersect(g.reals + solid.first_real, r);
+#endif
     return no_hits();
 }
 
@@ -74,6 +78,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_PART)
+    if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);

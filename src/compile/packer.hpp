@@ -27,6 +27,8 @@ struct Packer {
     /// center and L, the inverse of the matrix whose columns are the local axes in the world.
     void frame(const Wide& center, const WideMatrix& axes);
     void face(const Plane& plane) { scene.plane_refs.push_back(planes.add(plane, box)); }
+    /// The face through `point` that a and b span, looking away from `inside` (all before the matrix).
+    void face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside);
     /// Faces of a polyhedron; several in one plane are one.
     void faces(const std::vector<Plane>& all);
 

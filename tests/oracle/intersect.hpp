@@ -1,6 +1,6 @@
 // The judge's answer for one ray and one solid: where the ray is inside, and how sure that is.
 //
-// For every polynomial of the solid the ray's restriction is solved in 113 bits, and three sets are kept: `exact`,
+// For every function of the solid the ray's restriction is solved in 113 bits, and three sets are kept: `exact`,
 // where it is not positive; `inner` and `outer`, where that stays so, or may become so, when the ray or the solid moves
 // by up to `margin` x delta. The solid's sets are the intersections. delta is the displacement that rounding the inputs
 // can cause:
@@ -78,18 +78,79 @@ struct ScaledRay {
     }
 };
 
+/// A polynomial as a line that can be asked for its roots.
+struct PolynomialLine {
+    Polynomial f, derivative = f.derivative();
+
+    quad operator()(quad s) const { return f(s); }
+    quad slope(quad s) const { return derivative(s); }
+    Roots crossings(quad level, quad low, quad high) const { return roots(f - Polynomial(level), low, high); }
+    Roots turns(quad low, quad high) const { return roots(derivative, low, high); }
+};
+
+/// f <= 0 along the ray for surface k, which is not plane; `change_at(s)`: by how much f may be off there.
+template <class Curve, class Change>
+Sets solve_curve(const Curve& f, std::size_t k, const ScaledRay& ray, const Change& change_at) {
+    const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
+    Sets sets;
+    const auto crossings = f.crossings(0, -ray.reach, ray.reach);
+    const auto turns = f.turns(-ray.reach, ray.reach);
+    quad from = -ray.reach;
+    const auto stretch = [&](quad to) {
+        // The sign between two roots: at the middle, or at an end of the range, whichever is farther from 0.
+        quad most = from < to ? f((from + to) / 2) : quad(1);
+        for (const quad end : {-ray.reach, ray.reach})
+            if ((from == end || to == end) && absolute(f(end)) > absolute(most)) most = f(end);
+        if (from < to && most <= 0) sets.exact.push_back({bound(from), bound(to)});
+        from = to;
+    };
+    for (const quad s : crossings) stretch(s);
+    stretch(ray.reach);
+    sets.exact = join(std::move(sets.exact));
+
+    // |f| <= e around s, where f stays within e of 0.
+    const auto zone = [&](quad at, quad e) {
+        Span span{bound(-ray.reach), bound(ray.reach)};
+        for (const quad level : {e, -e})
+            for (const quad x : f.crossings(level, -ray.reach, ray.reach)) {
+                if (x <= at && x > span.in.at) span.in.at = x;
+                if (x >= at && x < span.out.at) span.out.at = x;
+            }
+        return span;
+    };
+    Spans unsure;
+    for (const quad s : crossings) {
+        const quad e = change_at(s), steep = absolute(f.slope(s));
+        const bool flat = e >= steep * ray.reach * quad(1e-3);
+        unsure.push_back(flat ? zone(s, e) : Span{bound(s - e / steep), bound(s + e / steep)});
+    }
+    // Where f comes near to 0 without crossing it, it turns or the range ends.
+    const auto look = [&](quad s) {
+        const quad e = change_at(s);
+        if (absolute(f(s)) <= e) unsure.push_back(zone(s, 2 * e));
+    };
+    for (const quad s : turns) look(s);
+    look(-ray.reach);
+    look(ray.reach);
+    unsure = join(std::move(unsure));
+    sets.inner = subtract(sets.exact, unsure);
+    sets.outer = unite(sets.exact, unsure);
+    return sets;
+}
+
 /// f <= 0 along the ray for surface k.
 inline Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad delta) {
-    const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
-    const Polynomial slope = f.derivative();
-    const quad noise = f.degree > 2 ? solid.noise(k) : quad(0);
-    const auto change_at = [&](quad s) {
+    const auto change_with = [&](quad s, quad noise) {
         const QVec p = ray.origin + s * ray.direction;
         return quad(margin) * (solid.change(k, p, delta * (1 + ray.turn * absolute(s))) + noise);
     };
+    if (const auto line = solid.surfaces[k]->line(ray.origin, ray.direction))
+        return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, solid.noise(k)); });
+    const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
+    const auto change_at = [&](quad s) { return change_with(s, f.degree > 2 ? solid.noise(k) : quad(0)); };
     const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
-    Sets sets;
     if (f.degree == 1) {
+        Sets sets;
         const quad e = change_at(0), c0 = f.c[0], c1 = f.c[1];
         const bool parallel = absolute(c1) <= e * quad(1e-12);  // up to the rounding of 113 bits
         const bool unsure_slope =
@@ -115,44 +176,7 @@ inline Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ra
         return sets;
     }
 
-    const Roots crossings = roots(f, -ray.reach, ray.reach), turns = roots(slope, -ray.reach, ray.reach);
-    quad from = -ray.reach;
-    const auto stretch = [&](quad to) {
-        if (from < to && f((from + to) / 2) <= 0) sets.exact.push_back({bound(from), bound(to)});
-        from = to;
-    };
-    for (const quad s : crossings) stretch(s);
-    stretch(ray.reach);
-    sets.exact = join(std::move(sets.exact));
-
-    // |f| <= e around s, where f stays within e of 0.
-    const auto zone = [&](quad at, quad e) {
-        Span span{bound(-ray.reach), bound(ray.reach)};
-        for (const quad level : {e, -e})
-            for (const quad x : roots(f - Polynomial(level), -ray.reach, ray.reach)) {
-                if (x <= at && x > span.in.at) span.in.at = x;
-                if (x >= at && x < span.out.at) span.out.at = x;
-            }
-        return span;
-    };
-    Spans unsure;
-    for (const quad s : crossings) {
-        const quad e = change_at(s), steep = absolute(slope(s));
-        const bool flat = e >= steep * ray.reach * quad(1e-3);
-        unsure.push_back(flat ? zone(s, e) : Span{bound(s - e / steep), bound(s + e / steep)});
-    }
-    // Where f comes near to 0 without crossing it, it turns or the range ends.
-    const auto look = [&](quad s) {
-        const quad e = change_at(s);
-        if (absolute(f(s)) <= e) unsure.push_back(zone(s, 2 * e));
-    };
-    for (const quad s : turns) look(s);
-    look(-ray.reach);
-    look(ray.reach);
-    unsure = join(std::move(unsure));
-    sets.inner = subtract(sets.exact, unsure);
-    sets.outer = unite(sets.exact, unsure);
-    return sets;
+    return solve_curve(PolynomialLine{f}, k, ray, change_at);
 }
 
 }  // namespace detail

@@ -13,7 +13,8 @@ using namespace csgrt::oracle;
 
 namespace {
 
-constexpr std::array<Kind, 7> kinds{Kind::ell, Kind::tgc, Kind::arb, Kind::arbn, Kind::half, Kind::tor, Kind::ehy};
+constexpr std::array kinds{Kind::ell, Kind::tgc,  Kind::arb, Kind::arbn, Kind::half, Kind::tor, Kind::ehy,
+                           Kind::epa, Kind::part, Kind::rpc, Kind::rhc,  Kind::eto,  Kind::hyp};
 
 /// The oracle's answers, rounded to double, as a solver would give them.
 std::vector<Segment> segments_of(const Answer& answer) {

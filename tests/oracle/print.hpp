@@ -46,6 +46,36 @@ struct ShapePrinter {
         print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
         out << " r_1 " << s.r_1 << " r_2 " << s.r_2 << " c " << s.c;
     }
+    void operator()(const Part& s) const {
+        out << "part";
+        print(out, "v", s.v), print(out, "h", s.h);
+        out << " r_v " << s.r_v << " r_h " << s.r_h;
+    }
+    void operator()(const Epa& s) const {
+        out << "epa";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
+        out << " r_1 " << s.r_1 << " r_2 " << s.r_2;
+    }
+    void operator()(const Rpc& s) const {
+        out << "rpc";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "b", s.b);
+        out << " r " << s.r;
+    }
+    void operator()(const Rhc& s) const {
+        out << "rhc";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "b", s.b);
+        out << " r " << s.r << " c " << s.c;
+    }
+    void operator()(const Eto& s) const {
+        out << "eto";
+        print(out, "v", s.v), print(out, "n", s.n), print(out, "c", s.c);
+        out << " r " << s.r << " r_d " << s.r_d;
+    }
+    void operator()(const Hyp& s) const {
+        out << "hyp";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
+        out << " b " << s.b << " neck " << s.neck;
+    }
     template <class Other>
     void operator()(const Other& s) const {
         out << type_name(s);

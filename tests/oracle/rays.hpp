@@ -64,6 +64,52 @@ struct FeatureFinder {
         point(0, 0, 0), point(0, 0, 1);
         axes();
     }
+    void operator()(const Part& part) const {
+        const quad h = length(part.h), unit = larger(h, larger(part.r_v, part.r_h));
+        const quad top = h / unit, v = part.r_v / unit, r = part.r_h / unit, sine = h > 0 ? (v - r) / top : quad(0);
+        for (const double s : {-1, 1}) {
+            point(s * v, 0, 0), point(0, s * r, top);
+            if (sine * sine < 1) {  // the circles of touch, and a generator
+                const quad cosine = root(1 - sine * sine);
+                point(s * v * cosine, 0, v * sine), point(s * r * cosine, 0, top + r * sine);
+                direction(-s * sine, 0, cosine);
+            }
+        }
+        point(0, 0, -v), point(0, 0, top + r), point(0, 0, 0);
+        axes();
+    }
+    void operator()(const Epa&) const {
+        for (const double s : {-1, 1}) point(s, 0, 0), point(0, s, 0), direction(s, 0, 2), direction(0, s, 2);
+        point(0, 0, 0), point(0, 0, 1);
+        axes();
+    }
+    void operator()(const Rpc&) const { cylinder(1); }
+    void operator()(const Rhc& rhc) const { cylinder(1 / root(1 + 2 * rhc.c / length(rhc.b))); }
+    /// `steep`: of the asymptotes, or some other direction across.
+    void cylinder(quad steep) const {
+        for (const double x : {0, 1})
+            for (const double y : {-1, 1}) point(x, y, 0), point(x, 0, 1), direction(0, y * steep, 1);
+        axes();
+    }
+    void operator()(const Hyp& hyp) const {
+        const quad neck = hyp.neck, steep = root(1 - neck * neck);
+        for (const double s : {-1, 1}) {
+            point(s, 0, 1), point(0, s, -1), point(s * neck, 0, 0), point(0, s * neck, 0);
+            direction(s * steep, 0, 1), direction(0, s * steep, 1);  // along the cone of asymptotes
+        }
+        point(0, 0, 0);
+        axes();
+    }
+    void operator()(const Eto& eto) const {
+        const QVec axis = unit(eto.n), c = (1 / quad(eto.r)) * QVec(eto.c);
+        const quad up = dot(c, axis), out = length(c - up * axis), d = quad(eto.r_d) / (length(c) * quad(eto.r));
+        for (const double s : {-1, 1})
+            for (const double t : {-1, 1})
+                point(s * (1 + t * out), 0, t * up), point(0, s * (1 - t * d * up), t * d * out);
+        point(0, 0, 0), point(1, 0, 0), point(0, -1, 0);
+        direction(out, 0, up), direction(-up, 0, out);
+        axes();
+    }
     void operator()(const Half& half) const {
         const QVec n = half.plane.normal, across = any_across(n);
         features.points = {{}, across, cross(n, across)};

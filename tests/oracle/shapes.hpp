@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "random.hpp"
+#include "curved_shapes.hpp"
 #include "solids/all.hpp"
 
 namespace csgrt::oracle {
 
-enum class Kind { ell, tgc, arb, arbn, half, tor, ehy };
+enum class Kind { ell, tgc, arb, arbn, half, tor, ehy, part, epa, rpc, rhc, eto, hyp };
 
 struct Case {
     std::string name;  ///< form, placement
@@ -18,42 +18,7 @@ struct Case {
     Matrix matrix = identity;
 };
 
-/// Three unit vectors at right angles (up to rounding) and a point, in the solid's own space.
-struct Stand {
-    QVec x, y, z, at;
-    double size = 1;
-
-    QVec point(quad a, quad b, quad c) const { return at + quad(size) * (a * x + b * y + c * z); }
-    QVec vector(quad a, quad b, quad c) const { return quad(size) * (a * x + b * y + c * z); }
-};
-
-inline Stand random_stand(Random& random, double size) {
-    Stand s;
-    s.size = size;
-    s.z = random.direction();
-    s.x = any_across(s.z);
-    const double turn = random.between(-3, 3);
-    s.x = quad(std::cos(turn)) * s.x + quad(std::sin(turn)) * cross(s.z, s.x);
-    s.x = unit(s.x);
-    s.y = cross(s.z, s.x);
-    s.at = quad(3 * size) * random.in_cube();
-    return s;
-}
-
-/// Along the axes, with numbers that sums and products keep exact: rays and faces meet exactly.
-inline Stand aligned_stand(Random& random) {
-    Stand s;
-    s.z = random.axis();
-    s.x = any_across(s.z);
-    s.y = cross(s.z, s.x);
-    s.at = {static_cast<double>(random.below(9)) - 4, static_cast<double>(random.below(9)) - 4,
-            static_cast<double>(random.below(9)) - 4};
-    return s;
-}
-
 namespace detail {
-
-inline Vec3 v(const QVec& q) { return to_vec3(q); }
 
 inline Shape ell_form(std::size_t form, const Stand& s, Random& random) {
     const auto of = [&](double a, double b, double c) {
@@ -355,8 +320,20 @@ inline Case make_case(Kind kind, std::size_t index, Random& random) {
             return build(detail::half_form, detail::half_forms);
         case Kind::tor:
             return build(detail::tor_form, detail::tor_forms);
-        default:
+        case Kind::ehy:
             return build(detail::ehy_form, detail::ehy_forms);
+        case Kind::part:
+            return build(detail::part_form, detail::part_forms);
+        case Kind::epa:
+            return build(detail::epa_form, detail::epa_forms);
+        case Kind::rpc:
+            return build(detail::rpc_form, detail::rpc_forms);
+        case Kind::rhc:
+            return build(detail::rhc_form, detail::rhc_forms);
+        case Kind::eto:
+            return build(detail::eto_form, detail::eto_forms);
+        default:
+            return build(detail::hyp_form, detail::hyp_forms);
     }
 }
 

@@ -1,15 +1,17 @@
-// A solid as the judge sees it: an affine image of the set where every one of a few polynomials is not positive.
+// A solid as the judge sees it: an affine image of the set where every one of a few functions is not positive.
 //
-// Each polynomial is written once, from its textbook definition, as a function template of (x, y, z) in the solid's own
-// frame (solids/<solid>.hpp). Called with numbers it gives the value, with Jets the gradient, with Polynomials its
-// restriction to a ray.
+// Most are polynomials. Each is written once, from its textbook definition, as a function template of (x, y, z) in the
+// solid's own frame (solids/<solid>.hpp). Called with numbers it gives the value, with Jets the gradient, with
+// Polynomials its restriction to a ray. The others give value and gradient by themselves (line.hpp).
 #pragma once
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "line.hpp"
 #include "polynomial.hpp"
 #include "quad.hpp"
 
@@ -30,7 +32,7 @@ struct Jet {
     }
 };
 
-/// One polynomial f of a solid; inside is f <= 0. Points are in the solid's own frame.
+/// One function f of a solid; inside is f <= 0. Points are in the solid's own frame.
 class Surface {
 public:
     virtual ~Surface() = default;
@@ -42,6 +44,8 @@ public:
     virtual quad value(const QVec& p) const = 0;
     virtual QVec gradient(const QVec& p) const = 0;
     virtual Polynomial along(const QVec& origin, const QVec& direction) const = 0;
+    /// Instead of `along` where f is no polynomial; else null. It must not outlive the surface.
+    virtual std::unique_ptr<Line> line(const QVec&, const QVec&) const { return nullptr; }
 };
 
 template <class F>
@@ -55,6 +59,23 @@ public:
     }
     Polynomial along(const QVec& o, const QVec& d) const override {
         return f_(Polynomial::linear(o.x, d.x), Polynomial::linear(o.y, d.y), Polynomial::linear(o.z, d.z));
+    }
+
+private:
+    F f_;
+};
+
+/// F as CurvedLine wants it, and `terms`.
+template <class F>
+class CurvedSurface final : public Surface {
+public:
+    explicit CurvedSurface(F f) : f_(std::move(f)) {}
+    quad terms() const override { return f_.terms(); }
+    quad value(const QVec& p) const override { return f_.value(p); }
+    QVec gradient(const QVec& p) const override { return f_.gradient(p); }
+    Polynomial along(const QVec&, const QVec&) const override { throw std::logic_error("f is no polynomial"); }
+    std::unique_ptr<Line> line(const QVec& o, const QVec& d) const override {
+        return std::make_unique<CurvedLine<F>>(f_, o, d);
     }
 
 private:
@@ -88,6 +109,10 @@ struct ImplicitSolid {
     template <class F>
     void add(F f) {
         surfaces.push_back(std::make_unique<SurfaceOf<F>>(std::move(f)));
+    }
+    template <class F>
+    void add_curved(F f) {
+        surfaces.push_back(std::make_unique<CurvedSurface<F>>(std::move(f)));
     }
 
     /// Is the point inside, its boundary included? To the last bits of 113-bit arithmetic.

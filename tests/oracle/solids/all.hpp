@@ -5,9 +5,14 @@
 #include <string>
 #include <variant>
 
+#include "cylinders.hpp"
 #include "ehy.hpp"
 #include "ell.hpp"
+#include "epa.hpp"
+#include "eto.hpp"
 #include "half.hpp"
+#include "hyp.hpp"
+#include "part.hpp"
 #include "polyhedron.hpp"
 #include "tgc.hpp"
 #include "tor.hpp"

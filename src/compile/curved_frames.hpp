@@ -1,0 +1,55 @@
+// The axes of solids of a closed form, as packing and boxing both need them.
+#pragma once
+
+#include <cmath>
+
+#include "compile/linear.hpp"
+
+namespace csgrt {
+
+/// A unit vector across the unit vector `n`: across its smallest component, so that the two are far from parallel.
+inline Wide across(const Wide& n) {
+    int smallest = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::fabs(n[i]) < std::fabs(n[smallest])) smallest = i;
+    Wide side(0);
+    side[smallest] = 1;
+    return glm::normalize(glm::cross(n, side));
+}
+
+/// Both semi-axes of the base and the height.
+inline WideMatrix axes_of(const Epa& s) {
+    const Wide h = wide(s.h), a = glm::normalize(wide(s.a));
+    return {static_cast<long double>(s.r_1) * a, static_cast<long double>(s.r_2) * glm::normalize(glm::cross(h, a)), h};
+}
+/// Half the length, half the width, and the way from the base to the vertex.
+template <class Cylinder>
+WideMatrix axes_of(const Cylinder& s)
+    requires std::is_same_v<Cylinder, Rpc> || std::is_same_v<Cylinder, Rhc>
+{
+    const Wide h = wide(s.h), b = wide(s.b);
+    return {0.5L * h, static_cast<long double>(s.r) * glm::normalize(glm::cross(h, b)), b};
+}
+/// Both semi-axes of the ends, and half the height.
+inline WideMatrix axes_of(const Hyp& s) {
+    const Wide h = wide(s.h), a = wide(s.a);
+    return {a, static_cast<long double>(s.b) * glm::normalize(glm::cross(h, a)), 0.5L * h};
+}
+
+/// An elliptical torus in units of its circle's radius.
+struct EtoFrame {
+    WideMatrix axes;
+    long double long_axis, short_axis;  ///< |c| and r_d
+    long double radial, axial;          ///< direction of c: away from the axis, along it
+};
+inline EtoFrame frame_of(const Eto& s) {
+    const Wide n = glm::normalize(wide(s.n)), x = across(n), c = wide(s.c);
+    const long double r = s.r, length = glm::length(c), up = glm::dot(c, n);
+    return {{x * r, glm::cross(n, x) * r, n * r},
+            length / r,
+            static_cast<long double>(s.r_d) / r,
+            glm::length(c - up * n) / length,
+            up / length};
+}
+
+}  // namespace csgrt
