@@ -112,7 +112,7 @@ std::vector<std::string> sketch_faults(const Sketch& sketch) {
         const std::string fault = std::visit(CurveFault{sketch.vertices}, sketch.curves[i]);
         if (!fault.empty()) faults.push_back("curve " + std::to_string(i) + " of its sketch" + fault);
     }
-    if (sketch.reversed.size() != sketch.curves.size()) {
+    if (!sketch.reversed.empty() && sketch.reversed.size() != sketch.curves.size()) {
         faults.push_back("its sketch has " + std::to_string(sketch.curves.size()) + " curves, and directions for " +
                          std::to_string(sketch.reversed.size()));
     }

@@ -22,7 +22,7 @@ bool check_places(Faults& faults, const std::vector<Vec3>& places, const std::st
 bool has_area(const Vec3& p, const Vec3& q, const Vec3& r) { return length(cross(q - p, r - p)) > 0; }
 
 void check_plates(Faults& faults, const Bot& s) {
-    if (s.thickness.size() != s.faces.size() || s.append.size() != s.faces.size()) {
+    if (s.thickness.size() != s.faces.size() || (!s.append.empty() && s.append.size() != s.faces.size())) {
         faults.push_back("plates need a thickness and a side for each of the " + std::to_string(s.faces.size()) +
                          " faces, found " + std::to_string(s.thickness.size()) + " and " +
                          std::to_string(s.append.size()));
@@ -34,7 +34,7 @@ void check_plates(Faults& faults, const Bot& s) {
             faults.push_back("the thickness" + of + " must be 0 or more, and finite");
             return;
         }
-        if (s.append[i] > 1) {
+        if (!s.append.empty() && s.append[i] > 1) {
             faults.push_back("the side" + of + " must be 0 (half on each side) or 1 (behind the face)");
             return;
         }

@@ -24,10 +24,10 @@ Faults FaultsOf::operator()(const Arb& s) const {
     for (const Vec3& vertex : s.vertices) {
         if (!all_finite(faults, vertex)) return faults;
     }
-    double size = 0, farthest = 0;
+    double size = 0, reach = 0;
     Vec3 normal;
     for (const Vec3& p : s.vertices) {
-        farthest = std::max(farthest, length(p));
+        reach = std::max(reach, length(p));
         size = std::max(size, length(p - s.vertices[0]));
         for (const Vec3& q : s.vertices) {
             const Vec3 candidate = cross(p - s.vertices[0], q - s.vertices[0]);
@@ -38,7 +38,7 @@ Faults FaultsOf::operator()(const Arb& s) const {
     for (const Vec3& p : s.vertices) {
         thickness = std::max(thickness, std::abs(dot(unit(normal), p - s.vertices[0])));
     }
-    const double rounding = 8 * std::numeric_limits<double>::epsilon() * farthest;
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach;
     const bool flat = thickness <= std::max(1e-12 * size, rounding);
     if (flat || length(normal) <= size * std::max(1e-12 * size, rounding)) {
         faults.push_back("the vertices lie in one plane: there is no volume");

@@ -55,10 +55,9 @@ Faults FaultsOf::operator()(const Ehy& s) const {
     return faults;
 }
 
-/// Without a height it is a ball, the greater one.
 Faults FaultsOf::operator()(const Part& s) const {
     Faults faults;
-    if (!all_finite(faults, s.v, s.h, s.r_v, s.r_h)) return faults;
+    if (!all_finite(faults, s.v, s.h, s.r_v, s.r_h)) return faults;  // a height of 0 is a ball
     require_not_negative(faults, "the radius", s.r_v);
     require_not_negative(faults, "the radius at the top", s.r_h);
     if (s.r_v == 0 && s.r_h == 0) faults.push_back("the radius must be greater than 0 at one end at least");

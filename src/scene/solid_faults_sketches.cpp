@@ -2,8 +2,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
+#include "scene/sketch_curves.hpp"
 #include "scene/sketch_faults.hpp"
+#include "scene/sketch_reach.hpp"
 #include "scene/solid_faults_of.hpp"
 
 namespace csgrt {
@@ -18,7 +21,7 @@ constexpr double rounding = 1e-9;
 struct LeastU {
     const Sketch& sketch;
 
-    double operator()(const Sketch::Line& c) const { return least({c.start, c.end}); }
+    double operator()(const Sketch::Line& c) const { return std::min(u_of(c.start), u_of(c.end)); }
     double operator()(const Sketch::Arc& c) const { return least_u(sketch, c); }
     double operator()(const Sketch::Bezier& c) const {
         std::vector<double> knots(2 * c.points.size(), 0.0);
@@ -26,10 +29,9 @@ struct LeastU {
         return (*this)(Sketch::Nurb{static_cast<std::uint32_t>(c.points.size()), std::move(knots), c.points, {}});
     }
     double operator()(const Sketch::Nurb& c) const {
-        double found = least({c.points.front(), c.points.back()});
+        double found = std::min(u_of(c.points.front()), u_of(c.points.back()));
         for (std::size_t span = c.order - 1; span < c.points.size(); ++span) {
-            const auto first = c.points.begin() + static_cast<std::ptrdiff_t>(span + 1 - c.order);
-            if (least({first, first + c.order}) >= 0) continue;
+            if (least(std::span(c.points).subspan(span + 1 - c.order, c.order)) >= 0) continue;
             constexpr int steps = 32;
             for (int i = 0; i <= steps; ++i) {
                 const double t = c.knots[span] + (c.knots[span + 1] - c.knots[span]) * i / steps;
@@ -39,9 +41,10 @@ struct LeastU {
         return found;
     }
 
-    double least(const std::vector<std::uint32_t>& vertices) const {
+    double u_of(std::uint32_t vertex) const { return sketch.vertices[vertex].u; }
+    double least(std::span<const std::uint32_t> vertices) const {
         double u = HUGE_VAL;
-        for (const std::uint32_t vertex : vertices) u = std::min(u, sketch.vertices[vertex].u);
+        for (const std::uint32_t vertex : vertices) u = std::min(u, u_of(vertex));
         return u;
     }
 
@@ -66,6 +69,7 @@ struct LeastU {
     }
 };
 
+/// Loose ends are no faults: they are joined to the axis.
 void check_profile(Faults& faults, const Sketch& sketch) {
     double size = 0;
     for (const Sketch::Point& p : sketch.vertices) size = std::max({size, std::abs(p.u), std::abs(p.v)});
@@ -75,12 +79,16 @@ void check_profile(Faults& faults, const Sketch& sketch) {
         faults.push_back("curve " + std::to_string(i) + " of its sketch crosses the axis: u must be 0 or more");
         return;
     }
-    for (const std::uint32_t vertex : open_ends(sketch)) {
-        if (sketch.vertices[vertex].u <= slack) continue;
-        faults.push_back("its sketch is open at vertex " + std::to_string(vertex) +
-                         ": curves must form closed loops, or end on the axis");
-        return;
+    if (!(reach_of(curve_pieces(sketch), 1, 0).second > 0)) {
+        faults.push_back("its sketch does not reach out from the axis");
     }
+}
+
+/// Do ends stay loose? Gaps that BRL-CAD does not see are closed, so they are no faults.
+bool is_open(const Sketch& sketch) {
+    if (open_ends(sketch).empty()) return false;
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    return !close_gaps(pieces).empty();
 }
 
 void add(Faults& faults, Faults more) { std::move(more.begin(), more.end(), std::back_inserter(faults)); }
@@ -95,11 +103,9 @@ Faults FaultsOf::operator()(const Extrude& s) const {
     if (sound && dependent(s.a, s.b, s.h)) faults.push_back("the vectors a and b and the height lie in one plane");
     const Faults of_sketch = sketch_faults(s.sketch);
     add(faults, of_sketch);
-    if (!of_sketch.empty()) return faults;
-    if (const std::vector<std::uint32_t> open = open_ends(s.sketch); !open.empty()) {
-        faults.push_back("its sketch is open at vertex " + std::to_string(open.front()) +
-                         ": curves must form closed loops");
-    }
+    if (!of_sketch.empty() || !is_open(s.sketch)) return faults;
+    faults.push_back("its sketch is open at vertex " + std::to_string(open_ends(s.sketch).front()) +
+                     ": curves must form closed loops");
     return faults;
 }
 

@@ -55,7 +55,7 @@ TEST_CASE("solid faults: triangle meshes") {
 
 TEST_CASE("solid faults: meshes of plates") {
     check_fault(changed(plates(), [](Bot& b) { b.thickness.pop_back(); }), "found 3 and 4");
-    check_fault(changed(plates(), [](Bot& b) { b.append.clear(); }), "found 4 and 0");
+    check_sound(changed(plates(), [](Bot& b) { b.append.clear(); }));  // half on each side
     check_fault(changed(plates(), [](Bot& b) { b.thickness[1] = -1; }), "the thickness of face 1");
     check_fault(changed(plates(), [](Bot& b) { b.thickness[1] = infinite; }), "the thickness of face 1");
     check_fault(changed(plates(), [](Bot& b) { b.append[3] = 2; }), "the side of face 3");
