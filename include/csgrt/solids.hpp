@@ -246,6 +246,7 @@ struct Revolve {
 /// A solid that csgrt knows by name only: refused, with its name and its user, when a rendered object needs it.
 struct Unsupported {
     std::string type;
+    std::string reason = {};  ///< what it lacks, if csgrt supports the type: its file of cells, its sketch
 };
 
 using Shape = std::variant<Ell, Tgc, Arb, Arbn, Half, Tor, Ehy, Part, Epa, Rpc, Rhc, Eto, Hyp, Superell, Hrt, Metaball,
