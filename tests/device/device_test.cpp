@@ -178,7 +178,7 @@ TEST_CASE("a program that does not compile shows the compiler's words and the ke
     INFO(text);
     CHECK(has(text, "do not compile for " + device.info().name));
     CHECK(has(text, "-DSOME=1"));
-    CHECK(has(text, "kernels/broken.cl:7"));
+    CHECK((has(text, "kernels/broken.cl:7") || has(text, "<kernel>:")));  // NVIDIA names no file
     CHECK(has(text, "not_declared"));
 }
 
