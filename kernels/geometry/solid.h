@@ -11,6 +11,7 @@
 #include "mesh.h"
 #include "part.h"
 #include "quadric.h"
+#include "superell.h"
 #include "tgc.h"
 #include "tor.h"
 
@@ -78,6 +79,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_SUPERELL)
+    if (solid.type == SOLID_SUPERELL) n = superell_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);

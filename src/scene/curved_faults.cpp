@@ -1,6 +1,8 @@
 #include "scene/curved_faults.hpp"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace csgrt {
 
@@ -17,6 +19,15 @@ void require_perpendicular(Faults& faults, const char* name, const Vec3& vector,
     const bool sound = require_length(faults, other, to);
     if (require_length(faults, name, vector) && sound && std::abs(dot(unit(vector), unit(to))) > angle_slack)
         faults.push_back(std::string(name) + " must be perpendicular to " + other);
+}
+
+/// Three semi-axes that span space.
+void require_axes(Faults& faults, const std::array<std::pair<const char*, Vec3>, 3>& axes) {
+    bool sound = true;
+    for (const auto& [name, axis] : axes) sound = require_length(faults, name, axis) && sound;
+    constexpr double least_volume = 1e-10;  // as for ellipsoids
+    if (sound && std::abs(dot(unit(axes[0].second), cross(unit(axes[1].second), unit(axes[2].second)))) < least_volume)
+        faults.push_back("the axes lie in one plane");
 }
 
 }  // namespace
@@ -76,6 +87,31 @@ Faults curved_faults(const Hyp& s) {
     require_perpendicular(faults, "the semi-axis a", s.a, "the height", s.h);
     require_positive(faults, "the semi-axis b", s.b);
     if (!(s.neck > 0 && s.neck < 1)) faults.push_back("the neck's share of the ends must lie between 0 and 1");
+    return faults;
+}
+
+Faults curved_faults(const Superell& s) {
+    Faults faults;
+    if (!all_finite(faults, s.v, s.a, s.b, s.c, s.n, s.e)) return faults;
+    require_axes(faults, {{{"the axis a", s.a}, {"the axis b", s.b}, {"the axis c", s.c}}});
+    for (const auto& [name, exponent] : {std::pair{"n", s.n}, std::pair{"e", s.e}})
+        if (!(exponent >= 0.01 && exponent <= 100))
+            faults.push_back(std::string("the exponent ") + name + " must lie between 0.01 and 100");
+    return faults;
+}
+
+Faults curved_faults(const Hrt& s) {
+    Faults faults;
+    if (!all_finite(faults, s.v, s.x, s.y, s.z, s.d)) return faults;
+    require_axes(faults, {{{"the axis x", s.x}, {"the axis y", s.y}, {"the axis z", s.z}}});
+    return faults;
+}
+
+Faults curved_faults(const Metaball& s) {
+    Faults faults;
+    if (!all_finite(faults, s.threshold)) return faults;
+    for (const Metaball::Point& point : s.points)
+        if (!all_finite(faults, point.position, point.strength, point.softness)) return faults;
     return faults;
 }
 

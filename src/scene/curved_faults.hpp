@@ -13,5 +13,8 @@ Faults curved_faults(const Rpc& s);
 Faults curved_faults(const Rhc& s);
 Faults curved_faults(const Eto& s);
 Faults curved_faults(const Hyp& s);
+Faults curved_faults(const Superell& s);
+Faults curved_faults(const Hrt& s);
+Faults curved_faults(const Metaball& s);
 
 }  // namespace csgrt

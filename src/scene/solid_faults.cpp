@@ -165,6 +165,9 @@ struct FaultsOf {
     Faults operator()(const Rhc& s) const { return curved_faults(s); }
     Faults operator()(const Eto& s) const { return curved_faults(s); }
     Faults operator()(const Hyp& s) const { return curved_faults(s); }
+    Faults operator()(const Superell& s) const { return curved_faults(s); }
+    Faults operator()(const Hrt& s) const { return curved_faults(s); }
+    Faults operator()(const Metaball& s) const { return curved_faults(s); }
     Faults operator()(const Bot& s) const { return mesh_faults(s); }
     Faults operator()(const Ars& s) const { return mesh_faults(s); }
     Faults operator()(const Nmg& s) const { return mesh_faults(s); }

@@ -65,3 +65,13 @@ TEST_CASE("solid faults: elliptical tori") {
     check_fault(Eto{none, z, {1.1, 0, 0}, 1, 0.5}, "across the axis");
     check_fault(Eto{none, z, y, 0, 0.5}, "the radius");
 }
+
+TEST_CASE("solid faults: superellipsoids and hearts") {
+    check_sound(Superell{none, x, y, z, 0.01, 100});
+    check_fault(Superell{none, x, none, z, 1, 1}, "axis b has length 0");
+    check_fault(Superell{none, x, y, {1, 1, 0}, 1, 1}, "one plane");
+    check_fault(Superell{none, x, y, z, 0, 1}, "exponent n");
+    check_fault(Superell{none, x, y, z, 1, infinite}, "not finite");
+    check_sound(Hrt{none, x, y, z, 1});
+    check_fault(Hrt{none, x, y, none, 1}, "axis z has length 0");
+}
