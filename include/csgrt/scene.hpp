@@ -114,6 +114,14 @@ struct Limits {
     static constexpr std::uint32_t file_nesting = 512;      ///< brackets inside brackets in a scene file
     static constexpr std::uint64_t instances = 20'000'000;  ///< solids after flattening, repeats counted
     static constexpr std::uint32_t faces = 65'535;          ///< of one arbn
+    static constexpr std::uint32_t triangles = 20'000'000;  ///< of one bot, ars or nmg
+    static constexpr std::uint32_t cells = 200'000'000;     ///< of one ebm or vol; heights of one dsp
+    static constexpr std::uint32_t curves = 100'000;        ///< of one sketch
+    static constexpr std::uint32_t curve_degree = 12;       ///< of a Bezier or NURB curve
+    static constexpr std::uint32_t pipe_points = 100'000;   ///< of one pipe
+    static constexpr std::uint32_t metaball_points = 10'000;  ///< of one metaball
+    static constexpr double least_exponent = 0.01;          ///< of a superell; what is less is a box
+    static constexpr double greatest_exponent = 20;         ///< of a superell; what is more is but its axes
     static constexpr int shine = 10'000;                    ///< beyond it a highlight is a point
 };
 

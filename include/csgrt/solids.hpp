@@ -148,9 +148,9 @@ struct Cline {
 /// Triangle mesh.
 struct Bot {
     enum class Mode : std::uint8_t {
-        surface,     ///< no inside: hits without thickness
-        volume,      ///< closed
-        plate,       ///< each triangle a plate of its thickness
+        surface,     ///< no inside: rendered as a skin of twice the scene's tolerance, along the ray
+        volume,      ///< closed: inside is what a ray enters by parity, whichever way the triangles face
+        plate,       ///< each triangle a plate of its thickness; one of thickness 0 is rendered as a skin
         plate_nocos  ///< the thickness is measured along the ray
     };
     enum class Orientation : std::uint8_t { unoriented, counterclockwise, clockwise };

@@ -3,7 +3,10 @@
 #define CSGRT_COLLECT_H
 
 #include "crossings.h"
+#include "extrude.h"
 #include "mesh.h"
+#include "plate.h"
+#include "revolve.h"
 #include "solid.h"
 
 FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
@@ -22,12 +25,21 @@ FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real o
 FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
     hits h;
     u32 count = 0;
+#if HAS_SOLID(SOLID_EXTRUDE)
+    if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, no_crossings(index, t_min, ends)));
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) return close_crossings(revolve_cross(g, solid, r, no_crossings(index, t_min, ends)));
+#endif
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
 #endif
 #if HAS_SOLID(SOLID_SUPERELL)
     if (solid.type == SOLID_SUPERELL)
         return close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
 #endif
     h = intersect(g, solid, r);
     if (h.count > 0 && h.out0 >= t_min) {

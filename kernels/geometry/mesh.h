@@ -7,47 +7,83 @@
 #include "crossings.h"
 #include "triangle.h"
 
-// All crossings count, those before t_min too: they tell whether the ray is inside there.
+// The triangles that a ray meets, one after the other in the order of the hierarchy. All count, those before t_min too:
+// they tell whether the ray is inside there.
+typedef struct {
+    GLOBAL const real* vertices;
+    GLOBAL const BvhNode* nodes;
+    GLOBAL const u32* triangles;
+    upright_ray ray;
+    slab_ray slab;
+    u32 node, node_count;  // the next node
+    u32 next, last;        // triangles of the leaf that are left
+    u32 triangle;          // the one that was met, and where; NONE: no more
+    real t;
+} mesh_walk;
+
+FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {
+    mesh_walk w;
+    ray3 inner;
+    w.vertices = g.reals + mesh[MESH_VERTICES];
+    w.nodes = g.inner_nodes + mesh[MESH_NODES];
+    w.triangles = mesh + MESH_TRIANGLES;
+    w.ray = make_upright(to_local(place, r));
+    inner.o = w.ray.ray.o;
+    inner.d = w.ray.ray.d;
+    w.slab = make_slab_ray(inner, make_vec3(0, 0, 0), MESH_RADIUS, -REAL_INFINITY);
+    w.node = 0;
+    w.node_count = w.slab.hits_sphere ? mesh[MESH_NODE_COUNT] : 0;
+    w.next = w.last = 0;
+    w.triangle = NONE;
+    w.t = 0;
+    return w;
+}
+
+FN mesh_walk next_triangle(mesh_walk w) {
+    w.triangle = NONE;
+    for (;;) {
+        while (w.next < w.last) {
+            triangle_hit h = meet_triangle(w.ray, w.vertices, w.triangles + 3 * (size_t)w.next);
+            ++w.next;
+            if (h.hit) {
+                w.triangle = w.next - 1;
+                w.t = h.t;
+                return w;
+            }
+        }
+        if (w.node >= w.node_count) return w;
+        {
+            BvhNode node = w.nodes[w.node];
+            if (!box_is_hit(w.slab, node)) {
+                w.node = node.skip;
+            } else if (node.leaf) {
+                w.next = node.leaf >> BVH_LEAF_SHIFT;
+                w.last = w.next + (node.leaf & BVH_LEAF_MASK);
+                w.node = node.skip;
+            } else {
+                ++w.node;
+            }
+        }
+    }
+}
+
 FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
     crossings c = no_crossings(index, t_min, ends);
-    GLOBAL const u32* mesh = g.words + solid.first_word;
-    GLOBAL const real* vertices = g.reals + mesh[MESH_VERTICES];
-    GLOBAL const BvhNode* nodes = g.inner_nodes + mesh[MESH_NODES];
-    GLOBAL const u32* triangles = mesh + MESH_TRIANGLES;
-    u32 node_count = mesh[MESH_NODE_COUNT], i = 0;
-    upright_ray u = make_upright(to_local(g.reals + solid.first_real, r));
-    slab_ray s;
-    ray3 inner;
-    inner.o = u.ray.o;
-    inner.d = u.ray.d;
-    s = make_slab_ray(inner, make_vec3(0, 0, 0), MESH_RADIUS, -REAL_INFINITY);
-    if (!s.hits_sphere) return 0;
-    while (i < node_count) {
-        BvhNode node = nodes[i];
-        if (!box_is_hit(s, node)) {
-            i = node.skip;
-        } else if (node.leaf) {
-            u32 first = node.leaf >> BVH_LEAF_SHIFT, end = first + (node.leaf & BVH_LEAF_MASK);
-            for (; first < end; ++first) {
-                triangle_hit h = meet_triangle(u, vertices, triangles + 3 * (size_t)first);
-                if (h.hit) c = cross(c, h.t, first);
-            }
-            i = node.skip;
-        } else {
-            ++i;
-        }
+    mesh_walk w = start_mesh_walk(g, g.words + solid.first_word, g.reals + solid.first_real, r);
+    for (;;) {
+        w = next_triangle(w);
+        if (w.triangle == NONE) break;
+        c = cross(c, w.t, w.triangle);
     }
     return close_crossings(c);
 }
 
 // Against the ray where it goes in, along it where it goes out: the triangles may face either way.
-FN vec3 mesh_normal(Geometry g, SolidRecord solid, ray3 r, u32 surface) {
-    GLOBAL const real* p = g.reals + solid.first_real;
-    GLOBAL const u32* mesh = g.words + solid.first_word;
+FN vec3 mesh_normal(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, u32 surface) {
     GLOBAL const u32* corners = mesh + MESH_TRIANGLES + 3 * (size_t)(surface & ~LEAVES);
     vec3 n = triangle_normal(g.reals + mesh[MESH_VERTICES], corners);
-    int along = dot3(n, affine_linear(p, r.d)) > 0;
-    n = affine_normal(p, n);
+    int along = dot3(n, affine_linear(place, r.d)) > 0;
+    n = affine_normal(place, n);
     return along == ((surface & LEAVES) != 0) ? n : scale(n, REAL(-1));
 }
 

@@ -37,6 +37,13 @@ FN span clip_to_face(span s, Geometry g, u32 index, ray3 r, u32 surface) {
     return clip(s, g.planes[ref >> 1], ref & 1u, r, surface);
 }
 
+// Where the ray meets the plane: the same t, to the last bit, as clip's. Not finite if it runs along it.
+FN real face_distance(Geometry g, u32 index, ray3 r) {
+    PlaneRecord plane = g.planes[g.plane_refs[index] >> 1];
+    vec3 n = make_vec3(plane.nx, plane.ny, plane.nz);
+    return -(dot3(n, r.o) - plane.d) / dot3(n, r.d);
+}
+
 FN vec3 face_normal(Geometry g, u32 index) {
     PlaneRef ref = g.plane_refs[index];
     PlaneRecord plane = g.planes[ref >> 1];

@@ -7,10 +7,13 @@
 #include "ehy.h"
 #include "ell.h"
 #include "eto.h"
+#include "extrude.h"
 #include "half.h"
 #include "mesh.h"
 #include "part.h"
+#include "plate.h"
 #include "quadric.h"
+#include "revolve.h"
 #include "superell.h"
 #include "tgc.h"
 #include "tor.h"
@@ -83,11 +86,21 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #if HAS_SOLID(SOLID_SUPERELL)
     if (solid.type == SOLID_SUPERELL) n = superell_normal(g.reals + solid.first_real, r, t);
 #endif
+#if HAS_SOLID(SOLID_EXTRUDE)
+    if (solid.type == SOLID_EXTRUDE) n = extrude_normal(g, solid, r, t, surface);
+#endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) n = mesh_normal(g, solid, r, surface);
+    if (solid.type == SOLID_MESH) n = mesh_normal(g, g.words + solid.first_word, g.reals + solid.first_real, r, surface);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE)
+        n = mesh_normal(g, g.words + solid.first_word + PLATE_MESH, g.reals + solid.first_real, r, surface);
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) n = revolve_normal(g, solid, r, t, surface);
 #endif
     length2 = dot3(n, n);
     if (!(length2 > 0) || length2 == REAL_INFINITY) {

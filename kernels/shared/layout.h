@@ -29,6 +29,11 @@
 #define SOLID_REVOLVE 15
 #define SOLID_TYPES 16
 
+// How a revolve is cut.
+#define REVOLVE_WHOLE 0  // not at all
+#define REVOLVE_LESS 1   // at most half a turn: what lies between its two planes stays
+#define REVOLVE_MORE 2   // more: what lies between them is cut off
+
 typedef struct {
     u32 type;
     u32 first_real;

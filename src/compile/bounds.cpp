@@ -100,6 +100,13 @@ struct BrlCad {
         const Wide b = glm::normalize(glm::cross(wide(s.h), a)) * static_cast<long double>(s.r_2);
         return united(parallelogram_box(m, wide(s.v), a, b), parallelogram_box(m, wide(s.v) + wide(s.h), a, b));
     }
+    Box operator()(const Vol& s) const {
+        const Vec3 half{0.5 * s.width * s.cell.x, 0.5 * s.depth * s.cell.y, 0.5 * s.height * s.cell.z};
+        const WideMatrix own = linear_part(s.matrix);
+        const Wide x = own[0] * static_cast<long double>(half.x), y = own[1] * static_cast<long double>(half.y);
+        return united(parallelogram_box(m, transform_point(s.matrix, {half.x, half.y, 0}), x, y),
+                      parallelogram_box(m, transform_point(s.matrix, {half.x, half.y, 2 * half.z}), x, y));
+    }
     template <class Other>
     Box operator()(const Other& s) const {
         return Tight{m}(s);

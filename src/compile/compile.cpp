@@ -177,6 +177,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
         throw Error(Status::scene, message);
     }
 
+    set_surroundings(scene, compiled);
     std::vector<Box> boxes, brlcad_boxes;
     boxes.reserve(flat.instances.size());
     for (const Instance& instance : flat.instances)
@@ -203,7 +204,6 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
 
     set_regions(flat, brlcad_boxes, compiled);
     list_regions(compiled);
-    set_surroundings(scene, compiled);
     compiled.hash = hash_of(compiled);
     return compiled;
 }

@@ -40,8 +40,9 @@ MeshFrame frame_of(const Triangles& mesh) {
     return frame;
 }
 
-/// Before the vertices stand center and scale, which only the host reads. Returns the mesh's first word.
-std::uint32_t add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene) {
+/// Before the vertices stand center and scale, which only the host reads. Returns the faces in the order of the
+/// hierarchy's leaves.
+std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene) {
     if (mesh.faces.size() > most_triangles)
         throw Error(Status::scene, "a mesh of " + std::to_string(mesh.faces.size()) +
                                        " triangles cannot be rendered; less than 2^28 can");
@@ -62,7 +63,7 @@ std::uint32_t add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledSc
         boxes.push_back(empty_box);
         for (const std::uint32_t corner : face) extend(boxes.back(), local[corner]);
     }
-    const Hierarchy hierarchy = build_bvh(boxes, {}, 1, 0);
+    Hierarchy hierarchy = build_bvh(boxes, {}, 1, 0);
     scene.inner_nodes.insert(scene.inner_nodes.end(), hierarchy.nodes.begin(), hierarchy.nodes.end());
 
     scene.words.resize(first_word + MESH_TRIANGLES);
@@ -71,32 +72,77 @@ std::uint32_t add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledSc
     scene.words[first_word + MESH_NODE_COUNT] = static_cast<std::uint32_t>(hierarchy.nodes.size());
     for (const std::uint32_t face : hierarchy.order)
         scene.words.insert(scene.words.end(), mesh.faces[face].begin(), mesh.faces[face].end());
-    return static_cast<std::uint32_t>(first_word);
+    return std::move(hierarchy.order);
 }
 
-/// Puts a solid's mesh in its place. `own` places the mesh in the solid.
-template <class S>
-void place_mesh(Packer& packer, const S& solid, const Matrix& own) {
+/// How thick a surface without thickness is seen, millimetres: a weaver that takes ends within the tolerance for one
+/// still keeps it.
+double skin_of(double tolerance) { return tolerance > 0 ? 2 * tolerance : 1e-9; }
+
+/// Where the words of a solid are; `add` makes them if it has none yet.
+template <class Add>
+std::uint32_t shared_words(Packer& packer, const void* solid, const Add& add) {
+    const auto next = static_cast<std::uint32_t>(packer.scene.words.size());
+    const auto [known, is_new] = packer.shared.emplace(solid, next);
+    if (is_new) add();
+    return known->second;
+}
+
+/// Puts a mesh whose words begin at `mesh` in its place; `own` places it in the solid.
+void place_mesh(Packer& packer, std::uint32_t mesh, const Matrix& own) {
     CompiledScene& scene = packer.scene;
-    const auto [known, is_new] = packer.shared.emplace(&solid, 0u);
-    if (is_new) {
-        const Triangles mesh = triangles_of(solid);
-        known->second = add_mesh(mesh, frame_of(mesh), scene);
-    }
-    packer.record.type = SOLID_MESH;
-    packer.record.first_word = known->second;
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
-    const double* f = scene.reals.data() + scene.words[known->second + MESH_VERTICES] - 4;
+    const double* f = scene.reals.data() + scene.words[mesh + MESH_VERTICES] - 4;
     const long double scale = f[3];
     packer.frame(transform_point(own, {f[0], f[1], f[2]}), linear_part(own) * scale);
 }
 
+template <class S>
+void pack_mesh(Packer& packer, const S& solid, const Matrix& own) {
+    packer.record.type = SOLID_MESH;
+    packer.record.first_word = shared_words(packer, &solid, [&] {
+        const Triangles mesh = triangles_of(solid);
+        add_mesh(mesh, frame_of(mesh), packer.scene);
+    });
+    place_mesh(packer, packer.record.first_word, own);
+}
+
+void pack_plates(Packer& packer, const Bot& bot) {
+    CompiledScene& scene = packer.scene;
+    packer.record.type = SOLID_PLATE;
+    packer.record.first_word = shared_words(packer, &bot, [&] {
+        const std::size_t first_word = scene.words.size();
+        scene.words.resize(first_word + PLATE_MESH);
+        const Triangles mesh = triangles_of(bot);
+        const MeshFrame frame = frame_of(mesh);
+        const std::vector<std::uint32_t> order = add_mesh(mesh, frame, scene);
+        const Box box = plates_box(bot);
+        const Vec3 low = frame(box.low), high = frame(box.high);
+        for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z}) scene.reals.push_back(x);
+        scene.words[first_word + PLATE_EXTENTS] = static_cast<std::uint32_t>(scene.reals.size());
+        scene.words[first_word + PLATE_ALONG_RAY] = bot.mode == Bot::Mode::plate_nocos ? 1 : 0;
+        for (const std::uint32_t face : order) {
+            const double thickness = bot.mode == Bot::Mode::surface ? 0 : bot.thickness[face] / frame.scale;
+            const bool append = !bot.append.empty() && bot.append[face] != 0;
+            scene.reals.push_back(append ? 0 : thickness / 2);
+            scene.reals.push_back(append ? thickness : thickness / 2);
+        }
+    });
+    place_mesh(packer, packer.record.first_word + PLATE_MESH, identity);
+    packer.real(skin_of(scene.tolerance));
+}
+
 }  // namespace
 
-void Packer::operator()(const Bot& s) { place_mesh(*this, s, identity); }
-void Packer::operator()(const Ars& s) { place_mesh(*this, s, identity); }
-void Packer::operator()(const Nmg& s) { place_mesh(*this, s, identity); }
-void Packer::operator()(const Vol& s) { place_mesh(*this, s, grid_matrix(s)); }
-void Packer::operator()(const Dsp& s) { place_mesh(*this, s, s.matrix); }
+void Packer::operator()(const Bot& s) {
+    if (s.mode == Bot::Mode::volume)
+        pack_mesh(*this, s, identity);
+    else
+        pack_plates(*this, s);
+}
+void Packer::operator()(const Ars& s) { pack_mesh(*this, s, identity); }
+void Packer::operator()(const Nmg& s) { pack_mesh(*this, s, identity); }
+void Packer::operator()(const Vol& s) { pack_mesh(*this, s, grid_matrix(s)); }
+void Packer::operator()(const Dsp& s) { pack_mesh(*this, s, s.matrix); }
 
 }  // namespace csgrt

@@ -1,12 +1,87 @@
 // Solids that outlines make.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compile/axis_frame.hpp"
+#include "compile/cell_outline.hpp"
 #include "compile/packer.hpp"
+#include "compile/polyhedron.hpp"
+#include "compile/sketch_writer.hpp"
 
 namespace csgrt {
 
-void Packer::operator()(const Ebm&) { throw Error(Status::scene, "solids of type 'ebm' cannot be rendered"); }
+namespace {
 
-void Packer::operator()(const Extrude&) { throw Error(Status::scene, "solids of type 'extrude' cannot be rendered"); }
+/// A model's vectors after the solid's own matrix.
+struct Prism {
+    Wide v, a, b, h;
+};
 
-void Packer::operator()(const Revolve&) { throw Error(Status::scene, "solids of type 'revolve' cannot be rendered"); }
+void extrude(Packer& packer, const Prism& prism, const SketchParts& parts, const void* key) {
+    const auto& [v, a, b, h] = prism;
+    const Matrix& matrix = packer.matrix;
+    packer.record.type = SOLID_EXTRUDE;
+    const PackedSketch sketch = share_sketch(packer.scene, packer.shared, key, parts, SketchCenter::middle);
+    packer.record.first_word = sketch.first_word;
+    packer.record.first_real = position_of(packer.scene.reals.size());
+    const long double u0 = sketch.u, v0 = sketch.v, unit = sketch.unit;
+    packer.frame(v + u0 * a + v0 * b + 0.5L * h, {unit * a, unit * b, 0.5L * h});
+
+    const Wide along = transform_direction(matrix, h), across_a = transform_direction(matrix, a);
+    const Wide across_b = transform_direction(matrix, b);
+    Wide end = glm::cross(across_a, across_b);
+    if (glm::dot(end, along) < 0) end = -end;
+    packer.face(plane_through(transform_point(matrix, v), -end));
+    packer.face(plane_through(transform_point(matrix, v + h), end));
+    for (const StraightLine& line : parts.lines) {
+        const Wide edge = (line.u1 - line.u0) * across_a + (line.v1 - line.v0) * across_b;
+        const Wide normal = glm::cross(edge, along);
+        packer.face(plane_through(transform_point(matrix, v + line.u0 * a + line.v0 * b),
+                                  glm::dot(normal, normal) > 0 ? normal : end));
+    }
+}
+
+}  // namespace
+
+void Packer::operator()(const Extrude& s) {
+    extrude(*this, {wide(s.v), wide(s.a), wide(s.b), wide(s.h)}, sketch_parts(closed_pieces(s.sketch)), &s.sketch);
+}
+
+void Packer::operator()(const Ebm& s) {
+    extrude(*this,
+            {transform_point(s.matrix, Wide(0)), transform_direction(s.matrix, Wide(1, 0, 0)),
+             transform_direction(s.matrix, Wide(0, 1, 0)), transform_direction(s.matrix, Wide(0, 0, s.height))},
+            {cell_outline(s), {}}, &s);
+}
+
+void Packer::operator()(const Revolve& s) {
+    record.type = SOLID_REVOLVE;
+    SketchParts parts = sketch_parts(turned_pieces(s.sketch));
+    const auto flat = [](const StraightLine& line) { return line.v0 == line.v1; };
+    std::stable_partition(parts.lines.begin(), parts.lines.end(), flat);
+    const PackedSketch sketch = share_sketch(scene, shared, &s.sketch, parts, SketchCenter::axis);
+    record.first_word = sketch.first_word;
+    record.first_real = position_of(scene.reals.size());
+
+    const AxisFrame axes = axis_frame(s);
+    const long double unit = sketch.unit;
+    const Wide v = wide(s.v);
+    frame(v + static_cast<long double>(sketch.v) * axes.z, {unit * axes.x, unit * axes.y, unit * axes.z});
+    const long double angle = s.angle;
+    const bool whole = s.angle >= 2 * std::numbers::pi, less = s.angle <= std::numbers::pi;
+    real(whole ? REVOLVE_WHOLE : less ? REVOLVE_LESS : REVOLVE_MORE);
+
+    const WideMatrix normals = glm::transpose(glm::inverse(linear_part(matrix)));
+    if (!whole) {
+        // Outward from what lies between the two: of the solid, or of what is missing.
+        const Wide first = less ? -axes.y : axes.y;
+        const Wide turned = std::cos(angle) * axes.y - std::sin(angle) * axes.x;
+        face(plane_through(transform_point(matrix, v), normals * first));
+        face(plane_through(transform_point(matrix, v), normals * (less ? turned : -turned)));
+    }
+    for (const StraightLine& line : parts.lines)
+        if (flat(line)) face(plane_through(transform_point(matrix, v + line.v0 * axes.z), normals * axes.z));
+}
 
 }  // namespace csgrt

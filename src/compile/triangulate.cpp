@@ -42,10 +42,10 @@ public:
     }
 
     void outline(const std::vector<std::uint32_t>& loop) { start_ = ring(loop, area_of(loop) < 0); }
-    void holes(const std::vector<std::vector<std::uint32_t>>& loops) {
+    void holes(const std::vector<std::vector<std::uint32_t>>& loops, std::size_t outline) {
         std::vector<std::size_t> rightmost;
-        for (std::size_t i = 1; i < loops.size(); ++i) {
-            if (loops[i].empty()) continue;
+        for (std::size_t i = 0; i < loops.size(); ++i) {
+            if (i == outline || loops[i].empty()) continue;
             const std::size_t first = ring(loops[i], area_of(loops[i]) > 0);
             std::size_t best = first;
             for (std::size_t c = corners_[first].next; c != first; c = corners_[c].next)
@@ -199,10 +199,19 @@ void Polygon::cut(std::vector<std::array<std::uint32_t, 3>>& triangles) {
 
 void triangulate(const std::vector<Vec3>& vertices, const std::vector<std::vector<std::uint32_t>>& loops,
                  std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    if (loops.empty() || loops[0].empty()) return;
-    Polygon polygon(vertices, normal_of(vertices, loops[0]));
-    polygon.outline(loops[0]);
-    polygon.holes(loops);
+    std::size_t outline = loops.size();
+    Wide normal(0);
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        if (loops[i].empty()) continue;
+        const Wide n = normal_of(vertices, loops[i]);
+        if (outline < loops.size() && glm::dot(n, n) <= glm::dot(normal, normal)) continue;
+        outline = i;
+        normal = n;
+    }
+    if (outline == loops.size()) return;
+    Polygon polygon(vertices, normal);
+    polygon.outline(loops[outline]);
+    polygon.holes(loops, outline);
     polygon.cut(triangles);
 }
 

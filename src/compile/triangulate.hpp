@@ -9,7 +9,7 @@
 
 namespace csgrt {
 
-/// Appends triangles that cover a face, whose first loop is its outline and whose others are holes. They have the
+/// Appends triangles that cover a face, whose largest loop is its outline and whose others are holes. They have the
 /// loops' corners only, and every edge of the loops once: faces that share edges stay joined, whatever happens.
 /// A face that is not flat is cut as it is seen along its mean normal. One that crosses itself there is covered by
 /// parity.

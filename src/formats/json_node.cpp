@@ -73,6 +73,14 @@ int JsonNode::integer(int low, int high, int otherwise) const {
     return otherwise;
 }
 
+std::uint32_t JsonNode::count(std::uint32_t otherwise) const {
+    constexpr std::uint32_t most = UINT32_MAX;
+    const double value = number(otherwise);
+    if (value >= 0 && value <= most && value == std::trunc(value)) return static_cast<std::uint32_t>(value);
+    fault(value == std::trunc(value) ? "must be from 0 to " + std::to_string(most) : "expected a whole number");
+    return otherwise;
+}
+
 std::string JsonNode::string() const {
     const std::string* data = expect<std::string>("a string");
     return data == nullptr ? std::string() : *data;
@@ -82,6 +90,18 @@ std::string JsonNode::name() const {
     std::string text = string();
     if (is_string() && text.empty()) fault("a name must not be empty");
     return text;
+}
+
+std::size_t JsonNode::choice(const std::vector<std::string_view>& names, std::size_t otherwise) const {
+    const std::string name = string();
+    if (!is_string()) return otherwise;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    std::string known;
+    for (const std::string_view each : names) known += (known.empty() ? "one of " : ", ") + std::string(each);
+    const std::string nearest = did_you_mean(name, names);
+    fault("'" + name + "' is not known here", nearest.empty() ? known : nearest);
+    return otherwise;
 }
 
 std::vector<double> JsonNode::numbers(std::size_t count) const {

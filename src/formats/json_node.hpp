@@ -2,6 +2,7 @@
 // neutral value: a scene with findings is never handed out.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +46,11 @@ public:
     double not_negative(double otherwise) const;
     double positive() const;
     int integer(int low, int high, int otherwise) const;
+    std::uint32_t count(std::uint32_t otherwise = 0) const;  ///< a whole number from 0 to 2^32 - 1
     std::string string() const;
     std::string name() const;  ///< a string that is not empty
+    /// The number of the name that the string is, one of `names`.
+    std::size_t choice(const std::vector<std::string_view>& names, std::size_t otherwise) const;
     Vec3 vector() const;       ///< three numbers, as they stand
     Vec3 color() const;        ///< three numbers from 0 to 1
     /// The same in millimetres.

@@ -49,7 +49,16 @@ Matrix read_scale(const JsonNode& node) {
     return {s.x, 0, 0, 0, 0, s.y, 0, 0, 0, 0, s.z, 0, 0, 0, 0, 1};
 }
 
+/// Of a tree's node: millimetres to millimetres, then moved.
 Matrix read_matrix(const JsonNode& node) {
+    Matrix m = read_json_matrix(node);
+    for (const std::size_t i : {3, 7, 11}) m[i] *= node.file().unit;
+    return m;
+}
+
+}  // namespace
+
+Matrix read_json_matrix(const JsonNode& node) {
     const std::vector<double> numbers = node.numbers(16);
     Matrix m;
     std::copy(numbers.begin(), numbers.end(), m.begin());
@@ -58,11 +67,8 @@ Matrix read_matrix(const JsonNode& node) {
         node.fault("the last row of a matrix must be 0 0 0 1",
                    "row by row, points as columns: the fourth number of each row moves the object");
     }
-    for (const std::size_t i : {3, 7, 11}) m[i] *= node.file().unit;
     return m;
 }
-
-}  // namespace
 
 std::optional<Matrix> read_json_placement(const JsonObject& node) {
     const JsonNode matrix = node["matrix"], scale = node["scale"], rotate = node["rotate"],

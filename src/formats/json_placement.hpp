@@ -9,6 +9,9 @@
 
 namespace csgrt {
 
+/// 16 numbers, row by row, as they stand: which of them are lengths depends on what the matrix places.
+Matrix read_json_matrix(const JsonNode& node);
+
 /// The matrix of a node; nothing if it has none of the keys.
 std::optional<Matrix> read_json_placement(const JsonObject& node);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/friendly_solids.hpp"
+#include "formats/json_solid_readers.hpp"
 #include "scene/nearest.hpp"
 #include "scene/vector.hpp"
 
@@ -106,6 +107,25 @@ constexpr std::pair<std::string_view, Read> readers[] = {
     {"half", read_half},
     {"tor", read_tor},
     {"ehy", read_ehy},
+    {"part", read_json_part},
+    {"epa", read_json_epa},
+    {"rpc", read_json_rpc},
+    {"rhc", read_json_rhc},
+    {"eto", read_json_eto},
+    {"hyp", read_json_hyp},
+    {"superell", read_json_superell},
+    {"hrt", read_json_hrt},
+    {"metaball", read_json_metaball},
+    {"pipe", read_json_pipe},
+    {"cline", read_json_cline},
+    {"bot", read_json_bot},
+    {"ars", read_json_ars},
+    {"nmg", read_json_nmg},
+    {"ebm", read_json_ebm},
+    {"vol", read_json_vol},
+    {"dsp", read_json_dsp},
+    {"extrude", read_json_extrude},
+    {"revolve", read_json_revolve},
     {"unsupported", read_unsupported},
 };
 

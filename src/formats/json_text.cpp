@@ -1,6 +1,8 @@
 #include "formats/json_text.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -34,6 +36,33 @@ void append_flat(std::string& out, const ordered_json& value, std::size_t limit)
     }
 }
 
+bool is_number_list(const ordered_json& value) {
+    return value.is_array() &&
+           std::all_of(value.begin(), value.end(), [](const ordered_json& item) { return item.is_number(); });
+}
+
+/// Numbers, as many on a line as there is room for.
+void append_filled(std::string& out, const ordered_json& numbers, std::size_t indent) {
+    const std::string line = '\n' + std::string(indent + step, ' ');
+    std::size_t column = widest;
+    out += '[';
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        std::string item;
+        append_flat(item, numbers[i], widest);
+        if (i + 1 < numbers.size()) item += ',';
+        if (column + 1 + item.size() > widest) {
+            out += line;
+            column = indent + step;
+        } else {
+            out += ' ';
+            ++column;
+        }
+        out += item;
+        column += item.size();
+    }
+    out += '\n' + std::string(indent, ' ') + ']';
+}
+
 }  // namespace
 
 void append_json(std::string& out, const ordered_json& value, std::size_t indent, std::size_t column) {
@@ -42,6 +71,10 @@ void append_json(std::string& out, const ordered_json& value, std::size_t indent
     append_flat(flat, value, room);
     if (!value.is_structured() || flat.size() <= room) {
         out += flat;
+        return;
+    }
+    if (is_number_list(value)) {
+        append_filled(out, value, indent);
         return;
     }
     const bool object = value.is_object();

@@ -1,4 +1,5 @@
-// Prints JSON for people: what fits stands on one line, what does not is broken into its parts.
+// Prints JSON for people: what fits stands on one line, what does not is broken into its parts, and long
+// lists of numbers fill their lines.
 #pragma once
 
 #include <cstddef>

@@ -16,6 +16,7 @@ class JsonUnit {
 public:
     explicit JsonUnit(double millimetres) : unit_(millimetres) {}
 
+    double millimetres() const { return unit_; }
     bool exact() const { return exact_; }
     bool finite() const { return finite_; }
     void forget_infinities() { finite_ = true; }

@@ -98,6 +98,11 @@ TEST_CASE("triangulate: holes in a row, one seen past another, corners level wit
     diamonds.loop({{-2, 0}, {-1, -1}, {0, 0}, {-1, 1}});
     diamonds.loop({{1, 0}, {2, -1}, {3, 0}, {2, 1}});
     diamonds.check();
+    std::swap(diamonds.loops[0], diamonds.loops[2]);  // the largest loop is the outline, wherever it stands
+    std::vector<Face> triangles;
+    triangulate(diamonds.vertices, diamonds.loops, triangles);
+    CHECK(triangles.size() == 14);
+    CHECK(diamonds.covered() == Approx(32 - 2 - 2));
 }
 
 TEST_CASE("triangulate: rough faces with many rough holes", "[compile]") {

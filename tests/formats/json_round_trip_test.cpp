@@ -12,6 +12,7 @@
 #include "formats/friendly_solids.hpp"
 #include "formats/parse_text.hpp"
 #include "formats/json_writer.hpp"
+#include "formats/random_shape.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"
 
@@ -24,75 +25,6 @@ void check_round_trip(const Scene& scene) {
     const Scene again = scene_of(text);
     CHECK(same_scene(scene, again));
     CHECK(json_scene_text(again) == text);
-}
-
-/// Doubles of every size, sign and length.
-class Numbers {
-public:
-    explicit Numbers(unsigned seed) : random_(seed) {}
-    double operator()() {
-        switch (random_() % 6) {
-            case 0:
-                return static_cast<double>(random_() % 2000) - 1000;
-            case 1:
-                return random_() % 2 ? 0.0 : -0.0;
-            case 2:
-                return std::ldexp(1 + uniform_(random_), static_cast<int>(random_() % 600) - 300);
-            case 3:
-                return -uniform_(random_);
-            case 4:
-                return 25.4 * (static_cast<double>(random_() % 1000) / 8);
-            default:
-                return uniform_(random_) * 1e4;
-        }
-    }
-    Vec3 vector() {
-        const double x = (*this)(), y = (*this)(), z = (*this)();
-        return {x, y, z};
-    }
-    Vec3 color() {
-        const double r = uniform_(random_), g = uniform_(random_), b = uniform_(random_);
-        return {r, g, b};
-    }
-    Vec3 direction() {
-        const double angle = 6 * uniform_(random_), z = 0.9 * uniform_(random_), r = std::sqrt(1 - z * z);
-        return {r * std::cos(angle), r * std::sin(angle), z};
-    }
-    int integer() { return static_cast<int>(random_()); }
-    bool coin() { return random_() % 2 == 0; }
-    std::size_t below(std::size_t n) { return random_() % n; }
-
-private:
-    std::mt19937 random_;
-    std::uniform_real_distribution<double> uniform_{0, 1};
-};
-
-Shape random_shape(Numbers& n) {
-    switch (n.below(11)) {
-        case 0:
-            return Ell{n.vector(), n.vector(), n.vector(), n.vector()};
-        case 1:
-            return sphere(n.vector(), 1 + n.color().x);
-        case 2:
-            return Tgc{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()};
-        case 3:
-            return cone(n.vector(), {0, 0, 3}, 2, n.coin() ? 2 : 0);
-        case 4:
-            return Arb{
-                {n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()}};
-        case 5:
-            return arb(std::vector<Vec3>(4 + n.below(5), n.vector()));
-        case 6:
-            return Arbn{{{n.direction(), n()}, {n.direction(), n()}}};
-        case 7:
-            return Half{{n.direction(), n()}};
-        case 8:
-            return Tor{n.vector(), n.vector(), n(), n()};
-        case 9:
-            return Ehy{n.vector(), n.vector(), n.direction(), n(), n(), n()};
-        default:
-            return Unsupported{"pipe \"\\ \u00e9\n"};
-    }
 }
 
 Tree random_tree(Numbers& n) {
@@ -184,6 +116,23 @@ TEST_CASE("json round trip: friendly solids stay friendly, and others keep their
     CHECK(type(box({0, 0, 0}, {1, 2, 3})) == "box");
     CHECK(type(arb({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})) == "arb4");
     CHECK(type(arb({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}})) == "arb6");
+}
+
+TEST_CASE("json round trip: every type of solid, in all units") {
+    constexpr std::size_t types = std::variant_size_v<Shape>;
+    Numbers n(11);
+    for (std::size_t type = 0; type < types; ++type) {
+        for (int i = 0; i < 40; ++i) {
+            Scene scene = make_scene({solid("s", random_shape(n, type))});
+            INFO(type_name(std::get<Solid>(scene.objects[0]).shape));
+            REQUIRE(std::get<Solid>(scene.objects[0]).shape.index() == type);
+            if (i % 2 == 1) {
+                scene.units = i % 4 == 1 ? "in" : "cm";
+                scene.unit_length = i % 4 == 1 ? 25.4 : 10;
+            }
+            check_round_trip(scene);
+        }
+    }
 }
 
 TEST_CASE("json round trip: units are kept where that is exact, and named where it is not") {

@@ -48,7 +48,30 @@ const json& sound_example(const std::string& form) {
         "half": {"type": "half", "normal": [0, 0, 1], "distance": 0},
         "tor": {"type": "tor", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 2, "tube": 1},
         "ehy": {"type": "ehy", "base": [0, 0, 0], "height": [0, 0, 1], "a": [1, 0, 0], "r1": 1, "r2": 1, "c": 1},
-        "unsupported": {"type": "unsupported", "was": "pipe"}
+        "metaball_point": {"position": [0, 0, 0], "strength": 1}, "pipe_point": {"position": [9, 0, 0], "outer": 1},
+        "sketch": {"vertices": [[0, 0]], "curves": []},
+        "line": {"line": [0, 1]}, "arc": {"arc": [0, 1], "radius": 2}, "circle": {"circle": [0, 1]}, "bezier": {"bezier": [0, 1]},
+        "nurb": {"nurb": [0, 1], "order": 2, "knots": [0, 0, 1, 1]},
+        "part": {"type": "part", "base": [0, 0, 0], "height": [0, 0, 1], "radius": 1, "top_radius": 0},
+        "epa": {"type": "epa", "base": [0, 0, 0], "height": [0, 0, 1], "a": [1, 0, 0], "r1": 1, "r2": 1},
+        "rpc": {"type": "rpc", "base": [0, 0, 0], "height": [0, 0, 1], "b": [1, 0, 0], "half_width": 1},
+        "rhc": {"type": "rhc", "base": [0, 0, 0], "height": [0, 0, 1], "b": [1, 0, 0], "half_width": 1, "c": 1},
+        "eto": {"type": "eto", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 3, "c": [1, 0, 0], "d": 1},
+        "hyp": {"type": "hyp", "base": [0, 0, 0], "height": [0, 0, 1], "a": [1, 0, 0], "b": 1, "neck": 0.5},
+        "superell": {"type": "superell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 1, 0], "c": [0, 0, 1]},
+        "hrt": {"type": "hrt", "center": [0, 0, 0], "x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]},
+        "metaball": {"type": "metaball", "points": []},
+        "pipe": {"type": "pipe", "points": []},
+        "cline": {"type": "cline", "base": [0, 0, 0], "height": [0, 0, 1], "radius": 1},
+        "bot": {"type": "bot", "vertices": [[0, 0, 0]], "faces": [[0, 0, 0]]},
+        "ars": {"type": "ars", "curves": []},
+        "nmg": {"type": "nmg", "vertices": [], "faces": [[0, 1, 2]]},
+        "ebm": {"type": "ebm", "width": 1, "depth": 1, "height": 1, "cells": "#"},
+        "vol": {"type": "vol", "width": 1, "depth": 1, "height": 1, "cell": [1, 1, 1], "low": 1, "cells": ["255"]},
+        "dsp": {"type": "dsp", "width": 2, "depth": 1, "heights": "1 2"},
+        "extrude": {"type": "extrude", "base": [0, 0, 0], "height": [0, 0, 1], "sketch": {"vertices": [], "curves": []}},
+        "revolve": {"type": "revolve", "base": [0, 0, 0], "axis": [0, 0, 1], "r": [1, 0, 0], "sketch": {"vertices": [], "curves": []}},
+        "unsupported": {"type": "unsupported", "was": "grip"}
     })");
     return examples.at(form);
 }
@@ -75,6 +98,13 @@ std::string scene_with(const std::string& form, const json& object) {
         tree({{"object", "s"}, {"rotate", object}});
     else if (form == "plane")
         scene["solids"]["t"] = {{"type", "arbn"}, {"planes", {object}}};
+    else if (form == "metaball_point" || form == "pipe_point")
+        scene["solids"]["t"] = {{"type", form.substr(0, form.find('_'))}, {"points", {object}}};
+    else if (form == "sketch")
+        scene["solids"]["t"] = {
+            {"type", "extrude"}, {"base", {0, 0, 0}}, {"height", {0, 0, 1}}, {"sketch", object}};
+    else if (form == "line" || form == "arc" || form == "circle" || form == "bezier" || form == "nurb")
+        return scene_with("sketch", {{"vertices", json::array()}, {"curves", {object}}});
     else if (std::find(solids.begin(), solids.end(), form) != solids.end())
         scene["solids"]["t"] = object;
     else

@@ -75,6 +75,7 @@ private:
         for (const Metaball::Point& p : s.points) add(p.position, p.strength, p.softness);
     }
     void add_shape(const Pipe& s) {
+        add(s.points.size());
         for (const Pipe::Point& p : s.points) add(p.position, p.outer, p.inner, p.bend);
     }
     void add_shape(const Bot& s) {
@@ -82,9 +83,9 @@ private:
     }
     void add_shape(const Ars& s) { add(s.curves); }
     void add_shape(const Nmg& s) { add(s.vertices, s.faces); }
-    void add_shape(const Ebm& s) { add(s.width, s.depth, s.height, s.matrix, s.cells); }
-    void add_shape(const Vol& s) { add(s.width, s.depth, s.height, s.low, s.high, s.cell, s.matrix, s.cells); }
-    void add_shape(const Dsp& s) { add(s.width, s.depth, s.smooth, s.cut, s.matrix, s.heights); }
+    void add_shape(const Ebm& s) { add(s.file, s.width, s.depth, s.height, s.matrix, s.cells); }
+    void add_shape(const Vol& s) { add(s.file, s.width, s.depth, s.height, s.low, s.high, s.cell, s.matrix, s.cells); }
+    void add_shape(const Dsp& s) { add(s.file, s.width, s.depth, s.smooth, s.cut, s.matrix, s.heights); }
     void add_shape(const Extrude& s) { add(s.v, s.h, s.a, s.b, s.sketch); }
     void add_shape(const Revolve& s) { add(s.v, s.axis, s.r, s.angle, s.sketch); }
     void add_shape(const Unsupported& shape) { add(shape.type); }

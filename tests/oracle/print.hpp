@@ -46,6 +46,45 @@ struct ShapePrinter {
         print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
         out << " r_1 " << s.r_1 << " r_2 " << s.r_2 << " c " << s.c;
     }
+    void curve(const Sketch::Line& c) const { out << "\n    line " << c.start << ' ' << c.end; }
+    void curve(const Sketch::Arc& c) const {
+        out << "\n    arc " << c.start << ' ' << c.end << " r " << c.radius << (c.center_left ? " left" : " right")
+            << (c.clockwise ? " clockwise" : "");
+    }
+    void curve(const Sketch::Bezier& c) const {
+        out << "\n    bezier";
+        for (const auto i : c.points) out << ' ' << i;
+    }
+    void curve(const Sketch::Nurb& c) const {
+        out << "\n    nurb order " << c.order << " points";
+        for (const auto i : c.points) out << ' ' << i;
+        out << " knots";
+        for (const double knot : c.knots) out << ' ' << knot;
+        if (!c.weights.empty()) out << " weights";
+        for (const double weight : c.weights) out << ' ' << weight;
+    }
+    void operator()(const Sketch& s) const {
+        out << "\n    vertices";
+        for (const Sketch::Point& p : s.vertices) out << " (" << p.u << ' ' << p.v << ')';
+        for (const Sketch::Curve& c : s.curves) std::visit([&](const auto& one) { curve(one); }, c);
+    }
+    void operator()(const Extrude& s) const {
+        out << "extrude";
+        print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a), print(out, "b", s.b);
+        (*this)(s.sketch);
+    }
+    void operator()(const Revolve& s) const {
+        out << "revolve";
+        print(out, "v", s.v), print(out, "axis", s.axis), print(out, "r", s.r);
+        out << " angle " << s.angle;
+        (*this)(s.sketch);
+    }
+    void operator()(const Ebm& s) const {
+        out << "ebm " << s.width << " x " << s.depth << " height " << s.height << " matrix";
+        for (const double m : s.matrix) out << ' ' << m;
+        out << "\n    cells";
+        for (const auto cell : s.cells) out << ' ' << int{cell};
+    }
     void operator()(const Part& s) const {
         out << "part";
         print(out, "v", s.v), print(out, "h", s.h);

@@ -2,31 +2,13 @@
 #include "catch.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "formats/friendly_solids.hpp"
-#include "scene/solid_faults.hpp"
+#include "scene/check_faults.hpp"
 
 using namespace csgrt;
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-void check_sound(const Shape& shape) {
-    const auto faults = solid_faults(shape);
-    INFO((faults.empty() ? std::string() : faults[0]));
-    CHECK(faults.empty());
-}
-
-void check_fault(const Shape& shape, const std::string& part_of_message, std::size_t count = 1) {
-    const auto faults = solid_faults(shape);
-    INFO(part_of_message);
-    REQUIRE(faults.size() == count);
-    INFO(faults[0]);
-    CHECK(faults[0].find(part_of_message) != std::string::npos);
-}
 
 const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, none{};
 

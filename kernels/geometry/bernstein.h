@@ -1,0 +1,128 @@
+// Where a polynomial in Bernstein form changes its sign in [0, 1]: those of curves against a ray.
+//
+// A polynomial has at most as many sign changes as its coefficients do (Descartes' rule in Bernstein form; Lane and
+// Riesenfeld 1981), and as many up to an even number. Pieces with more than one are halved, from left to right; only
+// the place in the binary tree is remembered, so the walk needs no stack:
+//
+//     0 ------------------------------------ 1     coefficients + - - +    two: halve
+//     0 ------- 1/2                                            + - -       one: there it is
+//               1/2 ------------------------ 1                 - - +       one: there it is
+//
+// Positive counts as positive, zero and negative as negative, everywhere. The values at 0 and 1 are the first and last
+// coefficients to the bit, and a value in between is computed once: so the number of changes is even exactly if the two
+// ends have one sign, whatever rounding does inside. Two changes closer than 2^-SIGN_DEPTH may both be missed: the
+// value between them is within rounding of zero.
+#ifndef CSGRT_BERNSTEIN_H
+#define CSGRT_BERNSTEIN_H
+
+#include "../shared/base.h"
+
+#define BERNSTEIN_SIZE 25  // coefficients at most: degree 24
+#define SIGN_DEPTH 28
+
+// (1 - t) a + t b, exact at 0 and 1.
+FN real blend(real t, real a, real b) { return real_fma(t, b, (REAL(1) - t) * a); }
+
+// The coefficients for [low, high] from those for [0, 1], by de Casteljau's algorithm. The last is the value at `high`,
+// the same for every `low`.
+FN void restrict_to(const real* c, u32 degree, real low, real high, real* q) {
+    u32 i, round;
+    for (i = 0; i <= degree; ++i) q[i] = c[i];
+    for (round = 1; round <= degree; ++round)
+        for (i = degree; i >= round; --i) q[i] = blend(high, q[i - 1], q[i]);
+    if (low > 0) {
+        real at = low / high;
+        for (round = 1; round <= degree; ++round)
+            for (i = 0; i + round <= degree; ++i) q[i] = blend(at, q[i], q[i + 1]);
+    }
+}
+
+FN u32 coefficient_changes(const real* c, u32 degree) {
+    u32 count = 0, i;
+    for (i = 0; i < degree; ++i) count += (c[i] > 0) != (c[i + 1] > 0);
+    return count;
+}
+
+typedef struct {
+    u32 depth, index;  // the piece that comes next: [index, index + 1] / 2^depth
+    int positive;      // at its low end
+    real low, high;    // the last one that was found to hold a change
+} sign_walk;
+
+FN sign_walk start_sign_walk(const real* c) {
+    sign_walk w;
+    w.depth = w.index = 0;
+    w.positive = c[0] > 0;
+    w.low = w.high = 0;
+    return w;
+}
+
+// Goes on to the next change, which w->low and w->high then enclose; w->positive is the sign after it. 0: no more.
+FN int next_sign_change(const real* c, u32 degree, sign_walk* w) {
+    real q[BERNSTEIN_SIZE];
+    while (w->index < (1u << w->depth)) {
+        real size = REAL(1) / REAL(1u << w->depth);
+        real low = REAL(w->index) * size, high = REAL(w->index + 1u) * size;
+        u32 changes;
+        int before = w->positive;
+        restrict_to(c, degree, low, high, q);
+        if ((q[0] > 0) != before) q[0] = before ? REAL(1) : REAL(0);  // as it was when the piece before ended here
+        changes = coefficient_changes(q, degree);
+        if (changes > 1 && w->depth < SIGN_DEPTH) {
+            ++w->depth;
+            w->index *= 2u;
+            continue;
+        }
+        w->positive = q[degree] > 0;
+        ++w->index;
+        while (w->depth > 0 && (w->index & 1u) == 0) {
+            w->index /= 2u;
+            --w->depth;
+        }
+        if (w->positive != before) {
+            w->low = low;
+            w->high = high;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+// Newton's method in a bracket. A step that leaves it, or does not halve the step before, is replaced by a bisection.
+typedef struct {
+    real low, high, at, step;
+    int positive;  // the sign at `low`; at `high` it is the other
+    int done;
+} bracket;
+
+#define BRACKET_STEPS 120  // a bisection every other step halves [0, 1] to neighbours; Newton takes about 5
+#define PARAMETER_PRECISION REAL(0x1p-53)  // of a curve's parameter, which runs from 0 to 1
+
+FN bracket start_bracket(real low, real high, int positive) {
+    bracket b;
+    b.low = low;
+    b.high = high;
+    b.at = REAL(0.5) * (low + high);
+    b.step = high - low;
+    b.positive = positive;
+    b.done = !(low < b.at && b.at < high);
+    return b;
+}
+
+FN bracket newton_step(bracket b, real value, real slope) {
+    real next;
+    if ((value > 0) == (b.positive != 0)) {
+        b.low = b.at;
+    } else {
+        b.high = b.at;
+    }
+    next = b.at - value / slope;
+    if (!(next >= b.low && next <= b.high && real_abs(next - b.at) <= REAL(0.5) * b.step))
+        next = REAL(0.5) * (b.low + b.high);
+    b.step = real_abs(next - b.at);
+    b.at = next;
+    b.done = b.step <= PARAMETER_PRECISION;
+    return b;
+}
+
+#endif

@@ -1,0 +1,50 @@
+// A solid that is cut out of another, whose crossings with the ray are found one by one and in any order, by planes:
+// what lies between two of them, or all but that.
+//
+//     low                     high
+//     -----|=========|=|===============|---------|=============|=====|-----> t
+//          x         |  cut off  |     x         x             |     x         x: crossings of what is cut
+//
+// Crossings on the side that stays are the solid's own. At each of the two cuts the parity of the crossings before it
+// tells whether the ray crosses it inside what is cut; then that is a crossing of the solid, too.
+#ifndef CSGRT_CUT_H
+#define CSGRT_CUT_H
+
+#include "crossings.h"
+
+typedef struct {
+    span between;
+    int keeps_between;      // else what lies outside stays
+    u32 low_odd, high_odd;  // crossings before between.low, and before between.high
+    crossings c;
+} cut;
+
+FN cut start_cut(span between, int keeps_between, crossings c) {
+    cut k;
+    k.between = between;
+    k.keeps_between = keeps_between;
+    k.low_odd = k.high_odd = 0;
+    k.c = c;
+    if (!(between.low < between.high)) {  // nothing lies between: every crossing lies before `low` and after `high`
+        k.between.low = REAL_INFINITY;
+        k.between.high = -REAL_INFINITY;
+    }
+    return k;
+}
+
+FN cut cut_crossing(cut k, real t, u32 surface) {
+    int before = t<k.between.low, after = t> k.between.high;
+    if (before) k.low_odd ^= 1u;
+    if (!after) k.high_odd ^= 1u;
+    if ((before || after) != k.keeps_between) k.c = cross(k.c, t, surface);
+    return k;
+}
+
+FN crossings end_cut(cut k) {
+    if (k.low_odd && real_abs(k.between.low) < REAL_INFINITY) k.c = cross(k.c, k.between.low, k.between.low_surface);
+    if (k.high_odd && real_abs(k.between.high) < REAL_INFINITY)
+        k.c = cross(k.c, k.between.high, k.between.high_surface);
+    return k.c;
+}
+
+#endif

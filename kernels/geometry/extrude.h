@@ -1,0 +1,169 @@
+// What a sketch encloses, moved along a line: extrude, ebm.
+// Parameters: affine (12); local x and y are the sketch's own, z runs from -1 to 1 along the height. Words: the sketch.
+// Planes: the end at z = -1, the end at z = 1, then the walls over the sketch's lines. Surfaces: 0 and 1 the ends, then
+// the walls over the sketch's pieces.
+//
+// Seen along the height the ray is a line in the sketch's plane. Each crossing of the outline turns inside into outside
+// (even-odd), and the ends cut the solid out of that prism. On which side of the line a point lies is the sign of one
+// expression, so all pieces that meet in a point agree about it, and the count of crossings of a closed outline is
+// even, vertices hit or not.
+#ifndef CSGRT_EXTRUDE_H
+#define CSGRT_EXTRUDE_H
+
+#include "affine.h"
+#include "bernstein.h"
+#include "curve.h"
+#include "cut.h"
+#include "plane.h"
+#include "polynomial.h"
+
+#define EXTRUDE_ENDS 2
+#define WALL_SLACK REAL(1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
+
+// A line in the sketch's plane; (dx, dy) is a unit vector.
+typedef struct {
+    real ox, oy, dx, dy;
+} line2;
+
+FN real side_of(line2 l, real x, real y) { return difference_of_products(l.dx, y - l.oy, l.dy, x - l.ox); }
+FN real place_along(line2 l, real x, real y) { return real_fma(l.dx, x - l.ox, l.dy * (y - l.oy)); }
+
+// The ray as the sketch sees it.
+typedef struct {
+    local_ray ray;
+    line2 line;
+    real speed;  // along the line, as t grows; 0: the ray runs along the height
+    real slack;  // WALL_SLACK in units of t
+} sketch_ray;
+
+// Along the height it has no direction there: then any line through the point will do.
+FN sketch_ray to_sketch(GLOBAL const real* p, ray3 r) {
+    sketch_ray w;
+    real most;
+    w.ray = to_local(p, r);
+    w.slack = WALL_SLACK / real_sqrt(dot3(w.ray.d, w.ray.d));
+    w.line.ox = w.ray.o.x;
+    w.line.oy = w.ray.o.y;
+    w.line.dx = 1;
+    w.line.dy = w.speed = 0;
+    most = real_max(real_abs(w.ray.d.x), real_abs(w.ray.d.y));
+    if (most > 0) {
+        real x = w.ray.d.x / most, y = w.ray.d.y / most;
+        real size = real_sqrt(real_fma(x, x, y * y));
+        w.line.dx = x / size;
+        w.line.dy = y / size;
+        w.speed = most * size;
+    }
+    return w;
+}
+
+// A place along the line as a distance. A ray along the height is inside the outline, all the way, if an odd number of
+// crossings lies to one side of it: those count as before everything, the others as after it.
+FN real distance_at(sketch_ray w, real place) {
+    if (w.speed == 0) return place > 0 ? -REAL_INFINITY : REAL_INFINITY;
+    return w.ray.shift + place / w.speed;
+}
+
+FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plane, ray3 r, u32 surface) {
+    real side0 = side_of(w.line, p[0], p[1]), side1 = side_of(w.line, p[2], p[3]);
+    real place, t, to_wall;
+    if ((side0 > 0) == (side1 > 0)) return k;
+    place = place_along(w.line, p[0], p[1]);
+    place = real_fma(place_along(w.line, p[2], p[3]) - place, side0 / (side0 - side1), place);
+    t = distance_at(w, place);
+    // The wall's plane may be another solid's, too: its t is the one to take, but for rays that all but run along it.
+    to_wall = face_distance(g, plane, r);
+    return cut_crossing(k, real_abs(to_wall - t) <= w.slack ? to_wall : t, surface);
+}
+
+// The point of a curve on the line, where it changes sides between two parameters.
+FN curve_point point_on_line(GLOBAL const real* p, u32 degree, line2 l, sign_walk found) {
+    bracket b = start_bracket(found.low, found.high, !found.positive);
+    curve_point at = curve_at(p, degree, b.at);
+    int step;
+    for (step = 0; step < BRACKET_STEPS && !b.done; ++step) {
+        real value = difference_of_products(l.dx, real_fma(-l.oy, at.w, at.y), l.dy, real_fma(-l.ox, at.w, at.x));
+        real slope = difference_of_products(l.dx, real_fma(-l.oy, at.dw, at.dy), l.dy, real_fma(-l.ox, at.dw, at.dx));
+        b = newton_step(b, value, slope);
+        at = curve_at(p, degree, b.at);
+    }
+    return at;
+}
+
+// The sides of a curve's control points, as the coefficients of a polynomial whose sign tells the side of the curve.
+FN void sides_of(GLOBAL const real* p, u32 degree, line2 l, real* c) {
+    u32 i;
+    for (i = 0; i <= degree; ++i) c[i] = p[3 * i + 2] * side_of(l, p[3 * i], p[3 * i + 1]);
+}
+
+FN cut meet_curve(cut k, sketch_ray w, GLOBAL const real* p, u32 degree, u32 surface) {
+    real c[BERNSTEIN_SIZE];
+    sign_walk signs;
+    sides_of(p, degree, w.line, c);
+    if (coefficient_changes(c, degree) == 0) return k;
+    signs = start_sign_walk(c);
+    while (next_sign_change(c, degree, &signs)) {
+        curve_point at = point_on_line(p, degree, w.line, signs);
+        k = cut_crossing(k, distance_at(w, place_along(w.line, at.x / at.w, at.y / at.w)), surface);
+    }
+    return k;
+}
+
+FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
+    sketch s = sketch_of(g, solid);
+    span ends = whole_line();
+    sketch_ray w;
+    cut k;
+    u32 i;
+    ends = clip_to_face(ends, g, solid.first_plane, r, 0);
+    ends = clip_to_face(ends, g, solid.first_plane + 1, r, 1);
+    if (!(ends.low < ends.high)) return c;
+    w = to_sketch(g.reals + solid.first_real, r);
+    k = start_cut(ends, 1, c);
+    for (i = 0; i < s.line_count; ++i) {
+        u32 surface = EXTRUDE_ENDS + i;
+        k = meet_line(k, w, s.lines + 4 * i, g, solid.first_plane + surface, r, surface);
+    }
+    for (i = 0; i < s.curve_count; ++i)
+        k = meet_curve(k, w, g.reals + s.curves[2 * i], s.curves[2 * i + 1], EXTRUDE_ENDS + s.line_count + i);
+    return end_cut(k);
+}
+
+// The normal of the wall over a curve where the ray crosses it nearest to t.
+FN vec3 curved_wall_normal(GLOBAL const real* p, GLOBAL const real* curve, u32 degree, ray3 r, real t) {
+    sketch_ray w = to_sketch(p, r);
+    real c[BERNSTEIN_SIZE];
+    real nearest = REAL_INFINITY;
+    vec3 n = make_vec3(0, 0, 0);
+    sign_walk signs;
+    sides_of(curve, degree, w.line, c);
+    signs = start_sign_walk(c);
+    while (next_sign_change(c, degree, &signs)) {
+        curve_point at = point_on_line(curve, degree, w.line, signs);
+        real x = at.x / at.w, y = at.y / at.w;
+        real off = real_abs(distance_at(w, place_along(w.line, x, y)) - t);
+        if (off < nearest) {
+            nearest = off;
+            n = make_vec3(real_fma(-y, at.dw, at.dy), -real_fma(-x, at.dw, at.dx), 0);  // across the tangent
+        }
+    }
+    return affine_normal(p, n);
+}
+
+FN vec3 extrude_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+    sketch s = sketch_of(g, solid);
+    u32 leaves = surface & LEAVES;
+    u32 wall = surface & ~LEAVES;
+    vec3 n;
+    if (wall < EXTRUDE_ENDS) return face_normal(g, solid.first_plane + wall);
+    if (wall < EXTRUDE_ENDS + s.line_count) {
+        n = face_normal(g, solid.first_plane + wall);
+    } else {
+        GLOBAL const u32* curve = s.curves + 2 * (wall - EXTRUDE_ENDS - s.line_count);
+        n = curved_wall_normal(g.reals + solid.first_real, g.reals + curve[0], curve[1], r, t);
+    }
+    // A curve has no inner side of its own: the ray tells.
+    return (dot3(n, r.d) > 0) == (leaves != 0) ? n : scale(n, REAL(-1));
+}
+
+#endif

@@ -1,0 +1,200 @@
+#include "scene/sketch_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace csgrt {
+
+namespace {
+
+/// BRL-CAD's distance below which points are one, millimetres.
+constexpr long double same_point = 0.0005L;
+/// Gaps are looked for pair by pair; a sketch with more loose ends than this is not meant to be closed.
+constexpr std::size_t gaps_to_close = 1000;
+
+struct Converter {
+    const Sketch& sketch;
+    std::vector<CurvePiece> pieces;
+
+    CurvePoint vertex(std::uint32_t i) const { return {sketch.vertices[i].u, sketch.vertices[i].v, 1}; }
+
+    void operator()(const Sketch::Line& line) { pieces.push_back({vertex(line.start), vertex(line.end)}); }
+
+    void operator()(const Sketch::Arc& arc) {
+        const CurvePoint start = vertex(arc.start), end = vertex(arc.end);
+        if (arc.radius < 0) {
+            circle(start, end);
+        } else {
+            Converter::arc(start, end, arc);
+        }
+    }
+
+    /// Around `center`, in quarters.
+    void circle(const CurvePoint& start, const CurvePoint& center) {
+        long double x = start.u - center.u, y = start.v - center.v;
+        CurvePoint from = start;
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            const CurvePoint corner{center.u + (x - y), center.v + (x + y), 0.5L * std::numbers::sqrt2_v<long double>};
+            const long double turned = -y;
+            y = x;
+            x = turned;
+            const CurvePoint to = quarter == 3 ? start : CurvePoint{center.u + x, center.v + y, 1};
+            pieces.push_back({from, corner, to});
+            from = to;
+        }
+    }
+
+    /// The angle phi runs from -alpha to alpha, 0 is the arc's middle. Points are told from the chord, not from the
+    /// center, which may be far away: r (cos phi - cos alpha) to the side and r sin phi along it.
+    void arc(const CurvePoint& start, const CurvePoint& end, const Sketch::Arc& arc) {
+        const long double x = end.u - start.u, y = end.v - start.v, chord = std::hypot(x, y), half = chord / 2;
+        const long double r = std::max<long double>(arc.radius, half);
+        const long double to_center = std::sqrt((r - half) * (r + half));
+        const bool minor = arc.center_left != arc.clockwise;  // counterclockwise the center is always to the left
+        const long double alpha = std::atan2(half, minor ? to_center : -to_center);
+        const int count = std::max(1, static_cast<int>(std::ceil(4 * alpha / std::numbers::pi_v<long double> - 1e-9L)));
+        const long double delta = alpha / count;
+        const long double ex = x / chord, ey = y / chord, side = arc.clockwise ? -1 : 1;
+        const auto at = [&](long double along, long double across) {
+            return CurvePoint{(start.u + end.u) / 2 + along * ex + across * side * ey,
+                              (start.v + end.v) / 2 + along * ey - across * side * ex, 1};
+        };
+        const auto rise = [&](long double phi) {  // cos phi - cos alpha
+            return 2 * std::sin((alpha + phi) / 2) * std::sin((alpha - phi) / 2);
+        };
+        CurvePoint from = start;
+        for (int i = 0; i < count; ++i) {
+            const long double middle = (2 * i + 1) * delta - alpha, last = (2 * i + 2) * delta - alpha;
+            const long double cosine = std::cos(delta),
+                              lift = 2 * std::cos(alpha) * std::pow(std::sin(delta / 2), 2.0L);
+            CurvePoint corner = at(r * std::sin(middle) / cosine, r * (rise(middle) + lift) / cosine);
+            corner.weight = cosine;
+            const CurvePoint to = i + 1 == count ? end : at(r * std::sin(last), r * rise(last));
+            pieces.push_back({from, corner, to});
+            from = to;
+        }
+    }
+
+    void operator()(const Sketch::Bezier& bezier) {
+        CurvePiece piece;
+        for (const std::uint32_t i : bezier.points) piece.push_back(vertex(i));
+        pieces.push_back(std::move(piece));
+    }
+
+    /// A span's control points are the values of the curve's polar form at its two ends (Ramshaw 1987).
+    void operator()(const Sketch::Nurb& nurb) {
+        const std::size_t degree = nurb.order - 1, count = nurb.points.size();
+        const auto polar = [&](std::size_t span, const std::vector<double>& at) {
+            CurvePiece points;  // homogeneous
+            for (std::size_t i = span - degree; i <= span; ++i) {
+                const CurvePoint p = vertex(nurb.points[i]);
+                const long double w = nurb.weights.empty() ? 1 : nurb.weights[i];
+                points.push_back({p.u * w, p.v * w, w});
+            }
+            for (std::size_t round = 1; round <= degree; ++round)
+                for (std::size_t i = degree; i >= round; --i) {
+                    const long double low = nurb.knots[i + span - degree], high = nurb.knots[i + span - round + 1];
+                    const long double t = (at[round - 1] - low) / (high - low);
+                    const CurvePoint &a = points[i - 1], &b = points[i];
+                    points[i] = {(1 - t) * a.u + t * b.u, (1 - t) * a.v + t * b.v, (1 - t) * a.weight + t * b.weight};
+                }
+            const CurvePoint& p = points[degree];
+            return CurvePoint{p.u / p.weight, p.v / p.weight, p.weight};
+        };
+        const std::size_t first = pieces.size();
+        for (std::size_t span = degree; span < count; ++span) {
+            const double low = nurb.knots[span], high = nurb.knots[span + 1];
+            if (!(low < high)) continue;
+            CurvePiece piece;
+            std::vector<double> at(degree, low);
+            for (std::size_t i = 0; i <= degree; ++i) {
+                piece.push_back(polar(span, at));
+                if (i < degree) at[i] = high;
+            }
+            normalize(piece);
+            if (pieces.size() > first) piece.front() = pieces.back().back();
+            pieces.push_back(std::move(piece));
+        }
+        snap(pieces[first].front(), vertex(nurb.points.front()));
+        snap(pieces.back().back(), vertex(nurb.points.back()));
+    }
+
+    /// Weights of 1 at both ends: a curve is the same with its weights multiplied by c s^i, at another pace.
+    static void normalize(CurvePiece& piece) {
+        const long double degree = static_cast<long double>(piece.size() - 1), scale = 1 / piece.front().weight;
+        const long double pace = std::pow(piece.front().weight / piece.back().weight, 1 / degree);
+        long double factor = scale;
+        for (CurvePoint& p : piece) {
+            p.weight *= factor;
+            factor *= pace;
+        }
+        piece.front().weight = piece.back().weight = 1;
+    }
+
+    /// An end that is a vertex up to rounding is that vertex.
+    static void snap(CurvePoint& end, const CurvePoint& vertex) {
+        const long double size = std::max(std::fabs(vertex.u), std::fabs(vertex.v));
+        if (std::hypot(end.u - vertex.u, end.v - vertex.v) <= 1e-16L * size) end = vertex;
+    }
+};
+
+bool before(const CurvePoint& a, const CurvePoint& b) { return a.u != b.u ? a.u < b.u : a.v < b.v; }
+
+}  // namespace
+
+std::vector<CurvePiece> curve_pieces(const Sketch& sketch) {
+    Converter converter{sketch, {}};
+    for (const Sketch::Curve& curve : sketch.curves) std::visit(converter, curve);
+    return std::move(converter.pieces);
+}
+
+std::vector<CurvePoint> loose_ends(const std::vector<CurvePiece>& pieces) {
+    std::vector<CurvePoint> ends, loose;
+    for (const CurvePiece& piece : pieces) {
+        ends.push_back(piece.front());
+        ends.push_back(piece.back());
+    }
+    std::sort(ends.begin(), ends.end(), before);
+    for (std::size_t i = 0; i < ends.size();) {
+        std::size_t next = i;
+        while (next < ends.size() && !before(ends[i], ends[next])) ++next;
+        if ((next - i) % 2 == 1) loose.push_back(ends[i]);
+        i = next;
+    }
+    return loose;
+}
+
+std::vector<CurvePoint> close_gaps(std::vector<CurvePiece>& pieces) {
+    std::vector<CurvePoint> loose = loose_ends(pieces), left;
+    if (loose.size() > gaps_to_close) return loose;
+    while (!loose.empty()) {
+        const CurvePoint p = loose.back();
+        loose.pop_back();
+        const auto gap = [&](const CurvePoint& q) { return std::hypot(p.u - q.u, p.v - q.v); };
+        const auto nearest =
+            std::min_element(loose.begin(), loose.end(), [&](const auto& a, const auto& b) { return gap(a) < gap(b); });
+        if (nearest != loose.end() && gap(*nearest) <= same_point) {
+            pieces.push_back({p, *nearest});
+            loose.erase(nearest);
+        } else {
+            left.push_back(p);
+        }
+    }
+    return left;
+}
+
+std::vector<CurvePiece> closed_pieces(const Sketch& sketch) {
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    close_gaps(pieces);
+    return pieces;
+}
+
+std::vector<CurvePiece> turned_pieces(const Sketch& sketch) {
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    for (const CurvePoint& end : close_gaps(pieces))
+        if (end.u != 0) pieces.push_back({end, {0, end.v, 1}});
+    return pieces;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,71 @@
+#include "scene/sketch_reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace csgrt {
+
+namespace {
+
+constexpr long double precision = 1e-16L;
+constexpr int deepest = 60;  // halvings; 30 bring the control points of a smooth curve within `precision` of it
+
+/// The rational curve of the values that the direction gives to control points, homogeneous.
+struct Values {
+    std::vector<long double> value, weight;
+
+    long double at(std::size_t i) const { return value[i] / weight[i]; }
+    long double greatest() const {
+        long double most = at(0);
+        for (std::size_t i = 1; i < value.size(); ++i) most = std::max(most, at(i));
+        return most;
+    }
+    std::pair<Values, Values> halves() const {
+        Values left = *this, right = *this;
+        for (std::vector<long double> Values::* part : {&Values::value, &Values::weight}) {
+            std::vector<long double>&l = left.*part, &r = right.*part;
+            const std::size_t last = r.size() - 1;
+            for (std::size_t round = 1; round <= last; ++round) {
+                for (std::size_t i = 0; i + round <= last; ++i) r[i] = (r[i] + r[i + 1]) / 2;
+                l[round] = r[0];
+            }
+        }
+        return {left, right};
+    }
+};
+
+/// Raises `most` to the curve's greatest value: a curve lies within its control points' values, its ends are on it.
+void raise(long double& most, const Values& curve, long double slack, int depth) {
+    most = std::max({most, curve.at(0), curve.at(curve.value.size() - 1)});
+    if (curve.greatest() <= most + slack || depth == deepest) return;
+    const auto [left, right] = curve.halves();
+    raise(most, left, slack, depth + 1);
+    raise(most, right, slack, depth + 1);
+}
+
+long double greatest(const std::vector<CurvePiece>& pieces, long double gu, long double gv) {
+    long double most = -std::numeric_limits<long double>::infinity(), size = 0;
+    for (const CurvePiece& piece : pieces)
+        for (const CurvePoint& p : piece) size = std::max({size, std::fabs(gu * p.u), std::fabs(gv * p.v)});
+    for (const CurvePiece& piece : pieces)
+        for (const std::size_t end : {std::size_t{0}, piece.size() - 1})
+            most = std::max(most, gu * piece[end].u + gv * piece[end].v);
+    for (const CurvePiece& piece : pieces) {
+        Values curve;
+        for (const CurvePoint& p : piece) {
+            curve.value.push_back((gu * p.u + gv * p.v) * p.weight);
+            curve.weight.push_back(p.weight);
+        }
+        raise(most, curve, precision * size, 0);
+    }
+    return most + precision * size;
+}
+
+}  // namespace
+
+std::pair<long double, long double> reach_of(const std::vector<CurvePiece>& pieces, long double gu, long double gv) {
+    return {-greatest(pieces, -gu, -gv), greatest(pieces, gu, gv)};
+}
+
+}  // namespace csgrt

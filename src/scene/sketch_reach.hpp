@@ -1,0 +1,14 @@
+// How far curves reach in a direction of their plane.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "scene/sketch_curves.hpp"
+
+namespace csgrt {
+
+/// The least and the greatest gu u + gv v over all pieces, from outside, to about 1e-15 of what is added up.
+std::pair<long double, long double> reach_of(const std::vector<CurvePiece>& pieces, long double gu, long double gv);
+
+}  // namespace csgrt

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <limits>
+
+#include "scene/polytope.hpp"
+#include "scene/solid_faults_of.hpp"
+
+namespace csgrt {
+
+namespace {
+
+void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
+    if (length(plane.normal) == 0) {
+        faults.push_back("the normal" + which + " has length 0");
+    } else if (!is_unit(plane.normal)) {
+        faults.push_back("the normal" + which + " is not of length 1");
+    }
+}
+
+}  // namespace
+
+/// Some triangle of vertices has an area, and some vertex lies off its plane.
+Faults FaultsOf::operator()(const Arb& s) const {
+    Faults faults;
+    for (const Vec3& vertex : s.vertices) {
+        if (!all_finite(faults, vertex)) return faults;
+    }
+    double size = 0, reach = 0;
+    Vec3 normal;
+    for (const Vec3& p : s.vertices) {
+        reach = std::max(reach, length(p));
+        size = std::max(size, length(p - s.vertices[0]));
+        for (const Vec3& q : s.vertices) {
+            const Vec3 candidate = cross(p - s.vertices[0], q - s.vertices[0]);
+            if (length(candidate) > length(normal)) normal = candidate;
+        }
+    }
+    double thickness = 0;
+    for (const Vec3& p : s.vertices) {
+        thickness = std::max(thickness, std::abs(dot(unit(normal), p - s.vertices[0])));
+    }
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach;
+    const bool flat = thickness <= std::max(1e-12 * size, rounding);
+    if (flat || length(normal) <= size * std::max(1e-12 * size, rounding)) {
+        faults.push_back("the vertices lie in one plane: there is no volume");
+    }
+    return faults;
+}
+
+Faults FaultsOf::operator()(const Arbn& s) const {
+    Faults faults;
+    if (s.planes.size() > Limits::faces) {
+        return {"it has " + std::to_string(s.planes.size()) + " planes; at most " + std::to_string(Limits::faces) +
+                " are supported"};
+    }
+    for (std::size_t i = 0; i < s.planes.size(); ++i) {
+        const Plane& plane = s.planes[i];
+        if (!all_finite(faults, plane.normal, plane.distance)) return faults;
+        check_plane(faults, plane, " of plane " + std::to_string(i));
+    }
+    if (!faults.empty()) return faults;
+    switch (intersect_half_spaces(s.planes).kind) {
+        case Polytope::Kind::empty:
+            return {"its half-spaces have no volume in common"};
+        case Polytope::Kind::unbounded:
+            return {"its half-spaces do not bound it on all sides"};
+        case Polytope::Kind::bounded:
+            break;
+    }
+    return faults;
+}
+
+Faults FaultsOf::operator()(const Half& s) const {
+    Faults faults;
+    if (all_finite(faults, s.plane.normal, s.plane.distance)) check_plane(faults, s.plane, "");
+    return faults;
+}
+
+}  // namespace csgrt
