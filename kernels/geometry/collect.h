@@ -34,6 +34,10 @@ FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLO
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
 #endif
+#if HAS_SOLID(SOLID_SUPERELL)
+    if (solid.type == SOLID_SUPERELL)
+        return close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+#endif
 #if HAS_SOLID(SOLID_PLATE)
     if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
 #endif

@@ -14,6 +14,7 @@
 #include "plate.h"
 #include "quadric.h"
 #include "revolve.h"
+#include "superell.h"
 #include "tgc.h"
 #include "tor.h"
 
@@ -81,6 +82,9 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_SUPERELL)
+    if (solid.type == SOLID_SUPERELL) n = superell_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) n = extrude_normal(g, solid, r, t, surface);

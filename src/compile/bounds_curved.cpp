@@ -36,6 +36,14 @@ long double hyperbola_support(long double q, long double z, long double c) {
     return zeta < 1 + c ? z * (1 + c) - c * std::sqrt(steep) : q;
 }
 
+/// The most of a x + b y over x^p + y^p <= 1. Up to p = 1 the corners (1, 0) and (0, 1) reach farthest.
+long double dual_norm(long double a, long double b, long double p) {
+    const long double larger = std::max(a, b), smaller = std::min(a, b);
+    if (!(p > 1) || smaller == 0) return larger;
+    const long double dual = p / (p - 1);
+    return larger * std::exp(std::log1p(std::pow(smaller / larger, dual)) / dual);
+}
+
 }  // namespace
 
 Box Tight::operator()(const Epa& s) const {
@@ -78,7 +86,13 @@ Box Tight::operator()(const Part& s) const {
                   box_around(transform_point(m, wide(s.v) + wide(s.h)), static_cast<long double>(s.r_h) * ball));
 }
 
-Box Tight::operator()(const Superell&) const { return {}; }
+// Two norms, one in the other: their support is the dual norms, one in the other.
+Box Tight::operator()(const Superell& s) const {
+    return support_box(
+        m, wide(s.v), {wide(s.a), wide(s.b), wide(s.c)}, [&](long double x, long double y, long double z) {
+            return dual_norm(dual_norm(std::fabs(x), std::fabs(y), 2.0L / s.e), std::fabs(z), 2.0L / s.n);
+        });
+}
 
 Box Tight::operator()(const Hrt&) const { return {}; }
 

@@ -96,7 +96,14 @@ void Packer::operator()(const Part& s) {
     real(has_cone ? z1 + r1 * sine : -1);
 }
 
-void Packer::operator()(const Superell&) { throw Error(Status::scene, "solids of type 'superell' cannot be rendered"); }
+void Packer::operator()(const Superell& s) {
+    record.type = SOLID_SUPERELL;
+    frame(wide(s.v), {wide(s.a), wide(s.b), wide(s.c)});
+    const long double e = s.e, n = s.n;
+    real(2 / e);
+    real(e / n);
+    real(2 / n);
+}
 
 void Packer::operator()(const Hrt&) { throw Error(Status::scene, "solids of type 'hrt' cannot be rendered"); }
 

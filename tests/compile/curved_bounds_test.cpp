@@ -130,3 +130,22 @@ TEST_CASE("the box of a particle is that of its two balls") {
         });
     }
 }
+
+TEST_CASE("the box of a superellipsoid is tight, for exponents that bulge and that pinch") {
+    Random random;
+    for (int round = 0; round < 12; ++round) {
+        const Matrix m = random.matrix();
+        const Axes axes(random);
+        const Wide v = 3.0L * random.wide(), a = 2.0L * axes.x, b = axes.y + 0.3L * axes.x, c = 0.5L * axes.z;
+        const double n = random(0.2, 3), e = random(0.2, 3);
+        const auto power = [](long double x, double exponent) {
+            return std::copysign(std::pow(std::fabs(x), static_cast<long double>(exponent)), x);
+        };
+        check_tight(Superell{narrow(v), narrow(a), narrow(b), narrow(c), n, e}, m, [&](long double u, long double w) {
+            const long double angle = 2 * static_cast<long double>(pi) * u,
+                              height = static_cast<long double>(pi) * (w - 0.5L);
+            return v + power(std::cos(height), n) * (power(std::cos(angle), e) * a + power(std::sin(angle), e) * b) +
+                   power(std::sin(height), n) * c;
+        });
+    }
+}

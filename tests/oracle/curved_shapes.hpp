@@ -157,4 +157,36 @@ inline Shape eto_form(std::size_t form, const Stand& s, Random& random) {
 }
 inline constexpr const char* eto_forms[] = {"upright", "flat", "leaning", "torus", "ring", "shell", "horn", "high"};
 
+inline Shape superell_form(std::size_t form, const Stand& s, Random& random) {
+    const double a = random.between(0.5, 2), b = random.between(0.5, 2), c = random.between(0.5, 2);
+    const auto of = [&](double n, double e) {
+        if (form == 0) return Superell{v(s.at), v(s.vector(1, 0, 0)), v(s.vector(0, 1, 0)), v(s.vector(0, 0, 1)), n, e};
+        return Superell{v(s.at), v(s.vector(a, 0, 0)), v(s.vector(0, b, 0)), v(s.vector(0, 0, c)), n, e};
+    };
+    switch (form) {
+        case 0:
+            return of(1, 1);  // a sphere
+        case 1:
+            return of(0.5, 0.3);  // a cushion
+        case 2:
+            return of(0.05, 0.05);  // nearly a box
+        case 3:
+            return of(random.between(0.2, 2), random.between(0.2, 2));
+        case 4:
+            return of(2, 2);  // an octahedron
+        case 5:
+            return of(3, 3);  // a star
+        case 6:
+            return of(random.between(2, 4), random.between(0.2, 2));
+        case 7:
+            return of(random.between(0.2, 2), random.between(2, 4));
+        case 8:
+            return of(1, 2);  // a double cone of square outline
+        default:
+            return of(2.5, 5);
+    }
+}
+inline constexpr const char* superell_forms[] = {"sphere", "cushion",    "near box", "convex",      "octahedron",
+                                                 "star",   "thin poles", "thin rim", "square dome", "spikes"};
+
 }  // namespace csgrt::oracle::detail

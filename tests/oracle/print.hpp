@@ -115,6 +115,11 @@ struct ShapePrinter {
         print(out, "v", s.v), print(out, "h", s.h), print(out, "a", s.a);
         out << " b " << s.b << " neck " << s.neck;
     }
+    void operator()(const Superell& s) const {
+        out << "superell";
+        print(out, "v", s.v), print(out, "a", s.a), print(out, "b", s.b), print(out, "c", s.c);
+        out << " n " << s.n << " e " << s.e;
+    }
     template <class Other>
     void operator()(const Other& s) const {
         out << type_name(s);

@@ -110,6 +110,14 @@ struct FeatureFinder {
         direction(out, 0, up), direction(-up, 0, out);
         axes();
     }
+    void operator()(const Superell&) const {
+        for (const double s : {-1, 1}) {
+            point(s, 0, 0), point(0, s, 0), point(0, 0, s);
+            direction(1, s, 0), direction(0, 1, s), direction(s, 0, 1);
+        }
+        point(0, 0, 0);
+        axes();
+    }
     void operator()(const Half& half) const {
         const QVec n = half.plane.normal, across = any_across(n);
         features.points = {{}, across, cross(n, across)};

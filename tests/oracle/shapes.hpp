@@ -10,7 +10,7 @@
 
 namespace csgrt::oracle {
 
-enum class Kind { ell, tgc, arb, arbn, half, tor, ehy, part, epa, rpc, rhc, eto, hyp };
+enum class Kind { ell, tgc, arb, arbn, half, tor, ehy, part, epa, rpc, rhc, eto, hyp, superell };
 
 struct Case {
     std::string name;  ///< form, placement
@@ -332,8 +332,10 @@ inline Case make_case(Kind kind, std::size_t index, Random& random) {
             return build(detail::rhc_form, detail::rhc_forms);
         case Kind::eto:
             return build(detail::eto_form, detail::eto_forms);
-        default:
+        case Kind::hyp:
             return build(detail::hyp_form, detail::hyp_forms);
+        default:
+            return build(detail::superell_form, detail::superell_forms);
     }
 }
 

@@ -14,6 +14,7 @@
 #include "hyp.hpp"
 #include "part.hpp"
 #include "polyhedron.hpp"
+#include "superell.hpp"
 #include "tgc.hpp"
 #include "tor.hpp"
 
