@@ -108,7 +108,7 @@ private:
         if (!is_v4_solid(letter.text[0])) return refuse_record(line);
         BrlcadItem item;
         try {
-            item = {read_v4_solid(line, lines_, object_)};
+            item = read_v4_solid(line, lines_, object_);
         } catch (const Fault&) {
             skip_data();
             throw;
