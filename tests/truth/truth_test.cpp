@@ -51,6 +51,8 @@ Demand demand_of(const std::string& set) {
     Demand demand;
     // BRL-CAD reports one concave arb a thousand millimetres outside the model; here an arb ends at its corners' box.
     if (set == "arb8_showcase") demand.same = 0.88, demand.near = 0.97;
+    // BRL-CAD's elliptical tori and pipes' bends are solved by iteration.
+    if (set == "bicycle_wheel") demand.distance = 1e-4, demand.same = 0.997;
     // s.mid2c leans by 0.02 degrees; BRL-CAD shoots it as a right cylinder.
     if (set == "havoc") demand.near = 0.96;
     return demand;
