@@ -1,4 +1,5 @@
-// Closed surfaces of triangles: what they enclose by parity (see crossings.h), whichever way the triangles face.
+// Closed surfaces of triangles: what they enclose by parity (see crossings.h), whichever way the triangles face. Only where
+// a surface is open does the way matter that they are said to face.
 // Parameters, words: see triangle.h. Surfaces: the triangles, and LEAVES where the ray goes out.
 #ifndef CSGRT_MESH_H
 #define CSGRT_MESH_H
@@ -67,6 +68,37 @@ FN mesh_walk next_triangle(mesh_walk w) {
     }
 }
 
+// Does the ray go in there, as the mesh says that its triangles face?
+FN int mesh_enters(Geometry g, GLOBAL const u32* mesh, vec3 d, u32 triangle) {
+    vec3 n = triangle_normal(g.reals + mesh[MESH_VERTICES], mesh + MESH_TRIANGLES + 3 * (size_t)triangle);
+    return (dot3(n, d) < 0) == (mesh[MESH_FACING] == 1);
+}
+
+// A ray that crosses an odd number of triangles has met a hole. Parity would then put the inside out for all that follows,
+// so only an entry with an exit next to it makes a segment: whichever way the ray runs, the same.
+FN void pair_by_facing(Geometry g, GLOBAL const u32* mesh, vec3 d, GLOBAL End* ends, u32 count) {
+    u32 from = 0, to = 0;
+    End last = ends[count - 1];
+    last.surface &= ~LEAVES;
+    while (from + 1 < count) {
+        End in = ends[from], out = ends[from + 1];
+        in.surface &= ~LEAVES;
+        out.surface &= ~LEAVES;
+        ++from;
+        if (!mesh_enters(g, mesh, d, in.surface) || mesh_enters(g, mesh, d, out.surface)) continue;
+        ++from;
+        ends[to] = in;
+        out.surface |= LEAVES;
+        ends[to + 1] = out;
+        to += 2;
+    }
+    for (; to < count + 1; to += 2) {  // no length: the weave drops them
+        ends[to] = last;
+        ends[to + 1] = last;
+        ends[to + 1].surface |= LEAVES;
+    }
+}
+
 FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
     crossings c = no_crossings(index, t_min, ends);
     mesh_walk w = start_mesh_walk(g, g.words + solid.first_word, g.reals + solid.first_real, r);
@@ -75,7 +107,13 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min
         if (w.triangle == NONE) break;
         c = cross(c, w.t, w.triangle);
     }
-    return close_crossings(c);
+    {
+        GLOBAL const u32* mesh = g.words + solid.first_word;
+        u32 segments = close_crossings(c);
+        if (ends && mesh[MESH_FACING] && c.behind == 0 && (c.ahead & 1u))
+            pair_by_facing(g, mesh, affine_linear(g.reals + solid.first_real, r.d), ends, c.ahead);
+        return segments;
+    }
 }
 
 // Against the ray where it goes in, along it where it goes out: the triangles may face either way.

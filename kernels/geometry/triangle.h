@@ -24,7 +24,8 @@
 #define MESH_VERTICES 0    // where in `reals` they are
 #define MESH_NODES 1       // where in `inner_nodes` its hierarchy is
 #define MESH_NODE_COUNT 2
-#define MESH_TRIANGLES 3   // the first triangle's word
+#define MESH_FACING 3      // what is said of its triangles, seen from outside: 0 nothing, 1 counterclockwise, 2 clockwise
+#define MESH_TRIANGLES 4   // the first triangle's word
 
 typedef struct {
     local_ray ray;

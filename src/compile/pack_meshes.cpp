@@ -70,6 +70,7 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
     scene.words[first_word + MESH_VERTICES] = static_cast<std::uint32_t>(first_real);
     scene.words[first_word + MESH_NODES] = static_cast<std::uint32_t>(first_node);
     scene.words[first_word + MESH_NODE_COUNT] = static_cast<std::uint32_t>(hierarchy.nodes.size());
+    scene.words[first_word + MESH_FACING] = mesh.facing;
     for (const std::uint32_t face : hierarchy.order)
         scene.words.insert(scene.words.end(), mesh.faces[face].begin(), mesh.faces[face].end());
     return std::move(hierarchy.order);

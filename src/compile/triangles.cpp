@@ -4,7 +4,10 @@
 
 namespace csgrt {
 
-Triangles triangles_of(const Bot& bot) { return {bot.vertices, bot.faces}; }
+Triangles triangles_of(const Bot& bot) {
+    const bool known = bot.mode == Bot::Mode::volume && bot.orientation != Bot::Orientation::unoriented;
+    return {bot.vertices, bot.faces, !known ? 0u : bot.orientation == Bot::Orientation::counterclockwise ? 1u : 2u};
+}
 
 Triangles triangles_of(const Ars& ars) {
     Triangles mesh;

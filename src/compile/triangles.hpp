@@ -14,6 +14,7 @@ namespace csgrt {
 struct Triangles {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;
+    std::uint32_t facing = 0;  ///< MESH_FACING
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { faces.push_back({a, b, c}); }
     /// Cut from a to c.
