@@ -16,7 +16,7 @@ class BrlcadParts {
 public:
     /// What all solids of one model may take together, in bytes: many solids may name one large sketch or file, and
     /// each gets a copy.
-    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
+    static constexpr std::uint64_t most_bytes = max_file_bytes;
 
     /// `find` gives the object of a name, or nullptr; files are found from `folder`.
     BrlcadParts(std::filesystem::path folder, std::function<const BrlcadItem*(const std::string&)> find)
