@@ -118,8 +118,8 @@ struct Hrt {
 /// s and softness w (BRL-CAD's sweat):
 struct Metaball {
     enum class Method : std::uint8_t {
-        metaball,      ///< (1 - (r/s)^2)^2 for r < s
-        isopotential,  ///< s / r
+        metaball,      ///< (1 - (r/s)^2)^2 for r < s; BRL-CAD knows the name only
+        isopotential,  ///< s^2 / r^2
         blob           ///< exp(w - w (r/s)^2)
     };
     struct Point {

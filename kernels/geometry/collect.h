@@ -41,6 +41,13 @@ FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLO
 #if HAS_SOLID(SOLID_PLATE)
     if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
 #endif
+#if HAS_SOLID(SOLID_HRT)
+    if (solid.type == SOLID_HRT)
+        return close_crossings(hrt_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+#endif
+#if HAS_SOLID(SOLID_METABALL)
+    if (solid.type == SOLID_METABALL) return close_crossings(metaball_cross(g, solid, r, no_crossings(index, t_min, ends)));
+#endif
     h = intersect(g, solid, r);
     if (h.count > 0 && h.out0 >= t_min) {
         if (ends) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);

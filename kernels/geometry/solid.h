@@ -9,7 +9,9 @@
 #include "eto.h"
 #include "extrude.h"
 #include "half.h"
+#include "hrt.h"
 #include "mesh.h"
+#include "metaball.h"
 #include "part.h"
 #include "plate.h"
 #include "quadric.h"
@@ -88,6 +90,12 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #endif
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) n = extrude_normal(g, solid, r, t, surface);
+#endif
+#if HAS_SOLID(SOLID_HRT)
+    if (solid.type == SOLID_HRT) n = hrt_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_METABALL)
+    if (solid.type == SOLID_METABALL) n = metaball_normal(g, solid, r, t);
 #endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);

@@ -14,6 +14,7 @@
 #include "affine.h"
 #include "crossings.h"
 #include "power.h"
+#include "range.h"
 
 #define SUPERELL_MARGIN REAL(1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
 #define SUPERELL_LEAST REAL(2.8421709430404007e-14)  // 2^-45
@@ -63,9 +64,6 @@ FN real superell_lower(real x, real power_of_x, real p) {
     return p > 1 ? REAL(0) : p < 1 ? REAL_INFINITY : REAL(1);
 }
 
-// a b without 0 times infinity.
-FN real superell_product(real a, real b) { return a == 0 || b == 0 ? REAL(0) : a * b; }
-
 // `rate`: how |x|, |y|, |z| change.
 FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     superell_point a;
@@ -84,9 +82,9 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     s = a.x + a.y;
     outer = power(s, l.q);
     a.value = outer + (a.z - REAL(1));
-    a.slope = superell_product(superell_lower(s, outer, l.q),
-                               superell_product(rate.x, a.by_x) + superell_product(rate.y, a.by_y)) +
-              superell_product(rate.z, a.by_z);
+    a.slope = product_or_0(superell_lower(s, outer, l.q),
+                               product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y)) +
+              product_or_0(rate.z, a.by_z);
     return a;
 }
 
@@ -106,32 +104,32 @@ FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point
     by1 = superell_lower(high_s, high_power, l.q);
     outer0 = real_min(by0, by1);
     outer1 = real_max(by0, by1);
-    x0 = superell_product(rate.x, a.by_x);
-    x1 = superell_product(rate.x, b.by_x);
-    y0 = superell_product(rate.y, a.by_y);
-    y1 = superell_product(rate.y, b.by_y);
-    z0 = superell_product(rate.z, a.by_z);
-    z1 = superell_product(rate.z, b.by_z);
+    x0 = product_or_0(rate.x, a.by_x);
+    x1 = product_or_0(rate.x, b.by_x);
+    y0 = product_or_0(rate.y, a.by_y);
+    y1 = product_or_0(rate.y, b.by_y);
+    z0 = product_or_0(rate.z, a.by_z);
+    z1 = product_or_0(rate.z, b.by_z);
     sum0 = real_min(x0, x1) + real_min(y0, y1);
     sum1 = real_max(x0, x1) + real_max(y0, y1);
-    if (superell_product(sum0, sum0 > 0 ? outer0 : outer1) + real_min(z0, z1) > 0) return SUPERELL_MONOTONE;
-    if (superell_product(sum1, sum1 > 0 ? outer1 : outer0) + real_max(z0, z1) < 0) return SUPERELL_MONOTONE;
+    if (product_or_0(sum0, sum0 > 0 ? outer0 : outer1) + real_min(z0, z1) > 0) return SUPERELL_MONOTONE;
+    if (product_or_0(sum1, sum1 > 0 ? outer1 : outer0) + real_max(z0, z1) < 0) return SUPERELL_MONOTONE;
     // Its derivative: (q-1) p s^(q-2) (x^(p-1) dx + y^(p-1) dy)^2 + (p-1) s^(q-1) (x^(p-2) dx^2 + y^(p-2) dy^2) +
     // (r-1) z^(r-2) dz^2.
     square0 = sum0 > 0 ? sum0 * sum0 : sum1 < 0 ? sum1 * sum1 : REAL(0);
     square1 = real_max(sum0 * sum0, sum1 * sum1);
     bys0 = superell_lower(low_s, by0, l.q - REAL(1));
     bys1 = superell_lower(high_s, by1, l.q - REAL(1));
-    x0 = superell_product(rate.x * rate.x, real_min(a.by_xx, b.by_xx)) +
-         superell_product(rate.y * rate.y, real_min(a.by_yy, b.by_yy));
-    x1 = superell_product(rate.x * rate.x, real_max(a.by_xx, b.by_xx)) +
-         superell_product(rate.y * rate.y, real_max(a.by_yy, b.by_yy));
-    x0 = superell_product(l.p - REAL(1), superell_product(outer0, x0));
-    x1 = superell_product(l.p - REAL(1), superell_product(outer1, x1));
-    y0 = superell_product((l.q - REAL(1)) * l.p, superell_product(real_min(bys0, bys1), square0));
-    y1 = superell_product((l.q - REAL(1)) * l.p, superell_product(real_max(bys0, bys1), square1));
-    z0 = superell_product((l.r - REAL(1)) * rate.z * rate.z, a.by_zz);
-    z1 = superell_product((l.r - REAL(1)) * rate.z * rate.z, b.by_zz);
+    x0 = product_or_0(rate.x * rate.x, real_min(a.by_xx, b.by_xx)) +
+         product_or_0(rate.y * rate.y, real_min(a.by_yy, b.by_yy));
+    x1 = product_or_0(rate.x * rate.x, real_max(a.by_xx, b.by_xx)) +
+         product_or_0(rate.y * rate.y, real_max(a.by_yy, b.by_yy));
+    x0 = product_or_0(l.p - REAL(1), product_or_0(outer0, x0));
+    x1 = product_or_0(l.p - REAL(1), product_or_0(outer1, x1));
+    y0 = product_or_0((l.q - REAL(1)) * l.p, product_or_0(real_min(bys0, bys1), square0));
+    y1 = product_or_0((l.q - REAL(1)) * l.p, product_or_0(real_max(bys0, bys1), square1));
+    z0 = product_or_0((l.r - REAL(1)) * rate.z * rate.z, a.by_zz);
+    z1 = product_or_0((l.r - REAL(1)) * rate.z * rate.z, b.by_zz);
     if (real_min(x0, x1) + real_min(y0, y1) + real_min(z0, z1) > 0) return SUPERELL_BENT;
     if (real_max(x0, x1) + real_max(y0, y1) + real_max(z0, z1) < 0) return SUPERELL_BENT;
     return SUPERELL_UNDECIDED;
