@@ -60,6 +60,23 @@ Demand demand_of(const std::string& set) {
     return demand;
 }
 
+/// Solids that BRL-CAD is known to be wrong about, or measures otherwise; tests/geometry has a judge for each.
+///   superell (its exponents unused, slivers), hrt (slivers), dsp (by the way the ray runs), metaball (walked in
+///   steps), revolve of an arc, and any under a matrix; vol under a matrix; cline (no ends, thickness along the ray);
+///   part where one ball holds the other.
+bool in_doubt(const std::string& set, const std::string& solid, const std::string& type) {
+    for (const char* wrong : {"superell", "hrt", "dsp", "metaball", "cline"})
+        if (type == wrong) return true;
+    const bool moved = set.starts_with("solids_csg");
+    return (moved && (type == "revolve" || type == "vol")) || solid == "s.revolve.arc1" || solid == "s.part4";
+}
+
+bool in_doubt(const std::string& set, const Stretches& ray) {
+    return set.starts_with("solids") && std::any_of(ray.begin(), ray.end(), [&](const Stretch& s) {
+               return in_doubt(set, s.in_solid, s.in_type) || in_doubt(set, s.out_solid, s.out_type);
+           });
+}
+
 Stretches without_thin(const Stretches& all, double thin) {
     Stretches kept;
     for (const Stretch& s : all)
@@ -85,7 +102,9 @@ std::vector<Stretches> stretches_of(const Renderer& renderer, const std::vector<
     for (const RayPartitions& along : answers) {
         Stretches ray;
         for (const Partition& p : along.partitions)
-            ray.push_back({last_name(renderer.regions()[p.region].path), p.in, p.out});
+            ray.push_back({last_name(renderer.regions()[p.region].path), p.in, p.out,
+                           renderer.solids()[p.in_solid].name, renderer.solids()[p.out_solid].name,
+                           renderer.solids()[p.in_solid].type, renderer.solids()[p.out_solid].type});
         rays.push_back(std::move(ray));
     }
     return rays;
@@ -126,7 +145,9 @@ std::vector<Ray> from_the_other_end(const std::vector<Ray>& rays, const std::vec
 
 Stretches mirrored(const Stretches& ray, double length) {
     Stretches result;
-    for (auto s = ray.rbegin(); s != ray.rend(); ++s) result.push_back({s->region, length - s->out, length - s->in});
+    for (auto s = ray.rbegin(); s != ray.rend(); ++s)
+        result.push_back(
+            {s->region, length - s->out, length - s->in, s->out_solid, s->in_solid, s->out_type, s->in_type});
     return result;
 }
 
@@ -159,9 +180,15 @@ void check_set(const Set& set, const std::string& rays_name, const Scene& scene,
     for (std::size_t i = 0; i < file.rays.size(); ++i) {
         const Stretches a = without_thin(truth.rays[i], thin), b = without_thin(found[i], thin);
         ++all;
-        if (same_regions(b, without_thin(mirrored(back[i], lengths[i]), thin))) ++same_back;
-        // Where a region is missing because a file that it needs is, there is nothing to compare.
-        if (std::any_of(a.begin(), a.end(), [&](const Stretch& s) { return !ours.contains(s.region); })) {
+        if (same_regions(b, without_thin(mirrored(back[i], lengths[i]), thin))) {
+            ++same_back;
+        } else if (all - same_back <= 3) {
+            UNSCOPED_INFO("ray " << i << " has " << b.size() << " partitions, and from the other end "
+                                 << back[i].size());
+        }
+        // Where a region is missing because a file that it needs is, or in doubt, there is nothing to compare.
+        if (in_doubt(rays_name, a) || in_doubt(rays_name, b) ||
+            std::any_of(a.begin(), a.end(), [&](const Stretch& s) { return !ours.contains(s.region); })) {
             ++left_out;
             continue;
         }
