@@ -39,7 +39,7 @@ TEST_CASE("device and reference agree on what outlines make", "[agreement]") {
         Revolve shape{{3.0 * static_cast<double>(i), 4, 0},
                       {0.1, 0, 1},
                       {1, 0, -0.1},
-                      i % 2 ? 1.5 * static_cast<double>(i % 4) : 6.2831853071795862,
+                      i % 2 ? 1.5 * static_cast<double>(i % 4) : 6.283185307179586,
                       {}};
         shape.sketch = oracle::ProfileMaker(random).make(i);
         add("revolve" + std::to_string(i), std::move(shape));
@@ -77,5 +77,5 @@ TEST_CASE("device and reference agree on what outlines make", "[agreement]") {
         }
         partitions += found[i].partitions.size();
     }
-    CHECK(partitions > rays.size() / 2);
+    CHECK(partitions * 2 > rays.size());
 }
