@@ -118,8 +118,8 @@ struct Hrt {
 /// s and softness w (BRL-CAD's sweat):
 struct Metaball {
     enum class Method : std::uint8_t {
-        metaball,      ///< (1 - (r/s)^2)^2 for r < s
-        isopotential,  ///< s / r
+        metaball,      ///< (1 - (r/s)^2)^2 for r < s; BRL-CAD knows the name only
+        isopotential,  ///< s^2 / r^2
         blob           ///< exp(w - w (r/s)^2)
     };
     struct Point {
@@ -149,7 +149,7 @@ struct Cline {
 struct Bot {
     enum class Mode : std::uint8_t {
         surface,     ///< no inside: rendered as a skin of twice the scene's tolerance, along the ray
-        volume,      ///< closed: inside is what a ray enters by parity, whichever way the triangles face
+        volume,      ///< closed: a ray enters and leaves by turns. Only where gaps are does `orientation` matter
         plate,       ///< each triangle a plate of its thickness; one of thickness 0 is rendered as a skin
         plate_nocos  ///< the thickness is measured along the ray
     };

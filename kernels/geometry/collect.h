@@ -34,8 +34,19 @@ FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLO
 #if HAS_SOLID(SOLID_MESH)
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
 #endif
+#if HAS_SOLID(SOLID_SUPERELL)
+    if (solid.type == SOLID_SUPERELL)
+        return close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+#endif
 #if HAS_SOLID(SOLID_PLATE)
     if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
+#endif
+#if HAS_SOLID(SOLID_HRT)
+    if (solid.type == SOLID_HRT)
+        return close_crossings(hrt_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+#endif
+#if HAS_SOLID(SOLID_METABALL)
+    if (solid.type == SOLID_METABALL) return close_crossings(metaball_cross(g, solid, r, no_crossings(index, t_min, ends)));
 #endif
     h = intersect(g, solid, r);
     if (h.count > 0 && h.out0 >= t_min) {

@@ -9,11 +9,14 @@
 #include "eto.h"
 #include "extrude.h"
 #include "half.h"
+#include "hrt.h"
 #include "mesh.h"
+#include "metaball.h"
 #include "part.h"
 #include "plate.h"
 #include "quadric.h"
 #include "revolve.h"
+#include "superell.h"
 #include "tgc.h"
 #include "tor.h"
 
@@ -82,8 +85,17 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
 #endif
+#if HAS_SOLID(SOLID_SUPERELL)
+    if (solid.type == SOLID_SUPERELL) n = superell_normal(g.reals + solid.first_real, r, t);
+#endif
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) n = extrude_normal(g, solid, r, t, surface);
+#endif
+#if HAS_SOLID(SOLID_HRT)
+    if (solid.type == SOLID_HRT) n = hrt_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_METABALL)
+    if (solid.type == SOLID_METABALL) n = metaball_normal(g, solid, r, t);
 #endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);

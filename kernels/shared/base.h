@@ -2,7 +2,8 @@
 //
 // Everything under kernels/ is written in the subset of the two: plain structs of scalars, arguments by value,
 // fixed-width integers. Nothing here may round differently on two devices, so: no contraction (the pragma here,
-// -ffp-contract=off on the host), fma only where written, and only + - * / sqrt fma, which IEEE 754 fixes to the bit.
+// -ffp-contract=off on the host), fma only where written, and only + - * / sqrt fma floor and
+// scaling by powers of 2, which IEEE 754 fixes to the bit.
 // Transcendental functions are not bit-equal between devices and stay out.
 // Never put two calls with side effects into one argument list: compilers evaluate them in different orders.
 #ifndef CSGRT_BASE_H
@@ -21,6 +22,9 @@ typedef uint u32;
 FN real real_sqrt(real x) { return sqrt(x); }
 FN real real_fma(real a, real b, real c) { return fma(a, b, c); }
 FN real real_abs(real x) { return fabs(x); }
+FN real real_floor(real x) { return floor(x); }
+FN int real_exponent(real x) { return ilogb(x); }  // 2^e <= x < 2^(e+1); x > 0
+FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #else
 // The host includes kernels/ inside a namespace that has defined `real`, `u32` and REAL_INFINITY (src/kernel_host.hpp).
 #define GLOBAL
@@ -28,6 +32,9 @@ FN real real_abs(real x) { return fabs(x); }
 FN real real_sqrt(real x) { return __builtin_sqrt(x); }
 FN real real_fma(real a, real b, real c) { return __builtin_fma(a, b, c); }
 FN real real_abs(real x) { return x < 0 ? -x : x; }
+FN real real_floor(real x) { return __builtin_floor(x); }
+FN int real_exponent(real x) { return __builtin_ilogb(x); }
+FN real real_scaled(real x, int e) { return __builtin_ldexp(x, e); }
 // As OpenCL's: of a NaN and a number, the number.
 FN float fmin(float a, float b) { return a < b || b != b ? a : b; }
 FN float fmax(float a, float b) { return a > b || b != b ? a : b; }

@@ -79,11 +79,32 @@ private:
             samples = {from, middle, to};
         }
         std::sort(samples.begin(), samples.end());
-        quad before = slope(samples.front());
+        std::vector<quad> slopes;
+        for (const quad s : samples) slopes.push_back(slope(s));
         for (std::size_t i = 1; i < samples.size(); ++i) {
-            const quad after = slope(samples[i]);
-            if ((before < 0) != (after < 0)) turns_.push_back(turn(samples[i - 1], samples[i], before < 0));
-            before = after;
+            if ((slopes[i - 1] < 0) != (slopes[i] < 0)) {
+                turns_.push_back(turn(samples[i - 1], samples[i], slopes[i - 1] < 0));
+            } else if (i + 1 < samples.size() && (slopes[i] < 0) == (slopes[i + 1] < 0) &&
+                       absolute(slopes[i]) <= absolute(slopes[i - 1]) &&
+                       absolute(slopes[i]) <= absolute(slopes[i + 1])) {
+                dip(samples[i - 1], samples[i + 1]);
+            }
+        }
+        std::sort(turns_.begin(), turns_.end());
+    }
+    /// The slope comes near to 0 between a and b and may pass it twice.
+    void dip(quad a, quad b) const {
+        const quad from = a, to = b;
+        const bool falling = slope(a) < 0;
+        for (int i = 0; i < 60; ++i) {
+            const quad left = (2 * a + b) / 3, right = (a + 2 * b) / 3, f = slope(left), g = slope(right);
+            if ((f < 0) != falling || (g < 0) != falling) {
+                const quad passed = (f < 0) != falling ? left : right;
+                turns_.push_back(turn(from, passed, falling));
+                turns_.push_back(turn(passed, to, !falling));
+                return;
+            }
+            (absolute(f) < absolute(g) ? b : a) = absolute(f) < absolute(g) ? right : left;
         }
     }
     quad turn(quad a, quad b, bool falling) const {

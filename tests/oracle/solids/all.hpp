@@ -11,9 +11,12 @@
 #include "epa.hpp"
 #include "eto.hpp"
 #include "half.hpp"
+#include "hrt.hpp"
 #include "hyp.hpp"
+#include "metaball.hpp"
 #include "part.hpp"
 #include "polyhedron.hpp"
+#include "superell.hpp"
 #include "tgc.hpp"
 #include "tor.hpp"
 

@@ -1,0 +1,273 @@
+// Superellipsoid. Parameters: affine (12), p, q, r. Surface 0.
+//
+//   G = (|x|^p + |y|^p)^q + |z|^r - 1 < 0        p = 2 / e, q = e / n, r = 2 / n
+//
+// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0: there its powers are monotone, so
+// their ranges over a piece are those at its ends, and with them the ranges of G and of its slope. Pieces are walked from
+// the front, as wide as can be decided: G has no 0 in it, or its slope has none, and then the signs of G at its ends tell
+// whether it holds a root, or its second derivative has none, and then G turns once at most. Where nothing helps down to
+// SUPERELL_LEAST of the part (a ray that touches within rounding, or runs within a flat side), the signs at the ends
+// decide as well; and after SUPERELL_STEPS pieces, at any width.
+#ifndef CSGRT_SUPERELL_H
+#define CSGRT_SUPERELL_H
+
+#include "affine.h"
+#include "crossings.h"
+#include "power.h"
+#include "range.h"
+
+#define SUPERELL_MARGIN REAL(1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
+#define SUPERELL_LEAST REAL(2.8421709430404007e-14)  // 2^-45
+#define SUPERELL_STEPS 500
+#define SUPERELL_NOISE REAL(1e-14)  // |G| beyond this is no rounding
+#define SUPERELL_ROOT_STEPS 120
+
+// One local coordinate along the ray, as |rate| |u - zero| where it is 0 in the searched piece.
+typedef struct {
+    real at, rate, zero;
+    u32 has_zero;
+} superell_axis;
+
+FN superell_axis superell_axis_of(real at, real rate, real low, real high) {
+    superell_axis a;
+    a.at = at;
+    a.rate = rate;
+    a.zero = -at / rate;
+    a.has_zero = a.zero > low && a.zero < high;
+    return a;
+}
+FN real superell_size(superell_axis a, real u) {
+    return a.has_zero ? real_abs(a.rate) * real_abs(u - a.zero) : real_abs(real_fma(a.rate, u, a.at));
+}
+// How it changes where u lies.
+FN real superell_rate(superell_axis a, real u) {
+    real value = a.has_zero ? a.rate * (u - a.zero) : real_fma(a.rate, u, a.at);
+    return value < 0 ? -a.rate : a.rate;
+}
+
+typedef struct {
+    superell_axis x, y, z;
+    real p, q, r;
+} superell_ray;
+
+// G and its slope over r at u; x^p, x^(p-1), x^(p-2), and so on for y and z.
+typedef struct {
+    real u, value, slope;
+    real x, y, z;
+    real by_x, by_y, by_z;
+    real by_xx, by_yy, by_zz;
+} superell_point;
+
+// x^(p-1), given x^p.
+FN real superell_lower(real x, real power_of_x, real p) {
+    if (x > 0) return power_of_x / x;
+    return p > 1 ? REAL(0) : p < 1 ? REAL_INFINITY : REAL(1);
+}
+
+// `rate`: how |x|, |y|, |z| change.
+FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
+    superell_point a;
+    real x = superell_size(l.x, u), y = superell_size(l.y, u), z = superell_size(l.z, u);
+    real s, outer;
+    a.u = u;
+    a.x = power(x, l.p);
+    a.y = power(y, l.p);
+    a.z = power(z, l.r);
+    a.by_x = superell_lower(x, a.x, l.p);
+    a.by_y = superell_lower(y, a.y, l.p);
+    a.by_z = superell_lower(z, a.z, l.r);
+    a.by_xx = superell_lower(x, a.by_x, l.p - REAL(1));
+    a.by_yy = superell_lower(y, a.by_y, l.p - REAL(1));
+    a.by_zz = superell_lower(z, a.by_z, l.r - REAL(1));
+    s = a.x + a.y;
+    outer = power(s, l.q);
+    a.value = outer + (a.z - REAL(1));
+    a.slope = product_or_0(superell_lower(s, outer, l.q),
+                               product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y)) +
+              product_or_0(rate.z, a.by_z);
+    return a;
+}
+
+#define SUPERELL_UNDECIDED 0
+#define SUPERELL_MONOTONE 1  // or free of zeros
+#define SUPERELL_BENT 2      // turns once at most
+
+// What is known of G between a and b.
+FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point b) {
+    real low_s = real_min(a.x, b.x) + real_min(a.y, b.y), high_s = real_max(a.x, b.x) + real_max(a.y, b.y);
+    real low_power = power(low_s, l.q), high_power = power(high_s, l.q);
+    real by0, by1, bys0, bys1, outer0, outer1, x0, x1, y0, y1, z0, z1, sum0, sum1, square0, square1;
+    if (low_power + (real_min(a.z, b.z) - REAL(1)) > SUPERELL_NOISE) return SUPERELL_MONOTONE;
+    if (high_power + (real_max(a.z, b.z) - REAL(1)) < -SUPERELL_NOISE) return SUPERELL_MONOTONE;
+    // The slope over r: s^(q-1) (x^(p-1) dx + y^(p-1) dy) + z^(r-1) dz, s = x^p + y^p.
+    by0 = superell_lower(low_s, low_power, l.q);
+    by1 = superell_lower(high_s, high_power, l.q);
+    outer0 = real_min(by0, by1);
+    outer1 = real_max(by0, by1);
+    x0 = product_or_0(rate.x, a.by_x);
+    x1 = product_or_0(rate.x, b.by_x);
+    y0 = product_or_0(rate.y, a.by_y);
+    y1 = product_or_0(rate.y, b.by_y);
+    z0 = product_or_0(rate.z, a.by_z);
+    z1 = product_or_0(rate.z, b.by_z);
+    sum0 = real_min(x0, x1) + real_min(y0, y1);
+    sum1 = real_max(x0, x1) + real_max(y0, y1);
+    if (product_or_0(sum0, sum0 > 0 ? outer0 : outer1) + real_min(z0, z1) > 0) return SUPERELL_MONOTONE;
+    if (product_or_0(sum1, sum1 > 0 ? outer1 : outer0) + real_max(z0, z1) < 0) return SUPERELL_MONOTONE;
+    // Its derivative: (q-1) p s^(q-2) (x^(p-1) dx + y^(p-1) dy)^2 + (p-1) s^(q-1) (x^(p-2) dx^2 + y^(p-2) dy^2) +
+    // (r-1) z^(r-2) dz^2.
+    square0 = sum0 > 0 ? sum0 * sum0 : sum1 < 0 ? sum1 * sum1 : REAL(0);
+    square1 = real_max(sum0 * sum0, sum1 * sum1);
+    bys0 = superell_lower(low_s, by0, l.q - REAL(1));
+    bys1 = superell_lower(high_s, by1, l.q - REAL(1));
+    x0 = product_or_0(rate.x * rate.x, real_min(a.by_xx, b.by_xx)) +
+         product_or_0(rate.y * rate.y, real_min(a.by_yy, b.by_yy));
+    x1 = product_or_0(rate.x * rate.x, real_max(a.by_xx, b.by_xx)) +
+         product_or_0(rate.y * rate.y, real_max(a.by_yy, b.by_yy));
+    x0 = product_or_0(l.p - REAL(1), product_or_0(outer0, x0));
+    x1 = product_or_0(l.p - REAL(1), product_or_0(outer1, x1));
+    y0 = product_or_0((l.q - REAL(1)) * l.p, product_or_0(real_min(bys0, bys1), square0));
+    y1 = product_or_0((l.q - REAL(1)) * l.p, product_or_0(real_max(bys0, bys1), square1));
+    z0 = product_or_0((l.r - REAL(1)) * rate.z * rate.z, a.by_zz);
+    z1 = product_or_0((l.r - REAL(1)) * rate.z * rate.z, b.by_zz);
+    if (real_min(x0, x1) + real_min(y0, y1) + real_min(z0, z1) > 0) return SUPERELL_BENT;
+    if (real_max(x0, x1) + real_max(y0, y1) + real_max(z0, z1) < 0) return SUPERELL_BENT;
+    return SUPERELL_UNDECIDED;
+}
+
+// The root between a and b, where G changes its sign once: Newton, kept within the bracket by bisection, and halving
+// whenever two steps did not.
+FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_point b) {
+    real low = a.u, high = b.u, u = REAL(0.5) * (low + high), width = REAL_INFINITY;
+    u32 negative = a.value < 0;
+    int step;
+    for (step = 0; step < SUPERELL_ROOT_STEPS; ++step) {
+        superell_point m = superell_at(l, rate, u);
+        real next;
+        if ((m.value < 0) == negative) {
+            low = u;
+        } else {
+            high = u;
+        }
+        next = u - m.value / (l.r * m.slope);
+        if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
+        if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
+        if (step & 1) width = high - low;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < REAL(1e-17)) return next;
+        u = next;
+    }
+    return u;
+}
+
+// Where G turns between a and b.
+FN superell_point superell_turn(superell_ray l, vec3 rate, superell_point a, superell_point b) {
+    real low = a.u, high = b.u;
+    u32 falling = a.slope < 0;
+    superell_point m = a;
+    int step;
+    for (step = 0; step < 60; ++step) {
+        real u = REAL(0.5) * (low + high);
+        if (!(u > low && u < high)) return m;
+        m = superell_at(l, rate, u);
+        if ((m.slope < 0) == falling) {
+            low = u;
+        } else {
+            high = u;
+        }
+    }
+    return m;
+}
+
+// The crossings between two neighbouring zeros of the coordinates.
+FN crossings superell_part(crossings c, superell_ray l, real low, real high, real shift, real length) {
+    real middle = REAL(0.5) * (low + high), width = high - low, least = width * SUPERELL_LEAST;
+    vec3 rate = make_vec3(superell_rate(l.x, middle), superell_rate(l.y, middle), superell_rate(l.z, middle));
+    superell_point a = superell_at(l, rate, low);
+    int steps = 0;
+    while (a.u < high) {
+        superell_point b;
+        real to = a.u + width;
+        int known = SUPERELL_MONOTONE;
+        if (!(to < high - least)) to = high;
+        b = superell_at(l, rate, to);
+        if (steps < SUPERELL_STEPS && to - a.u > least) known = superell_look(l, rate, a, b);
+        if (known == SUPERELL_UNDECIDED) {
+            width = REAL(0.5) * (to - a.u);
+            ++steps;
+            continue;
+        }
+        if (known == SUPERELL_BENT && (a.slope < 0) != (b.slope < 0)) {
+            superell_point m = superell_turn(l, rate, a, b);
+            if ((a.value < 0) != (m.value < 0)) c = cross(c, shift + superell_root(l, rate, a, m) / length, 0);
+            a = m;
+        }
+        if ((a.value < 0) != (b.value < 0)) c = cross(c, shift + superell_root(l, rate, a, b) / length, 0);
+        a = b;
+        width = REAL(2) * width;
+    }
+    return c;
+}
+
+// [low, high] cut to |at + rate u| <= limit.
+FN span superell_clip(span s, real at, real rate, real limit) {
+    if (rate != 0) {
+        real first = (-limit - at) / rate, second = (limit - at) / rate;
+        s.low = real_max(s.low, real_min(first, second));
+        s.high = real_min(s.high, real_max(first, second));
+    } else if (!(real_abs(at) <= limit)) {
+        s.high = s.low;
+    }
+    return s;
+}
+
+FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
+    local_ray l = to_local(p, r);
+    real length = real_sqrt(dot3(l.d, l.d));
+    vec3 d = scale(l.d, REAL(1) / length);
+    span s = whole_line();
+    superell_ray ray;
+    real knots[5];
+    int count = 0, i, k;
+    s = superell_clip(s, l.o.x, d.x, SUPERELL_MARGIN);
+    s = superell_clip(s, l.o.y, d.y, SUPERELL_MARGIN);
+    s = superell_clip(s, l.o.z, d.z, SUPERELL_MARGIN);
+    if (!(s.low < s.high)) return c;
+    ray.p = p[12];
+    ray.q = p[13];
+    ray.r = p[14];
+    ray.x = superell_axis_of(l.o.x, d.x, s.low, s.high);
+    ray.y = superell_axis_of(l.o.y, d.y, s.low, s.high);
+    ray.z = superell_axis_of(l.o.z, d.z, s.low, s.high);
+    knots[count++] = s.low;
+    if (ray.x.has_zero) knots[count++] = ray.x.zero;
+    if (ray.y.has_zero) knots[count++] = ray.y.zero;
+    if (ray.z.has_zero) knots[count++] = ray.z.zero;
+    for (i = 2; i < count; ++i)
+        for (k = i; k > 1 && knots[k] < knots[k - 1]; --k) {
+            real swapped = knots[k];
+            knots[k] = knots[k - 1];
+            knots[k - 1] = swapped;
+        }
+    knots[count++] = s.high;
+    for (i = 0; i + 1 < count; ++i) c = superell_part(c, ray, knots[i], knots[i + 1], l.shift, length);
+    return c;
+}
+
+// On a cusp (a coordinate is 0, its exponent below 1) the mean of the normals on both sides.
+FN vec3 superell_normal(GLOBAL const real* p, ray3 r, real t) {
+    vec3 at = local_point(to_local(p, r), t), n;
+    real x = real_abs(at.x), y = real_abs(at.y), z = real_abs(at.z), most;
+    real xp = power(x, p[12]), yp = power(y, p[12]);
+    real outer = xp + yp > 0 ? power(xp + yp, p[13]) / (xp + yp) : REAL(0);
+    n.x = x > 0 ? outer * (xp / x) : REAL(0);
+    n.y = y > 0 ? outer * (yp / y) : REAL(0);
+    n.z = z > 0 ? power(z, p[14]) / z : REAL(0);
+    most = real_max(n.x, real_max(n.y, n.z));
+    n = scale(n, REAL(1) / most);
+    if (at.x < 0) n.x = -n.x;
+    if (at.y < 0) n.y = -n.y;
+    if (at.z < 0) n.z = -n.z;
+    return affine_normal(p, n);
+}
+
+#endif
