@@ -252,7 +252,7 @@ TEST_CASE("v4: what is wrong is named with its place", "[asc][broken]") {
         {"vol's size", head + "s vol d file=a w=1 n=1 d=1 size=1,x,1\n", 3, 35, "d", "'x' is not a number"},
         {"mesh too long", head + "t b 2 2 0 1 0\n\t0: 0 0 0\n\t1: 1 0 0\n\t2: 1 0 0\n", 5, 1, "", "no record"},
         {"pipe without an end", head + "w p\n0 1 2 0 0 0\n", 3, 4, "p", "END_PIPE"},
-        {"ars cut off", head + "A 21 r 1 9 2 2 0\nB 22 0 1\n", 4, 9, "r", "0 of 24 coordinates"},
+        {"ars cut off", head + "A 21 r 1 9 2 2 0\nB 22 0 1" + zeros + "\n", 5, 1, "r", "1 of 2"},
         {"a count of billions", head + "N 1 n 2000000000\n 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n00\n", 6, 1, "n",
          "1 of 8000000000"},
     };
