@@ -55,7 +55,7 @@ Demand demand_of(const std::string& set) {
     if (set == "bicycle_wheel") demand.distance = 1e-4, demand.same = 0.997;
     // A dsp, whose answers in BRL-CAD depend on the way the ray runs: 40 % of them.
     if (set == "terra") demand.same = 0.96;
-    // Two rays of 10,200; not explained yet.
+    // Two rays meet a plate whose thickness lies behind it along the ray (nocos, appended): its other side, from the other end.
     if (set == "solids_csg.aim") demand.mirrored = 0.9998;
     // s.mid2c leans by 0.02 degrees; BRL-CAD shoots it as a right cylinder.
     if (set == "havoc") demand.near = 0.96;
