@@ -128,7 +128,7 @@ TEST_CASE("g: nmg", "[g]") {
     }
     CHECK(nmg.vertices[nmg.faces[0][0][1]] == Vec3{0, 10, 0});
     // A face of a spline: curved.
-    std::string curved = tetrahedron_nmg();
+    std::string curved = tetrahedron_nmg() + std::string(52, '\0');
     curved[4 + 8 * 4 + 3] = 1;
     CHECK(shape<Unsupported>(one(11, curved), "s").reason == "it has curved faces");
 }
