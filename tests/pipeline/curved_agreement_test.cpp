@@ -35,7 +35,7 @@ Scene scene_of(oracle::Kind kind, std::vector<Ray> &rays) {
         {Operator::leaf, 0, "s" + number, one.matrix, {}});
     scene.objects.push_back(region);
     all.tree.nodes.push_back({Operator::leaf, 0, "r" + number, identity, {}});
-    const oracle::ImplicitSolid solid = implicit(one.shape, one.matrix);
+    const oracle::ImplicitSolid solid = oracle::implicit(one.shape, one.matrix);
     oracle::RayMaker maker(one.shape, solid, random);
     for (std::size_t k = 0; k < 21; ++k)
       rays.push_back(
