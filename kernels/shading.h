@@ -12,7 +12,7 @@ typedef struct {
     real r, g, b;
 } rgb;
 
-FN real power(real x, u32 n) {
+FN real whole_power(real x, u32 n) {
     real result = 1;
     while (n) {
         if (n & 1u) result = result * x;
@@ -40,7 +40,7 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Material
         if (!(cosine > 0)) continue;
         diffuse = cosine * REAL(m.diffuse);
         mirrored = dot3(subtract(scale(n, REAL(2) * cosine), to_light), view);
-        specular = mirrored > 0 ? power(mirrored, m.shine) * REAL(m.specular) : REAL(0);
+        specular = mirrored > 0 ? whole_power(mirrored, m.shine) * REAL(m.specular) : REAL(0);
         c.r = c.r + REAL(light.r) * (diffuse * REAL(m.r) + specular);
         c.g = c.g + REAL(light.g) * (diffuse * REAL(m.g) + specular);
         c.b = c.b + REAL(light.b) * (diffuse * REAL(m.b) + specular);

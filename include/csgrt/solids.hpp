@@ -149,7 +149,7 @@ struct Cline {
 struct Bot {
     enum class Mode : std::uint8_t {
         surface,     ///< no inside: rendered as a skin of twice the scene's tolerance, along the ray
-        volume,      ///< closed: inside is what a ray enters by parity, whichever way the triangles face
+        volume,      ///< closed: a ray enters and leaves by turns. Only where gaps are does `orientation` matter
         plate,       ///< each triangle a plate of its thickness; one of thickness 0 is rendered as a skin
         plate_nocos  ///< the thickness is measured along the ray
     };
@@ -246,6 +246,7 @@ struct Revolve {
 /// A solid that csgrt knows by name only: refused, with its name and its user, when a rendered object needs it.
 struct Unsupported {
     std::string type;
+    std::string reason = {};  ///< what it lacks, if csgrt supports the type: its file of cells, its sketch
 };
 
 using Shape = std::variant<Ell, Tgc, Arb, Arbn, Half, Tor, Ehy, Part, Epa, Rpc, Rhc, Eto, Hyp, Superell, Hrt, Metaball,

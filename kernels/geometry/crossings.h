@@ -4,7 +4,12 @@
 //   crossings    |     |   |        |          of a closed surface: an even number
 //   ends         in   out  in      out
 //
-// A surface that is not closed leaves one over: it becomes a segment of no length, which the weave drops.
+// A surface that is not closed leaves one over: it becomes a segment of no length, which the weave drops. Where such a
+// surface tells its inside from its outside, a crossing says which it is, and one in and the very next out are a pair:
+//
+//   crossings    |     |     |   |     |
+//                out   in    in  out   out
+//   segments                 |===|             the others are left over
 #ifndef CSGRT_CROSSINGS_H
 #define CSGRT_CROSSINGS_H
 
@@ -75,6 +80,43 @@ FN u32 close_crossings(crossings c) {
         for (i = 1; i <= count; i += 2) c.ends[i].surface |= LEAVES;
     }
     return (count + 1) / 2;
+}
+
+// Pairs crossings that are marked already (LEAVES) where the ray goes out. Every out ends a segment, which has no length
+// unless an in came right before it; at the end there may be more of none, because room for all crossings was wanted.
+// Returns the number of segments.
+FN u32 close_marked_crossings(crossings c, u32 outs) {
+    u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // at t_min
+    u32 count = (c.ahead + 1) / 2, kept = 0, out = outs, i;
+    if (count < outs) count = outs;
+    if (!c.ends || count == 0) return count;
+    // What stays: the outs, and ins before an out.
+    for (i = 0; i < c.ahead; ++i)
+        if ((c.ends[i].surface & LEAVES) || (i + 1 < c.ahead && (c.ends[i + 1].surface & LEAVES))) {
+            End e = c.ends[i];
+            c.ends[kept++] = e;
+        }
+    // From the back, because pairs take more room.
+    {
+        End last = c.ends[kept > 0 ? kept - 1 : 0];
+        for (i = outs; i < count; ++i) {
+            c.ends[2 * i] = last;
+            c.ends[2 * i + 1] = last;
+        }
+    }
+    while (out > 0) {
+        End e = c.ends[--kept], in = e;
+        --out;
+        if (kept > 0) {
+            if (!(c.ends[kept - 1].surface & LEAVES)) in = c.ends[--kept];
+        } else if (inside) {
+            in.t = c.last;
+            in.surface = c.last_surface;
+        }
+        c.ends[2 * out] = in;
+        c.ends[2 * out + 1] = e;
+    }
+    return count;
 }
 
 #endif

@@ -1,31 +1,33 @@
 // Plane curves: rational Bezier pieces, and the straight ones among them.
 //
-// A sketch stands in `words` from first_word on: where its reals begin, how many lines it has, how many curves, then
-// for each curve where its reals begin and its degree. The sketch's reals are the center and the unit that its points
-// are relative to and in, which only the compiler needs; then x0 y0 x1 y1 a line. A curve's are x y weight a control
-// point; weights are positive, and 1 at its ends. Points where pieces meet are equal to the bit. Pieces are numbered,
-// lines first.
+// A sketch stands in `words` from first_word on: where its reals begin, how many lines it has, how many curves, where
+// in inner_nodes the hierarchy over its lines begins and how many nodes that has (0: none), then for each curve where
+// its reals begin and its degree. The sketch's reals are x0 y0 x1 y1 a line. A curve's are x y weight a control point;
+// weights are positive, and 1 at its ends. Points where pieces meet are equal to the bit. Pieces are numbered, lines
+// first.
 #ifndef CSGRT_CURVE_H
 #define CSGRT_CURVE_H
 
 #include "hits.h"
 
-#define SKETCH_REALS 3  // before the lines
-#define SKETCH_WORDS 3  // before the curves
+#define SKETCH_WORDS 5  // before the curves
 #define CURVE_SIZE 13   // control points at most: degree 12 (Limits::curve_degree)
 
 typedef struct {
     GLOBAL const real* lines;
     GLOBAL const u32* curves;
-    u32 line_count, curve_count;
+    GLOBAL const BvhNode* nodes;
+    u32 line_count, curve_count, node_count;
 } sketch;
 
 FN sketch sketch_of(Geometry g, SolidRecord solid) {
     GLOBAL const u32* words = g.words + solid.first_word;
     sketch s;
-    s.lines = g.reals + words[0] + SKETCH_REALS;
+    s.lines = g.reals + words[0];
     s.line_count = words[1];
     s.curve_count = words[2];
+    s.nodes = g.inner_nodes + words[3];
+    s.node_count = words[4];
     s.curves = words + SKETCH_WORDS;
     return s;
 }

@@ -76,6 +76,33 @@ FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plan
     return cut_crossing(k, real_abs(to_wall - t) <= w.slack ? to_wall : t, surface);
 }
 
+// Can the line cross what lies in a box? The boxes are padded by far more than rounding.
+FN int enters_box(line2 l, BvhNode box) {
+    real x = REAL(0.5) * (REAL(box.low[0]) + REAL(box.high[0])), y = REAL(0.5) * (REAL(box.low[1]) + REAL(box.high[1]));
+    real half_x = REAL(box.high[0]) - x, half_y = REAL(box.high[1]) - y;
+    return real_abs(side_of(l, x, y)) <= real_fma(real_abs(l.dx), half_y, real_abs(l.dy) * half_x);
+}
+
+FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, ray3 r) {
+    u32 i = 0;
+    while (i < s.node_count) {
+        BvhNode node = s.nodes[i];
+        if (!enters_box(w.line, node)) {
+            i = node.skip;
+        } else if (node.leaf) {
+            u32 line = node.leaf >> BVH_LEAF_SHIFT, end = line + (node.leaf & BVH_LEAF_MASK);
+            for (; line < end; ++line) {
+                u32 surface = EXTRUDE_ENDS + line;
+                k = meet_line(k, w, s.lines + 4 * line, g, solid.first_plane + surface, r, surface);
+            }
+            i = node.skip;
+        } else {
+            ++i;
+        }
+    }
+    return k;
+}
+
 // The point of a curve on the line, where it changes sides between two parameters.
 FN curve_point point_on_line(GLOBAL const real* p, u32 degree, line2 l, sign_walk found) {
     bracket b = start_bracket(found.low, found.high, !found.positive);
@@ -120,10 +147,7 @@ FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     if (!(ends.low < ends.high)) return c;
     w = to_sketch(g.reals + solid.first_real, r);
     k = start_cut(ends, 1, c);
-    for (i = 0; i < s.line_count; ++i) {
-        u32 surface = EXTRUDE_ENDS + i;
-        k = meet_line(k, w, s.lines + 4 * i, g, solid.first_plane + surface, r, surface);
-    }
+    k = meet_lines(k, w, g, solid, s, r);
     for (i = 0; i < s.curve_count; ++i)
         k = meet_curve(k, w, g.reals + s.curves[2 * i], s.curves[2 * i + 1], EXTRUDE_ENDS + s.line_count + i);
     return end_cut(k);

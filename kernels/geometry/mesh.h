@@ -1,4 +1,5 @@
-// Closed surfaces of triangles: what they enclose by parity (see crossings.h), whichever way the triangles face.
+// Closed surfaces of triangles: what they enclose by parity (see crossings.h), whichever way the triangles face. Those
+// that are not closed, but face one way: what they enclose where a ray does not come through a gap.
 // Parameters, words: see triangle.h. Surfaces: the triangles, and LEAVES where the ray goes out.
 #ifndef CSGRT_MESH_H
 #define CSGRT_MESH_H
@@ -17,8 +18,9 @@ typedef struct {
     slab_ray slab;
     u32 node, node_count;  // the next node
     u32 next, last;        // triangles of the leaf that are left
-    u32 triangle;          // the one that was met, and where; NONE: no more
-    real t;
+    u32 triangle;          // the one that was met; NONE: no more
+    real t;                // where
+    int clockwise;         // its corners, seen along the ray
 } mesh_walk;
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {
@@ -36,6 +38,7 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
     w.next = w.last = 0;
     w.triangle = NONE;
     w.t = 0;
+    w.clockwise = 0;
     return w;
 }
 
@@ -48,6 +51,7 @@ FN mesh_walk next_triangle(mesh_walk w) {
             if (h.hit) {
                 w.triangle = w.next - 1;
                 w.t = h.t;
+                w.clockwise = h.clockwise;
                 return w;
             }
         }
@@ -69,13 +73,19 @@ FN mesh_walk next_triangle(mesh_walk w) {
 
 FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
     crossings c = no_crossings(index, t_min, ends);
-    mesh_walk w = start_mesh_walk(g, g.words + solid.first_word, g.reals + solid.first_real, r);
+    GLOBAL const u32* mesh = g.words + solid.first_word;
+    u32 facing = mesh[MESH_FACING], outs = 0;
+    mesh_walk w = start_mesh_walk(g, mesh, g.reals + solid.first_real, r);
     for (;;) {
+        int leaves;
         w = next_triangle(w);
         if (w.triangle == NONE) break;
-        c = cross(c, w.t, w.triangle);
+        // Counterclockwise from outside is clockwise from within, as a ray on its way out sees it.
+        leaves = facing != 0 && (w.clockwise != 0) == (facing == 1);
+        if (leaves && w.t >= t_min) ++outs;
+        c = cross(c, w.t, leaves ? w.triangle | LEAVES : w.triangle);
     }
-    return close_crossings(c);
+    return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 
 // Against the ray where it goes in, along it where it goes out: the triangles may face either way.

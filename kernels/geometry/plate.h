@@ -14,41 +14,26 @@
 
 #define PLATE_SKIN 12  // among the parameters
 
-#define PLATE_EXTENTS 0    // where in `reals`: before and behind for each triangle; the box's corners stand before them
+#define PLATE_EXTENTS 0    // where in `reals`: before and behind for each triangle
 #define PLATE_ALONG_RAY 1  // 1: measured along the ray
 #define PLATE_MESH 2
-#define PLATE_BOX 6
 
 // Nothing that is met at a smaller cosine has a thickness that makes sense.
 #define PLATE_FLATTEST REAL(1e-9)
 
-// The piece of the ray within a box, in its own parameter. Rays come here that do meet it, but for roundings.
-FN span box_span(local_ray l, GLOBAL const real* box) {
-    span s = whole_line();
-    int axis;
-    for (axis = 0; axis < 3; ++axis) {
-        real d = turned(l.d, axis).z, o = turned(l.o, axis).z;
-        real low = (box[axis] - o) / d, high = (box[3 + axis] - o) / d;
-        if (d == 0) continue;
-        s.low = real_max(s.low, real_min(low, high));
-        s.high = real_min(s.high, real_max(low, high));
-    }
-    s.low = l.shift + s.low;
-    s.high = l.shift + s.high;
-    return s;
-}
-
-// Where a plate begins and ends that is met at w.t. Empty: it is not wanted. No plate reaches beyond the box around them
-// all, which it otherwise would where the ray grazes it.
-FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* extents, span box, real skin, real t_min) {
+// Where a plate begins and ends that is met at w.t; empty: nowhere. A ray that grazes a plate stays in it for long, and far
+// beyond the solid's box, as in BRL-CAD. Only the triangle itself is sure to lie in the box, so one before t_min is not
+// wanted, whatever its plate.
+FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* extents, real skin, real t_min) {
     real before = extents[2 * (size_t)w.triangle], behind = extents[2 * (size_t)w.triangle + 1];
     real speed = real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d));
     real rate = speed;
     span s;
     s.low = s.high = w.t;
     s.low_surface = s.high_surface = w.triangle;
+    if (!(w.t >= t_min)) return s;
     if (before == 0 && behind == 0) {
-        if (w.t >= t_min) s.high = w.t + skin;
+        s.high = w.t + skin;
         return s;
     }
     if (!words[PLATE_ALONG_RAY]) {
@@ -56,9 +41,8 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
         rate = real_abs(dot3(n, w.ray.ray.d)) / real_sqrt(dot3(n, n));
     }
     if (!(rate > PLATE_FLATTEST * speed)) return s;
-    s.low = real_min(w.t, real_max(w.t - before / rate, box.low));
-    s.high = real_max(w.t, real_min(w.t + behind / rate, box.high));
-    if (!(s.high >= t_min)) s.high = s.low;
+    s.low = w.t - before / rate;
+    s.high = w.t + behind / rate;
     return s;
 }
 
@@ -67,14 +51,13 @@ FN u32 plate_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_mi
     GLOBAL const real* extents = g.reals + words[PLATE_EXTENTS];
     GLOBAL const real* place = g.reals + solid.first_real;
     mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r);
-    span box = box_span(w.ray.ray, extents - PLATE_BOX);
     real skin = place[PLATE_SKIN] / real_sqrt(dot3(r.d, r.d));
     u32 count = 0;
     for (;;) {
         span s;
         w = next_triangle(w);
         if (w.triangle == NONE) break;
-        s = plate_span(w, words, extents, box, skin, t_min);
+        s = plate_span(w, words, extents, skin, t_min);
         if (!(s.low < s.high)) continue;
         if (ends) {
             u32 i = count;

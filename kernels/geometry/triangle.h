@@ -24,7 +24,8 @@
 #define MESH_VERTICES 0    // where in `reals` they are
 #define MESH_NODES 1       // where in `inner_nodes` its hierarchy is
 #define MESH_NODE_COUNT 2
-#define MESH_TRIANGLES 3   // the first triangle's word
+#define MESH_FACING 3      // 0: of no account; else corners run counterclockwise (1) or clockwise (2), seen from outside
+#define MESH_TRIANGLES 4   // the first triangle's word
 
 typedef struct {
     local_ray ray;
@@ -68,7 +69,8 @@ FN int side_of_edge(vec3 a, vec3 b, real product) {
 
 typedef struct {
     int hit;
-    real t;  // the ray's own
+    real t;              // the ray's own
+    int clockwise;       // seen along the ray
 } triangle_hit;
 
 FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners) {
@@ -83,6 +85,7 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     real z;
     h.hit = side != 0 && side_of_edge(b, c, wa) == side && side_of_edge(c, a, wb) == side;
     h.t = 0;
+    h.clockwise = (side > 0) == (turned(u.ray.d, u.axis).z > 0);
     if (!h.hit) return h;
     // No weight has the other sign, and not all are 0, because then the triangle has no area and no inside.
     z = real_fma(wc, c.z, real_fma(wb, b.z, wa * a.z)) / (wa + wb + wc);

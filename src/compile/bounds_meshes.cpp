@@ -19,30 +19,18 @@ Box box_of(const Matrix& m, const Matrix& own, const Each& each) {
     return box;
 }
 
-template <class Point>
-void each_corner(const Bot& s, const Point& point) {
-    for (const auto& face : s.faces)
-        for (const std::uint32_t corner : face) point(s.vertices[corner]);
-}
-
 }  // namespace
 
-Box plates_box(const Bot& s) {
-    Box box = empty_box;
-    each_corner(s, [&](const Vec3& p) { extend(box, p); });
-    const bool thick = s.mode == Bot::Mode::plate || s.mode == Bot::Mode::plate_nocos;
-    const double t = thick ? *std::max_element(s.thickness.begin(), s.thickness.end()) : 0;
-    return {{box.low.x - t, box.low.y - t, box.low.z - t}, {box.high.x + t, box.high.y + t, box.high.z + t}};
-}
-
 Box Tight::operator()(const Bot& s) const {
-    return box_of(m, identity, [&](const auto& point) {
-        if (s.mode == Bot::Mode::volume) return each_corner(s, point);
-        const Box box = plates_box(s);
-        for (const double x : {box.low.x, box.high.x})
-            for (const double y : {box.low.y, box.high.y})
-                for (const double z : {box.low.z, box.high.z}) point(Vec3{x, y, z});
+    const Box box = box_of(m, identity, [&](const auto& point) {
+        for (const auto& face : s.faces)
+            for (const std::uint32_t corner : face) point(s.vertices[corner]);
     });
+    if (s.mode == Bot::Mode::volume || s.thickness.empty()) return box;
+    // Plates reach this far along their normals; along a ray that grazes them, farther.
+    const long double thickest = *std::max_element(s.thickness.begin(), s.thickness.end());
+    const Wide reach = thickest * half_size(linear_part(m));
+    return {narrow(wide(box.low) - reach), narrow(wide(box.high) + reach)};
 }
 
 Box Tight::operator()(const Ars& s) const {

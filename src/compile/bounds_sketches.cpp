@@ -19,7 +19,7 @@ struct Interval {
 /// Around v + `reach` of each axis, moved along h. `reach(a, b)` gives the least and the greatest a u + b v.
 template <class Reach>
 Box prism_box(const Wide& v, const Wide& a, const Wide& b, const Wide& h, const Reach& reach) {
-    Wide low, high;
+    Wide low(0), high(0);
     for (int i = 0; i < 3; ++i) {
         const Interval across = reach(a[i], b[i]);
         low[i] = v[i] + across.least + std::min(h[i], 0.0L);
@@ -75,7 +75,7 @@ Box Tight::operator()(const Revolve& s) const {
         const long double lean = across * greatest_cosine(s.angle, std::atan2(along_y, along_x));
         return reach_of(pieces, lean, along_z).second;
     };
-    Wide low, high;
+    Wide low(0), high(0);
     for (int i = 0; i < 3; ++i) {
         low[i] = v[i] - farthest(-x[i], -y[i], -z[i]);
         high[i] = v[i] + farthest(x[i], y[i], z[i]);

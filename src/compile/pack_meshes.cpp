@@ -42,7 +42,8 @@ MeshFrame frame_of(const Triangles& mesh) {
 
 /// Before the vertices stand center and scale, which only the host reads. Returns the faces in the order of the
 /// hierarchy's leaves.
-std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene) {
+std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene,
+                                    std::uint32_t facing = 0) {
     if (mesh.faces.size() > most_triangles)
         throw Error(Status::scene, "a mesh of " + std::to_string(mesh.faces.size()) +
                                        " triangles cannot be rendered; less than 2^28 can");
@@ -70,6 +71,7 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
     scene.words[first_word + MESH_VERTICES] = static_cast<std::uint32_t>(first_real);
     scene.words[first_word + MESH_NODES] = static_cast<std::uint32_t>(first_node);
     scene.words[first_word + MESH_NODE_COUNT] = static_cast<std::uint32_t>(hierarchy.nodes.size());
+    scene.words[first_word + MESH_FACING] = facing;
     for (const std::uint32_t face : hierarchy.order)
         scene.words.insert(scene.words.end(), mesh.faces[face].begin(), mesh.faces[face].end());
     return std::move(hierarchy.order);
@@ -97,12 +99,23 @@ void place_mesh(Packer& packer, std::uint32_t mesh, const Matrix& own) {
     packer.frame(transform_point(own, {f[0], f[1], f[2]}), linear_part(own) * scale);
 }
 
+/// Only where the surface has gaps does it matter which way the triangles face: what is closed is known by parity, for
+/// certain.
+template <class S>
+std::uint32_t facing_of(const S&, const Triangles&) {
+    return 0;
+}
+std::uint32_t facing_of(const Bot& bot, const Triangles& mesh) {
+    if (bot.orientation == Bot::Orientation::unoriented || is_closed(mesh)) return 0;
+    return bot.orientation == Bot::Orientation::counterclockwise ? 1 : 2;
+}
+
 template <class S>
 void pack_mesh(Packer& packer, const S& solid, const Matrix& own) {
     packer.record.type = SOLID_MESH;
     packer.record.first_word = shared_words(packer, &solid, [&] {
         const Triangles mesh = triangles_of(solid);
-        add_mesh(mesh, frame_of(mesh), packer.scene);
+        add_mesh(mesh, frame_of(mesh), packer.scene, facing_of(solid, mesh));
     });
     place_mesh(packer, packer.record.first_word, own);
 }
@@ -116,9 +129,6 @@ void pack_plates(Packer& packer, const Bot& bot) {
         const Triangles mesh = triangles_of(bot);
         const MeshFrame frame = frame_of(mesh);
         const std::vector<std::uint32_t> order = add_mesh(mesh, frame, scene);
-        const Box box = plates_box(bot);
-        const Vec3 low = frame(box.low), high = frame(box.high);
-        for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z}) scene.reals.push_back(x);
         scene.words[first_word + PLATE_EXTENTS] = static_cast<std::uint32_t>(scene.reals.size());
         scene.words[first_word + PLATE_ALONG_RAY] = bot.mode == Bot::Mode::plate_nocos ? 1 : 0;
         for (const std::uint32_t face : order) {

@@ -18,7 +18,7 @@ struct Prism {
     Wide v, a, b, h;
 };
 
-void extrude(Packer& packer, const Prism& prism, const SketchParts& parts, const void* key) {
+void extrude(Packer& packer, const Prism& prism, SketchParts parts, const void* key) {
     const auto& [v, a, b, h] = prism;
     const Matrix& matrix = packer.matrix;
     packer.record.type = SOLID_EXTRUDE;

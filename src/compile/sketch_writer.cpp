@@ -4,7 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "compile/bvh.hpp"
+#include "kernel_geometry.hpp"
+
 namespace csgrt {
+
+static_assert(Limits::curve_degree < CURVE_SIZE && 2 * Limits::curve_degree < BERNSTEIN_SIZE);
 
 namespace {
 
@@ -43,8 +48,30 @@ PackedSketch place(const SketchParts& parts, SketchCenter center) {
     return sketch;
 }
 
-PackedSketch write(CompiledScene& scene, const SketchParts& parts, SketchCenter center) {
-    PackedSketch sketch = place(parts, center);
+/// Puts the lines in the order of the hierarchy's leaves.
+Hierarchy sort_lines(std::vector<StraightLine>& lines, const PackedSketch& sketch) {
+    std::vector<Box> boxes;
+    boxes.reserve(lines.size());
+    for (const StraightLine& line : lines) {
+        boxes.push_back(empty_box);
+        // Equally deep, so that a box around many lines is rated by its circumference.
+        const auto add = [&](long double u, long double v, double depth) {
+            extend(boxes.back(), {static_cast<double>((u - sketch.u) / sketch.unit),
+                                  static_cast<double>((v - sketch.v) / sketch.unit), depth});
+        };
+        add(line.u0, line.v0, -1);
+        add(line.u1, line.v1, 1);
+    }
+    Hierarchy hierarchy = build_bvh(boxes, {}, 2, 0);
+    std::vector<StraightLine> sorted;
+    sorted.reserve(lines.size());
+    for (const std::uint32_t i : hierarchy.order) sorted.push_back(lines[i]);
+    lines = std::move(sorted);
+    return hierarchy;
+}
+
+void write(CompiledScene& scene, const SketchParts& parts, const std::vector<kernel::BvhNode>& nodes,
+           PackedSketch& sketch) {
     const auto number = [&](long double x) { scene.reals.push_back(static_cast<double>(x)); };
     const auto point = [&](long double u, long double v) {
         number((u - sketch.u) / sketch.unit);
@@ -54,7 +81,9 @@ PackedSketch write(CompiledScene& scene, const SketchParts& parts, SketchCenter 
     scene.words.push_back(position_of(scene.reals.size()));
     scene.words.push_back(position_of(parts.lines.size()));
     scene.words.push_back(position_of(parts.curves.size()));
-    for (const double x : {sketch.u, sketch.v, sketch.unit}) number(x);
+    scene.words.push_back(position_of(scene.inner_nodes.size()));
+    scene.words.push_back(position_of(nodes.size()));
+    scene.inner_nodes.insert(scene.inner_nodes.end(), nodes.begin(), nodes.end());
     for (const StraightLine& line : parts.lines) {
         point(line.u0, line.v0);
         point(line.u1, line.v1);
@@ -67,7 +96,6 @@ PackedSketch write(CompiledScene& scene, const SketchParts& parts, SketchCenter 
             number(p.weight);
         }
     }
-    return sketch;
 }
 
 }  // namespace
@@ -89,15 +117,17 @@ std::uint32_t position_of(std::size_t size) {
     return static_cast<std::uint32_t>(size);
 }
 
-PackedSketch share_sketch(CompiledScene& scene, SharedParts& shared, const void* key, const SketchParts& parts,
+PackedSketch share_sketch(CompiledScene& scene, SharedParts& shared, const void* key, SketchParts& parts,
                           SketchCenter center) {
-    const auto known = shared.find(key);
-    if (known != shared.end()) {
-        const double* reals = scene.reals.data() + scene.words[known->second];
-        return {known->second, reals[0], reals[1], reals[2]};
+    PackedSketch sketch = place(parts, center);
+    Hierarchy hierarchy;
+    if (center == SketchCenter::middle && !parts.lines.empty()) hierarchy = sort_lines(parts.lines, sketch);
+    const auto [known, is_new] = shared.emplace(key, 0u);
+    if (is_new) {
+        write(scene, parts, hierarchy.nodes, sketch);
+        known->second = sketch.first_word;
     }
-    const PackedSketch sketch = write(scene, parts, center);
-    shared.emplace(key, sketch.first_word);
+    sketch.first_word = known->second;
     return sketch;
 }
 

@@ -28,8 +28,9 @@ struct PackedSketch {
     double unit = 1;      ///< a power of two; in it, from the center, all points lie within -1 and 1
 };
 
-/// Writes the parts, unless another place of the same solid has done so.
-PackedSketch share_sketch(CompiledScene& scene, SharedParts& shared, const void* key, const SketchParts& parts,
+/// Writes the parts, unless another place of the same solid has done so. Where points are told from the middle, the
+/// lines get a hierarchy of boxes and are put in the order of its leaves.
+PackedSketch share_sketch(CompiledScene& scene, SharedParts& shared, const void* key, SketchParts& parts,
                           SketchCenter center);
 
 /// A size as a position in one of the tables. Throws Error (scene) beyond 32 bits.

@@ -88,7 +88,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take();
+        scene_.objects = objects_.take(source_.name());
         return std::move(scene_);
     }
 
@@ -106,16 +106,14 @@ private:
             default: break;
         }
         if (!is_v4_solid(letter.text[0])) return refuse_record(line);
-        Solid solid;
+        BrlcadItem item;
         try {
-            solid.shape = read_v4_solid(line, lines_, object_);
+            item = read_v4_solid(line, lines_, object_);
         } catch (const Fault&) {
             skip_data();
             throw;
         }
-        solid.name = object_;
-        solid.place = source_.place(line.offset, object_);
-        objects_.add(std::move(solid), line.offset);
+        objects_.add(object_, std::move(item), source_.place(line.offset, object_), line.offset);
     }
 
     /// One finding for a run of lines that have lost their record.

@@ -53,7 +53,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take();
+        scene_.objects = objects_.take(source_.name());
         return std::move(scene_);
     }
 
@@ -108,8 +108,8 @@ private:
         if (type.text == "comb") {
             objects_.add(read_combination(rest), name.offset);
         } else {
-            Solid solid{object_, read_v5_solid(type, rest, store_), source_.place(words_[0].offset, object_)};
-            objects_.add(std::move(solid), name.offset);
+            BrlcadItem item = read_v5_object(type, rest, store_);
+            objects_.add(object_, std::move(item), source_.place(words_[0].offset, object_), name.offset);
         }
     }
 
@@ -144,12 +144,11 @@ private:
             for (const Attribute& attribute : attributes) set_global_attribute(scene_, attribute);
             return;
         }
-        Object* object = objects_.find(object_);
-        if (object == nullptr) {
+        if (!objects_.contains(object_)) {
             if (broken_.count(object_) > 0) return;
             throw Fault{name.offset, "no object of that name stands before this line", {}};
         }
-        auto* combination = std::get_if<Combination>(object);
+        Combination* combination = objects_.find_combination(object_);
         if (combination == nullptr) return;  // those of a solid do not matter to its shape
         set_attributes(*combination, attributes);
     }

@@ -1,6 +1,6 @@
 // A database is a row of objects. The first is its header; _GLOBAL holds title, unit and region colours as attributes;
-// geometry is solids and combinations, whose attributes make them regions. All other objects (free storage, binary
-// data, notes) do not matter to a scene. Lengths are millimetres; the unit is for display.
+// geometry is solids and combinations, whose attributes make them regions. Binary data may be cells of a solid. All
+// other objects (free storage, notes) do not matter to a scene. Lengths are millimetres; the unit is for display.
 #include "formats/brlcad_g.hpp"
 
 #include <new>
@@ -17,7 +17,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr int major_geometry = 1, major_attributes = 2;
+constexpr int major_geometry = 1, major_attributes = 2, major_numbers = 9;
 constexpr int minor_combination = 31;
 
 /// Records of release 4 start with a letter, the first with I, a unit's number and the release.
@@ -40,7 +40,7 @@ public:
             read_objects(bytes.size());
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take();
+        scene_.objects = objects_.take(source_.name());
         return std::move(scene_);
     }
 
@@ -70,6 +70,7 @@ private:
         if (object.kind != GObject::Kind::data) return;
         if (object.major == major_attributes && object.name == "_GLOBAL") return read_global(object);
         if (object.major == major_geometry) return read_geometry(object);
+        if (object.major == major_numbers) read_numbers(object);
     }
 
     void read_global(const GObject& object) {
@@ -82,8 +83,17 @@ private:
         if (object.minor == minor_combination) {
             objects_.add(read_combination(object, std::move(place)), object.offset);
         } else {
-            objects_.add(Solid{object.name, read_g_solid(object.minor, object.body), std::move(place)}, object.offset);
+            BrlcadItem item = read_g_solid(object.minor, object.body);
+            objects_.add(object.name, std::move(item), std::move(place), object.offset);
         }
+    }
+
+    /// The cells of an ebm, vol or dsp. Those that are compressed hold nothing that csgrt could use.
+    void read_numbers(const GObject& object) {
+        if (object.name.empty()) throw Fault{object.offset, "the object has no name", {}};
+        BrlcadNumbers numbers;
+        if (!object.body.compressed) numbers = {object.minor, std::string(object.body.bytes)};
+        objects_.add(object.name, {std::move(numbers)}, source_.place(object.offset, object.name), object.offset);
     }
 
     Combination read_combination(const GObject& object, Place place) {

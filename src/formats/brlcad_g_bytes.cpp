@@ -37,6 +37,26 @@ std::int64_t ByteReader::signed_number(unsigned width, const char* what) {
     return static_cast<std::int64_t>(number(width, what) << unused) >> unused;
 }
 
+std::uint32_t ByteReader::count(std::size_t size, const char* what) {
+    const std::size_t at = offset_;
+    const std::uint32_t value = word(what);
+    if (value > left() / size) {
+        throw Fault{at, std::string(what) + ": " + std::to_string(value) + " of " + std::to_string(size) +
+                            " bytes each do not fit into the " + std::to_string(left()) + " bytes that are left", {}};
+    }
+    return value;
+}
+
+std::uint32_t ByteReader::index(std::size_t end, const char* what) {
+    const std::size_t at = offset_;
+    const std::uint32_t value = word(what);
+    if (value >= end) {
+        throw Fault{at, std::string(what) + ": there is no number " + std::to_string(value) + ", only " +
+                            std::to_string(end) + ", counted from 0", {}};
+    }
+    return value;
+}
+
 double ByteReader::real(const char* what) {
     constexpr unsigned eight_bytes = 3;
     const std::size_t at = offset_;

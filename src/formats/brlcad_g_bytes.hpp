@@ -17,6 +17,7 @@ public:
     /// `name` is what diagnostics call the file.
     ByteSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
 
+    const std::string& name() const noexcept { return name_; }
     std::string_view bytes() const noexcept { return bytes_; }
 
     Place place(std::size_t offset, std::string object = {}) const override;
@@ -42,6 +43,13 @@ public:
     std::uint64_t number(unsigned width, const char* what);
     /// The same, where the highest bit is a sign.
     std::int64_t signed_number(unsigned width, const char* what);
+
+    /// A number of 4 bytes.
+    std::uint32_t word(const char* what) { return static_cast<std::uint32_t>(number(2, what)); }
+    /// The same, if it counts things of `size` bytes each, and all of them can still stand here.
+    std::uint32_t count(std::size_t size, const char* what);
+    /// The same, if it is less than `end`.
+    std::uint32_t index(std::size_t end, const char* what);
 
     /// A finite double.
     double real(const char* what);

@@ -8,100 +8,155 @@ namespace csgrt {
 
 namespace {
 
-/// BRL-CAD's numbers of the types that csgrt reads.
-enum Type : int { tor = 1, tgc = 2, ell = 3, arb8 = 4, half = 6, rec = 7, sph = 10, arbn = 14, ehy = 20 };
-
-/// BRL-CAD's names of all its types, by their numbers; null where there is none.
-constexpr const char* type_names[] = {
-    nullptr,   "tor",  "tgc",   "ell",     "arb8",  "ars",      "half",     "rec",     "poly",     "bspline",
-    "sph",     "nmg",  "ebm",   "vol",     "arbn",  "pipe",     "part",     "rpc",     "rhc",      "epa",
-    "ehy",     "eto",  "grip",  "joint",   "hf",    "dsp",      "sketch",   "extrude", "submodel", "cline",
-    "bot",     "comb", nullptr, "binunif", nullptr, "superell", "metaball", "brep",    "hyp",      "constrnt",
-    "revolve", "pnts", "annot", "hrt",     "datum", "script",   "material",
-};
-
-std::string type_name_of(int minor) {
-    const bool known = minor >= 0 && minor < static_cast<int>(std::size(type_names)) && type_names[minor] != nullptr;
-    return known ? type_names[minor] : "type " + std::to_string(minor);
-}
-
 constexpr std::size_t real_size = 8;
 
-void expect_size(const ByteReader& bytes, std::size_t size, int minor) {
-    if (bytes.left() == size) return;
-    throw Fault{bytes.offset(), "the body of the " + type_name_of(minor) + " has " + std::to_string(bytes.left()) +
-                                    " bytes, not " + std::to_string(size), {}};
+// Braces evaluate their parts from left to right, which is the order of the file.
+
+Shape tor(ByteReader& b) { return Tor{b.vec3("V"), b.vec3("H"), b.real("r_a"), b.real("r_h")}; }
+
+Shape tgc(ByteReader& b) {
+    return Tgc{b.vec3("V"), b.vec3("H"), b.vec3("A"), b.vec3("B"), b.vec3("C"), b.vec3("D")};
 }
 
-Shape read_tor(ByteReader& bytes) {
-    const Vec3 v = bytes.vec3("V"), h = bytes.vec3("H");
-    const double r_a = bytes.real("r_a"), r_h = bytes.real("r_h");
-    return Tor{v, h, r_a, r_h};
-}
+Shape ell(ByteReader& b) { return Ell{b.vec3("V"), b.vec3("A"), b.vec3("B"), b.vec3("C")}; }
 
-Shape read_ehy(ByteReader& bytes) {
-    const Vec3 v = bytes.vec3("V"), h = bytes.vec3("H"), a = bytes.vec3("A");
-    const double r_1 = bytes.real("r_1"), r_2 = bytes.real("r_2"), c = bytes.real("c");
-    return Ehy{v, h, unit_vector(a), r_1, r_2, c};
-}
-
-Plane read_plane(ByteReader& bytes) {
-    const Vec3 normal = bytes.vec3("a plane's normal");
-    return unit_plane(normal, bytes.real("a plane's distance"));
-}
-
-Shape read_arb8(ByteReader& bytes) {
+Shape arb8(ByteReader& b) {
     Arb arb;
-    for (Vec3& vertex : arb.vertices) vertex = bytes.vec3("a vertex");
+    for (Vec3& vertex : arb.vertices) vertex = b.vec3("a vertex");
     return arb;
 }
 
-Shape read_arbn(ByteReader& bytes) {
-    constexpr unsigned four_bytes = 2;
-    const std::size_t count_at = bytes.offset();
-    const std::uint64_t count = bytes.number(four_bytes, "the number of planes");
+Plane plane(ByteReader& b) {
+    const Vec3 normal = b.vec3("a plane's normal");
+    return unit_plane(normal, b.real("a plane's distance"));
+}
+
+Shape half(ByteReader& b) { return Half{plane(b)}; }
+
+Shape arbn(ByteReader& b) {
+    const std::size_t count_at = b.offset();
+    const std::uint32_t count = b.count(4 * real_size, "the number of planes");
     if (count < 1 || count > Limits::faces) {
         throw Fault{count_at, "the arbn has " + std::to_string(count) + " planes, not 1 to " +
                                   std::to_string(Limits::faces), {}};
     }
-    expect_size(bytes, static_cast<std::size_t>(count) * 4 * real_size, arbn);
     Arbn solid;
-    for (std::uint64_t i = 0; i < count; ++i) solid.planes.push_back(read_plane(bytes));
+    for (std::uint32_t i = 0; i < count; ++i) solid.planes.push_back(plane(b));
     return solid;
 }
 
-/// How many numbers the body of a type holds that csgrt reads; 0 for other types.
-std::size_t numbers_of(int minor) {
-    switch (minor) {
-        case tor: return 8;
-        case tgc: case rec: return 18;
-        case ell: case sph: case ehy: return 12;
-        case arb8: return 24;
-        case half: return 4;
-        default: return 0;
-    }
+Shape ehy(ByteReader& b) {
+    return Ehy{b.vec3("V"), b.vec3("H"), unit_vector(b.vec3("A")), b.real("r_1"), b.real("r_2"), b.real("c")};
 }
+
+Shape part(ByteReader& b) { return Part{b.vec3("V"), b.vec3("H"), b.real("r_v"), b.real("r_h")}; }
+
+Shape epa(ByteReader& b) {
+    return Epa{b.vec3("V"), b.vec3("H"), unit_vector(b.vec3("A")), b.real("r_1"), b.real("r_2")};
+}
+
+Shape rpc(ByteReader& b) { return Rpc{b.vec3("V"), b.vec3("H"), b.vec3("B"), b.real("r")}; }
+
+Shape rhc(ByteReader& b) { return Rhc{b.vec3("V"), b.vec3("H"), b.vec3("B"), b.real("r"), b.real("c")}; }
+
+Shape eto(ByteReader& b) { return Eto{b.vec3("V"), b.vec3("N"), b.vec3("C"), b.real("r"), b.real("r_d")}; }
+
+/// Eight bytes more follow, which BRL-CAD never sets.
+Shape hyp(ByteReader& b) {
+    const Hyp solid{b.vec3("V"), b.vec3("H"), b.vec3("A"), b.real("b"), b.real("bnr")};
+    if (b.left() == real_size) b.take(real_size, "what follows a hyp");
+    return solid;
+}
+
+Shape superell(ByteReader& b) {
+    return Superell{b.vec3("V"), b.vec3("A"), b.vec3("B"), b.vec3("C"), b.real("n"), b.real("e")};
+}
+
+Shape hrt(ByteReader& b) { return Hrt{b.vec3("V"), b.vec3("X"), b.vec3("Y"), b.vec3("Z"), b.real("d")}; }
+
+Shape cline(ByteReader& b) {
+    const double thickness = b.real("the thickness"), radius = b.real("the radius");
+    const Vec3 v = b.vec3("V");
+    return Cline{v, b.vec3("H"), radius, thickness};
+}
+
+template <auto read>
+BrlcadItem item(ByteReader& bytes) {
+    return {read(bytes)};
+}
+
+/// BRL-CAD's names of all its types, by their numbers, and how those that csgrt knows are read.
+struct Type {
+    const char* name = nullptr;
+    BrlcadItem (*read)(ByteReader&) = nullptr;
+};
+constexpr Type types[] = {
+    {},                                           // 0
+    {"tor", item<tor>},                           //
+    {"tgc", item<tgc>},                           //
+    {"ell", item<ell>},                           //
+    {"arb8", item<arb8>},                         //
+    {"ars", item<read_g_ars>},                    // 5
+    {"half", item<half>},                         //
+    {"rec", item<tgc>},                           //
+    {"poly"},                                     //
+    {"bspline"},                                  //
+    {"sph", item<ell>},                           // 10
+    {"nmg", item<read_g_nmg>},                    //
+    {"ebm", read_g_ebm},                          //
+    {"vol", read_g_vol},                          //
+    {"arbn", item<arbn>},                         //
+    {"pipe", item<read_g_pipe>},                  // 15
+    {"part", item<part>},                         //
+    {"rpc", item<rpc>},                           //
+    {"rhc", item<rhc>},                           //
+    {"epa", item<epa>},                           //
+    {"ehy", item<ehy>},                           // 20
+    {"eto", item<eto>},                           //
+    {"grip"},                                     //
+    {"joint"},                                    //
+    {"hf"},                                       //
+    {"dsp", read_g_dsp},                          // 25
+    {"sketch", item<read_g_sketch>},              //
+    {"extrude", item<read_g_extrude>},            //
+    {"submodel"},                                 //
+    {"cline", item<cline>},                       //
+    {"bot", item<read_g_bot>},                    // 30
+    {"comb"},                                     //
+    {},                                           //
+    {"binunif"},                                  //
+    {},                                           //
+    {"superell", item<superell>},                 // 35
+    {"metaball", item<read_g_metaball>},          //
+    {"brep"},                                     //
+    {"hyp", item<hyp>},                           //
+    {"constrnt"},                                 //
+    {"revolve", item<read_g_revolve>},            // 40
+    {"pnts"},                                     //
+    {"annot"},                                    //
+    {"hrt", item<hrt>},                           //
+    {"datum"},                                    //
+    {"script"},                                   // 45
+    {"material"},                                 //
+};
+
+Type type_of(int minor) { return minor >= 0 && minor < static_cast<int>(std::size(types)) ? types[minor] : Type{}; }
 
 }  // namespace
 
-Shape read_g_solid(int minor, const GBlock& body) {
-    const std::size_t numbers = numbers_of(minor);
-    if (numbers == 0 && minor != arbn) return Unsupported{type_name_of(minor)};
+BrlcadItem read_g_solid(int minor, const GBlock& body) {
+    const Type type = type_of(minor);
+    const std::string name = type.name != nullptr ? type.name : "type " + std::to_string(minor);
+    if (is_brlcad_nothing(name)) return {BrlcadNothing{}};
+    if (type.read == nullptr) return {Shape(Unsupported{name})};
 
     ByteReader bytes = read_g_block(body, "the numbers");
-    if (minor == arbn) return read_arbn(bytes);
-    expect_size(bytes, numbers * real_size, minor);
-    // Braces evaluate their parts from left to right, which is the order of the file.
-    switch (minor) {
-        case tor: return read_tor(bytes);
-        case tgc: case rec:
-            return Tgc{bytes.vec3("V"), bytes.vec3("H"), bytes.vec3("A"),
-                       bytes.vec3("B"), bytes.vec3("C"), bytes.vec3("D")};
-        case ell: case sph: return Ell{bytes.vec3("V"), bytes.vec3("A"), bytes.vec3("B"), bytes.vec3("C")};
-        case arb8: return read_arb8(bytes);
-        case half: return Half{read_plane(bytes)};
-        default: return read_ehy(bytes);
+    BrlcadItem read = type.read(bytes);
+    if (bytes.left() > 0) {
+        throw Fault{bytes.offset(), "the body of the " + name + " should end here, but has " +
+                                        std::to_string(bytes.left()) + " bytes more", {}};
     }
+    return read;
 }
 
 }  // namespace csgrt

@@ -1,26 +1,92 @@
 #include "formats/brlcad_objects.hpp"
 
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <utility>
+
+#include "formats/brlcad_parts.hpp"
 
 namespace csgrt {
 
-void BrlcadObjects::add(Object object, std::size_t offset) {
-    const std::string name = name_of(object);
-    const auto [found, is_new] = index_.try_emplace(name, objects_.size());
+bool is_brlcad_nothing(std::string_view type) {
+    constexpr std::string_view types[] = {"grip", "joint", "annot", "datum", "script", "constrnt", "material"};
+    return std::find(std::begin(types), std::end(types), type) != std::end(types);
+}
+
+void BrlcadObjects::add(Combination combination, std::size_t offset) {
+    add(Entry{combination.name, combination.place, std::move(combination)}, offset);
+}
+
+void BrlcadObjects::add(const std::string& name, BrlcadItem item, Place place, std::size_t offset) {
+    if (auto* sketch = std::get_if<Sketch>(&item.content)) sketch->name = name;
+    add(Entry{name, std::move(place), std::move(item)}, offset);
+}
+
+void BrlcadObjects::add(Entry entry, std::size_t offset) {
+    const auto [found, is_new] = index_.try_emplace(entry.name, entries_.size());
     if (!is_new) {
-        const Place& first = place_of(objects_[found->second]);
-        const std::string where = first.line > 0 ? "on line " + std::to_string(first.line)
-                                                 : "at byte " + std::to_string(first.offset);
-        findings_.add(offset, name, "this name is taken by the object " + where,
+        const Place& first = entries_[found->second].place;
+        const std::string where =
+            first.line > 0 ? "on line " + std::to_string(first.line) : "at byte " + std::to_string(first.offset);
+        findings_.add(offset, entry.name, "this name is taken by the object " + where,
                       "rename one of them: combinations refer to objects by name");
         return;
     }
-    objects_.push_back(std::move(object));
+    entries_.push_back(std::move(entry));
 }
 
-Object* BrlcadObjects::find(const std::string& name) {
+const BrlcadObjects::Entry* BrlcadObjects::find(const std::string& name) const {
     const auto found = index_.find(name);
-    return found == index_.end() ? nullptr : &objects_[found->second];
+    return found == index_.end() ? nullptr : &entries_[found->second];
+}
+
+Combination* BrlcadObjects::find_combination(const std::string& name) {
+    const auto found = index_.find(name);
+    return found == index_.end() ? nullptr : std::get_if<Combination>(&entries_[found->second].object);
+}
+
+std::vector<bool> BrlcadObjects::used_entries() const {
+    std::vector<bool> used(entries_.size());
+    for (const Entry& entry : entries_) {
+        const auto* combination = std::get_if<Combination>(&entry.object);
+        if (combination == nullptr) continue;
+        for (const TreeNode& node : combination->tree.nodes) {
+            if (node.op != Operator::leaf) continue;
+            if (const auto found = index_.find(node.object); found != index_.end()) used[found->second] = true;
+        }
+    }
+    return used;
+}
+
+std::vector<Object> BrlcadObjects::take(const std::string& model) {
+    const auto find_part = [this](const std::string& name) -> const BrlcadItem* {
+        const Entry* entry = find(name);
+        return entry == nullptr ? nullptr : std::get_if<BrlcadItem>(&entry->object);
+    };
+    BrlcadParts parts(std::filesystem::path(model).parent_path(), find_part);
+    const std::vector<bool> used = used_entries();
+    std::vector<Object> objects;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        Entry& entry = entries_[i];
+        if (auto* combination = std::get_if<Combination>(&entry.object)) {
+            objects.emplace_back(std::move(*combination));
+            continue;
+        }
+        auto& item = std::get<BrlcadItem>(entry.object);
+        if (auto* shape = std::get_if<Shape>(&item.content)) {
+            parts.complete(*shape, item.cells_in_object);
+            objects.emplace_back(Solid{entry.name, std::move(*shape), entry.place});
+        } else if (used[i]) {
+            Combination empty;
+            empty.name = entry.name;
+            empty.place = entry.place;
+            objects.emplace_back(std::move(empty));
+        }
+    }
+    entries_.clear();
+    index_.clear();
+    return objects;
 }
 
 }  // namespace csgrt

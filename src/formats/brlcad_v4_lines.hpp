@@ -63,6 +63,12 @@ public:
         skip_blanks();
         return field;
     }
+    /// What is left of the line; then nothing is.
+    Field rest() {
+        const Field field{line_.text.substr(at_), offset()};
+        at_ = line_.text.size();
+        return field;
+    }
     int integer(const char* what, int low = -2'147'483'647, int high = 2'147'483'647) {
         const Field field = next(what);
         return read_integer(field.text, field.offset, low, high);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "formats/brlcad_struct_text.hpp"
+
 namespace csgrt {
 
 namespace {
@@ -44,14 +46,7 @@ Shape arb8(const Parameters& p) {
     return arb;
 }
 
-/// `S type name comgeom-type` and 24 numbers, of which most solids use fewer.
-Shape parameter_solid(Fields& fields, std::string& name) {
-    const Field type = fields.next("the solid's type");
-    const int number = read_integer(type.text, type.offset, 0, 127);
-    name = fields.next("the solid's name").text;
-    fields.integer("the COMGEOM type");
-    const Parameters p = fields.numbers<24>("parameters");
-    fields.end();
+Shape shape_of(int number, const Parameters& p, const Field& type) {
     switch (number) {
         case 16: return torus(p);
         case 18:
@@ -59,18 +54,30 @@ Shape parameter_solid(Fields& fields, std::string& name) {
         case 19: return Ell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9)};
         case 20: return arb8(p);
         case 24: return Half{unit_plane(vec3_at(p, 0), p[3])};
-        case 26: return Unsupported{"rpc"};
-        case 27: return Unsupported{"rhc"};
-        case 28: return Unsupported{"epa"};
+        case 26: return Rpc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9]};
+        case 27: return Rhc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+        case 28: return Epa{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10]};
         case 29: return Ehy{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10], p[11]};
-        case 30: return Unsupported{"eto"};
-        case 31: return Unsupported{"grip"};
-        case 32: return Unsupported{"superell"};
-        case 33: return Unsupported{"hyp"};
+        case 30: return Eto{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+        case 32: return Superell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), p[12], p[13]};
+        case 33: return Hyp{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
         default:
             throw Fault{type.offset, "no solid has type " + std::to_string(number),
                         "solids are 16 tor, 18 tgc, 19 ell, 20 arb8, 24 half and 26 to 33"};
     }
+}
+
+/// `S type name comgeom-type` and 24 numbers, of which most solids use fewer.
+BrlcadItem parameter_solid(Fields& fields, std::string& name) {
+    const Field type = fields.next("the solid's type");
+    const int number = read_integer(type.text, type.offset, 0, 127);
+    name = fields.next("the solid's name").text;
+    fields.integer("the COMGEOM type");
+    const Parameters p = fields.numbers<24>("parameters");
+    fields.end();
+    constexpr int grip = 31;
+    if (number == grip) return {BrlcadNothing{}};
+    return {shape_of(number, p, type)};
 }
 
 /// `n name count`, then a line `n x y z distance` for each plane. All lines are taken even if one is wrong.
@@ -115,61 +122,10 @@ std::uint64_t count_field(Fields& fields, const char* what) {
     return static_cast<std::uint64_t>(fields.integer(what, 0));
 }
 
-Shape mesh(Fields& fields, LineReader& lines) {
-    const int mode = fields.integer("the mode");
-    fields.integer("the orientation");
-    fields.integer("the error mode");
-    const std::uint64_t vertices = count_field(fields, "the number of vertices");
-    const std::uint64_t faces = count_field(fields, "the number of faces");
-    constexpr int plate_mode = 3;  // has one more line, a bit for each face
-    take_lines(lines, vertices + faces + (mode == plate_mode ? 1 : 0), "\t", "lines of vertices and faces");
-    return Unsupported{"bot"};
-}
-
-Shape pipe(Fields& fields, LineReader& lines) {
-    const std::size_t start = fields.offset();
-    while (!lines.at_end()) {
-        const Line line = lines.take();
-        if (line.text.starts_with("END_PIPE")) return Unsupported{"pipe"};
-        Fields point(line);
-        point.numbers<6>("numbers of a point of the pipe");
-    }
-    throw Fault{start, "the pipe has no END_PIPE", {}};
-}
-
-Shape ars(Fields& fields, LineReader& lines, std::string& name) {
-    fields.integer("the solid's type");
-    name = fields.next("the solid's name").text;
-    fields.integer("the number of curves");
-    fields.integer("the points of a curve");
-    fields.integer("the records of a curve");
-    take_lines(lines, count_field(fields, "the number of records"), "B", "records B");
-    return Unsupported{"ars"};
-}
-
 Shape polysolid(LineReader& lines) {
     take_lines(lines, 1, "Q", "faces");
     while (lines.peek().text.starts_with('Q')) lines.take();
     return Unsupported{"poly"};
-}
-
-Shape sketch(Fields& fields, LineReader& lines) {
-    fields.numbers<9>("numbers of the sketch's plane");
-    fields.integer("the number of vertices", 0);
-    // Vertices stand on one line; curves on a line each, or three.
-    take_lines(lines, 1 + count_field(fields, "the number of segments"), " ", "lines of vertices and segments");
-    while (lines.peek().text.starts_with(' ')) lines.take();
-    return Unsupported{"sketch"};
-}
-
-Shape nmg(Fields& fields, LineReader& lines, std::string& name) {
-    fields.integer("the version");
-    name = fields.next("the solid's name").text;
-    const std::uint64_t records = count_field(fields, "the number of records");
-    constexpr std::uint64_t lines_a_record = 4;  // 128 bytes, 32 a line, in hexadecimal
-    take_lines(lines, 1, " ", "lines of counts");
-    take_lines(lines, lines_a_record * records, "0123456789abcdefABCDEF", "lines of data");
-    return Unsupported{"nmg"};
 }
 
 Shape spline(Fields& fields, LineReader& lines) {
@@ -192,24 +148,27 @@ Shape spline(Fields& fields, LineReader& lines) {
     return Unsupported{"bspline"};
 }
 
-/// `s type name parameters`; the parameters are the solid's own and may be any text.
-Shape string_solid(Fields& fields, std::string& name) {
-    std::string type(fields.next("the solid's type").text);
+/// `s type name parameters`: key=value, but for types that csgrt does not know any text.
+BrlcadItem string_solid(Fields& fields, std::string& name) {
+    const std::string type(fields.next("the solid's type").text);
     name = fields.next("the solid's name").text;
-    return Unsupported{std::move(type)};
+    const Field rest = fields.rest();
+    if (type != "ebm" && type != "vol" && type != "dsp") return {Shape(Unsupported{type})};
+    StructText parameters(rest.text, rest.offset);
+    if (type == "ebm") return read_struct_ebm(parameters);
+    return type == "vol" ? read_struct_vol(parameters) : read_struct_dsp(parameters);
 }
 
-template <std::size_t count>
-Shape plain_solid(Fields& fields, const char* type) {
-    fields.numbers<count>("parameters");
+Shape part(Fields& fields) {
+    const auto p = fields.numbers<8>("parameters");
     fields.end();
-    return Unsupported{type};
+    return Part{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6], p[7]};
 }
 
-Shape extrude(Fields& fields) {
-    fields.next("the sketch's name");
-    fields.integer("the key point");
-    return plain_solid<12>(fields, "extrude");
+Shape cline(Fields& fields) {
+    const auto p = fields.numbers<8>("parameters");
+    fields.end();
+    return Cline{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6], p[7]};
 }
 
 }  // namespace
@@ -218,27 +177,27 @@ bool is_v4_solid(char letter) {
     return std::string_view("SnstwpNPbAecd").find(letter) != std::string_view::npos;
 }
 
-Shape read_v4_solid(const Line& line, LineReader& lines, std::string& name) {
+BrlcadItem read_v4_solid(const Line& line, LineReader& lines, std::string& name) {
     Fields fields(line);
     const char letter = fields.next("the record's letter").text[0];
     switch (letter) {
         case 'S': return parameter_solid(fields, name);
-        case 'n': return arbn(fields, lines, name);
+        case 'n': return {arbn(fields, lines, name)};
         case 's': return string_solid(fields, name);
-        case 'A': return ars(fields, lines, name);
-        case 'N': return nmg(fields, lines, name);
+        case 'A': return {read_v4_ars(fields, lines, name)};
+        case 'N': return {read_v4_nmg(fields, lines, name)};
         default: break;
     }
     name = fields.next("the solid's name").text;
     switch (letter) {
-        case 't': return mesh(fields, lines);
-        case 'w': return pipe(fields, lines);
-        case 'p': return plain_solid<8>(fields, "part");
-        case 'c': return plain_solid<8>(fields, "cline");
-        case 'e': return extrude(fields);
-        case 'd': return sketch(fields, lines);
-        case 'b': return spline(fields, lines);
-        default: return polysolid(lines);
+        case 't': return {read_v4_bot(fields, lines)};
+        case 'w': return {read_v4_pipe(fields, lines)};
+        case 'p': return {part(fields)};
+        case 'c': return {cline(fields)};
+        case 'e': return {read_v4_extrude(fields)};
+        case 'd': return {read_v4_sketch(fields, lines)};
+        case 'b': return {spline(fields, lines)};
+        default: return {polysolid(lines)};
     }
 }
 

@@ -3,15 +3,24 @@
 
 #include <csgrt/scene.hpp>
 
+#include "formats/brlcad_objects.hpp"
 #include "formats/brlcad_v4_lines.hpp"
 
 namespace csgrt {
 
-/// Whether a record of that letter is a solid.
+/// Whether a record of that letter is a solid, or a part of one.
 bool is_v4_solid(char letter);
 
-/// The solid that `line` starts; takes the further lines that belong to it. `name` is set as soon as it is known, also
+/// The object that `line` starts; takes the further lines that belong to it. `name` is set as soon as it is known, also
 /// when a Fault leaves.
-Shape read_v4_solid(const Line& line, LineReader& lines, std::string& name);
+BrlcadItem read_v4_solid(const Line& line, LineReader& lines, std::string& name);
+
+// Its parts, by family. The record's letter is read, and its name too but for those that set it.
+Shape read_v4_bot(Fields& fields, LineReader& lines);
+Shape read_v4_pipe(Fields& fields, LineReader& lines);
+Shape read_v4_ars(Fields& fields, LineReader& lines, std::string& name);
+Shape read_v4_nmg(Fields& fields, LineReader& lines, std::string& name);
+Sketch read_v4_sketch(Fields& fields, LineReader& lines);
+Shape read_v4_extrude(Fields& fields);
 
 }  // namespace csgrt

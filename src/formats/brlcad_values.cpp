@@ -38,8 +38,7 @@ bool underflows(std::string_view digits) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
-    constexpr std::size_t longest = 40;
+std::string quoted(std::string_view text, std::size_t longest) {
     std::string out = "'";
     for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     return out + (text.size() > longest ? "...'" : "'");

@@ -16,7 +16,7 @@ double read_number(std::string_view text, std::size_t offset);
 int read_integer(std::string_view text, std::size_t offset, int low, int high);
 
 /// `text` in quotes for a message, cut short if long.
-std::string quoted(std::string_view text);
+std::string quoted(std::string_view text, std::size_t longest = 40);
 
 /// Millimetres in one unit of that name ("mm", "in", "feet", ...); 0 if there is no such unit.
 double unit_in_millimetres(std::string_view name);

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "formats/json_lists.hpp"
 #include "formats/json_names.hpp"
 #include "formats/json_solid_readers.hpp"
@@ -7,8 +5,6 @@
 namespace csgrt {
 
 namespace {
-
-bool has_plates(const Bot& s) { return s.mode == Bot::Mode::plate || s.mode == Bot::Mode::plate_nocos; }
 
 /// A list, or one number for every face.
 std::vector<double> read_thickness(const JsonNode& node, std::size_t faces) {
@@ -21,6 +17,12 @@ std::vector<double> read_thickness(const JsonNode& node, std::size_t faces) {
     }
     for (double& each : thickness) each *= node.file().unit;
     return thickness;
+}
+
+std::vector<std::uint8_t> read_append(const JsonNode& node, std::size_t faces) {
+    if (!node.present()) return {};
+    if (node.is_array()) return read_json_bytes(node);
+    return std::vector<std::uint8_t>(faces, static_cast<std::uint8_t>(node.integer(0, 255, 0)));
 }
 
 /// A list of loops, or a list of vertices, which is a face of one loop.
@@ -44,11 +46,7 @@ Shape read_json_bot(const JsonObject& o) {
     solid.vertices = read_json_vectors(o["vertices"], o.node().file().unit);
     solid.faces = read_json_triangles(o["faces"]);
     solid.thickness = read_thickness(o["thickness"], solid.faces.size());
-    if (o.has("append")) {
-        solid.append = read_json_bytes(o["append"]);
-    } else if (has_plates(solid)) {
-        solid.append.assign(solid.faces.size(), 0);
-    }
+    solid.append = read_append(o["append"], solid.faces.size());
     solid.normals = read_json_vectors(o["normals"], 1);
     solid.face_normals = read_json_triangles(o["face_normals"]);
     return solid;

@@ -53,7 +53,9 @@ void read_curve(const JsonNode& node, Sketch& sketch) {
         if (!node.is_object() || find_member(std::get<JsonMembers>(node.value()->data), name) == nullptr) continue;
         const JsonObject o(node, json_form(name));
         sketch.curves.push_back(read(o));
-        sketch.reversed.push_back(o["reversed"].boolean());
+        if (!o.has("reversed")) return;
+        sketch.reversed.resize(sketch.curves.size());
+        sketch.reversed.back() = o["reversed"].boolean();
         return;
     }
     node.fault(node.is_object() ? "this curve has none of the keys that name one"
@@ -74,6 +76,7 @@ Sketch read_sketch(const JsonNode& node) {
     }
     if (o.has("curves")) {
         for (const JsonNode& item : o["curves"].items()) read_curve(item, sketch);
+        if (!sketch.reversed.empty()) sketch.reversed.resize(sketch.curves.size());
     }
     return sketch;
 }

@@ -21,11 +21,12 @@ ordered_json json_of_thickness(const Bot& s, JsonUnit& unit) {
     return list;
 }
 
-/// What the reader makes of a mesh without "append".
-bool is_usual_append(const Bot& s) {
-    const bool plates = s.mode == Bot::Mode::plate || s.mode == Bot::Mode::plate_nocos;
-    return s.append.size() == (plates ? s.faces.size() : 0) &&
-           std::all_of(s.append.begin(), s.append.end(), [](std::uint8_t each) { return each == 0; });
+ordered_json json_of_append(const Bot& s) {
+    const auto as_first = [&](std::uint8_t each) { return each == s.append.front(); };
+    if (s.append.size() == s.faces.size() && std::all_of(s.append.begin(), s.append.end(), as_first)) {
+        return s.append.front();
+    }
+    return s.append;
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ ordered_json SolidToJson::operator()(const Bot& s) const {
     json["vertices"] = places(s.vertices);
     json["faces"] = s.faces;
     if (!s.thickness.empty()) json["thickness"] = json_of_thickness(s, unit);
-    if (!is_usual_append(s)) json["append"] = s.append;
+    if (!s.append.empty()) json["append"] = json_of_append(s);
     if (!s.normals.empty()) {
         ordered_json normals = ordered_json::array();
         for (const Vec3& normal : s.normals) normals.push_back(unit.vector(normal));

@@ -39,9 +39,11 @@ struct CurveToJson {
 ordered_json json_of_sketch(const Sketch& sketch, JsonUnit& unit) {
     ordered_json vertices = ordered_json::array(), curves = ordered_json::array();
     for (const Sketch::Point& p : sketch.vertices) vertices.push_back({unit.length(p.u), unit.length(p.v)});
+    // The first curve says so even if it is not, unless the sketch says it of no curve.
     for (std::size_t i = 0; i < sketch.curves.size(); ++i) {
         ordered_json curve = std::visit(CurveToJson{unit}, sketch.curves[i]);
-        if (i < sketch.reversed.size() && sketch.reversed[i] != 0) curve["reversed"] = true;
+        const bool reversed = i < sketch.reversed.size() && sketch.reversed[i] != 0;
+        if (reversed || (i == 0 && !sketch.reversed.empty())) curve["reversed"] = reversed;
         curves.push_back(std::move(curve));
     }
     ordered_json json;

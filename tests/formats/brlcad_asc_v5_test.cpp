@@ -45,8 +45,7 @@ TEST_CASE("v5: solids", "[asc]") {
         "put {half} half N {0 -2 0} d 8\n"
         "put {tor} tor V {1 2 3} H {0 0 7} r_a 5 r_h 2.5\n"
         "put {ehy} ehy V {1 2 3} H {0 0 5} A {0 2 0} r_1 7 r_2 8 c 9\n"
-        "put {pipe} pipe V0 {0 0 0} O0 22 I0 0 R0 35\n"
-        "put {sk} sketch V {0 0 0} VL { {1 2} } SL { { line S 0 E 1 } }\n");
+        "put {surface} brep data {0 0 1}\n");
     CHECK(shape<Ell>(scene, "ell").v == Vec3{1, 2, 3});  // millimetres, whatever the unit
     CHECK(shape<Ell>(scene, "sph").b == Vec3{0, 5, 0});
     CHECK(shape<Tgc>(scene, "tgc").h == Vec3{4, 5, 6});
@@ -63,8 +62,7 @@ TEST_CASE("v5: solids", "[asc]") {
     CHECK(shape<Ehy>(scene, "ehy").a == Vec3{0, 1, 0});
     CHECK(shape<Ehy>(scene, "ehy").r_2 == 8);
     CHECK(shape<Ehy>(scene, "ehy").c == 9);
-    CHECK(unsupported_type(scene, "pipe") == "pipe");
-    CHECK(unsupported_type(scene, "sk") == "sketch");
+    CHECK(unsupported_type(scene, "surface") == "brep");
     CHECK(place_of(*scene.find("arb")).line == 6);
     CHECK(place_of(*scene.find("arb")).column == 1);
 }
@@ -163,7 +161,7 @@ TEST_CASE("v5: a combination's attributes, in every spelling", "[asc]") {
     CHECK_FALSE(comb(scene, "d").color);
     CHECK_FALSE(comb(scene, "d").finish);
     // Attributes of a solid are no concern of its shape.
-    CHECK(parse(head + "put {s} pipe\nattr set {s} {region_id} {x}\n").objects.size() == 1);
+    CHECK(parse(head + "put {s} brep\nattr set {s} {region_id} {x}\n").objects.size() == 1);
 }
 
 TEST_CASE("v5: Tcl's quoting", "[asc]") {
@@ -206,7 +204,7 @@ TEST_CASE("v5: what is wrong is named with its place", "[asc][broken]") {
         {"number of planes", head + "put {a} arbn N 2 P0 {0 0 1 5}\n", 3, 9, "a", "the arbn has no P1"},
         {"planes without number", head + "put {a} arbn N 0\n", 3, 16, "a", "outside 1 to 65535"},
         {"too many planes given", head + "put {a} arbn N 1 P0 {0 0 1 5} P1 {0 0 1 5}\n", 3, 31, "a", "'P1' is no"},
-        {"duplicate", head + "put {a} pipe\nput {a} pipe\n", 4, 6, "a", "line 3"},
+        {"duplicate", head + "put {a} brep\nput {a} brep\n", 4, 6, "a", "line 3"},
         {"operator", c + "{? {l a} {l b}}\n", 3, 30, "c", "'?' is no operator"},
         {"empty node", c + "{u {l a} {}}\n", 3, 39, "c", "empty"},
         {"one operand", c + "{u {- {l a}} {l b}}\n", 3, 33, "c", "1 operands, not 2"},
@@ -220,10 +218,10 @@ TEST_CASE("v5: what is wrong is named with its place", "[asc][broken]") {
         {"perspective", c + "{l a {1 0 0 0 0 1 0 0 0 0 1 0 0 1 0 1}}\n", 3, 35, "c", "perspective"},
         {"unknown key of a comb", head + "put {c} comb region no bush {}\n", 3, 24, "c", "'bush' is no parameter"},
         {"neither yes nor no", head + "put {c} comb region maybe\n", 3, 21, "c", "neither yes nor no"},
-        {"unclosed brace", head + "put {a} half N {0 0 1 d 3\nput {b} pipe\n", 3, 16, "a", "never closed"},
-        {"a brace too many", head + "put {a} half N {0 0 1}} d 3\nput {b} pipe\n", 3, 23, "a", "without a blank"},
+        {"unclosed brace", head + "put {a} half N {0 0 1 d 3\nput {b} brep\n", 3, 16, "a", "never closed"},
+        {"a brace too many", head + "put {a} half N {0 0 1}} d 3\nput {b} brep\n", 3, 23, "a", "without a blank"},
         {"unclosed quote", head + "put \"a half\n", 3, 5, "", "never closed"},
-        {"execution", head + "put [exec rm] pipe\n", 3, 5, "", "Tcl would replace"},
+        {"execution", head + "put [exec rm] brep\n", 3, 5, "", "Tcl would replace"},
         {"variables", head + "put {a} half N {0 0 1} d $d\n", 3, 26, "a", "Tcl would replace"},
         {"unit", "title {}\nunits parsec\n", 2, 7, "", "'parsec' is no unit"},
         {"unit's length", "attr set {_GLOBAL} {units} {7}\n", 1, 29, "_GLOBAL", "no unit"},

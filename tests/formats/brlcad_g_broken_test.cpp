@@ -106,17 +106,17 @@ TEST_CASE("g: frames", "[g][broken]") {
 }
 
 TEST_CASE("g: solids that are wrong", "[g][broken]") {
-    check_body(1, counted_reals(1, 7), body_at, "the body of the tor has 56 bytes, not 64");
-    check_body(2, counted_reals(1, 19), body_at, "the body of the tgc has 152 bytes, not 144");
-    check_body(3, "", body_at - 1, "the body of the ell has 0 bytes");
-    check_body(4, counted_reals(1, 24) + "1", body_at, "193 bytes, not 192");
+    check_body(1, counted_reals(1, 7), body_at + 56, "r_h: 8 bytes are needed");
+    check_body(2, counted_reals(1, 19), body_at + 144, "the body of the tgc should end here, but has 8 bytes more");
+    check_body(3, "", body_at - 1, "V: 8 bytes are needed");
+    check_body(4, counted_reals(1, 24) + "1", body_at + 192, "has 1 bytes more");
     check_body(6, reals({0, 0, std::numeric_limits<double>::quiet_NaN(), 1}), body_at + 16, "not a finite number");
     check_body(20, counted_reals(1, 11) + reals({std::numeric_limits<double>::infinity()}), body_at + 88,
                "c is not a finite");
     check_body(14, number(1, 1), body_at, "the number of planes");
     check_body(14, number(0, 2), body_at, "0 planes");
-    check_body(14, number(0xFFFFFFFF, 2) + counted_reals(1, 4), body_at, "4294967295 planes");
-    check_body(14, number(2, 2) + counted_reals(1, 4), body_at + 4, "the body of the arbn has 32 bytes, not 64");
+    check_body(14, number(0xFFFFFFFF, 2) + counted_reals(1, 4), body_at, "4294967295 of 32 bytes each do not fit");
+    check_body(14, number(2, 2) + counted_reals(1, 4), body_at, "2 of 32 bytes each do not fit");
     const WrittenObject packed{.minor = 3, .name = "x", .body = counted_reals(1, 12), .compression = 1};
     check_object(packed.bytes(), body_at, "x", "compressed");
 }
@@ -204,7 +204,7 @@ TEST_CASE("g: any end of a file, and any byte in it, gives a scene or findings",
         {.major = 2, .name = "_GLOBAL", .attributes = attributes({"units", "1", "regionid_colortable", "{1 2 3 4 5}"})},
         {.minor = 14, .name = "n", .body = number(1, 2) + counted_reals(1, 4)},
         {.kind = 2, .width = 1},
-        {.minor = 30, .name = "b", .body = "mesh", .width = 2},
+        {.minor = 37, .name = "b", .body = "surface", .width = 2},
     };
     std::string bytes = header + sphere("a") + members;
     for (const WrittenObject& object : objects) bytes += object.bytes();

@@ -14,7 +14,9 @@ namespace {
 constexpr double torus_gap = 1e-15;
 
 void check_solid(const Solid& binary, const Solid& text) {
+    REQUIRE(binary.shape.index() == text.shape.index());
     CHECK(std::string(type_name(binary.shape)) == type_name(text.shape));
+    CHECK_FALSE(std::holds_alternative<Unsupported>(text.shape));  // or there would be nothing to compare
     const double allowed = std::holds_alternative<Tor>(text.shape) ? torus_gap : 0;
     CHECK(gap(numbers_of(binary.shape), numbers_of(text.shape)) <= allowed);
 }

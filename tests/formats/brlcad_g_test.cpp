@@ -84,12 +84,8 @@ TEST_CASE("g: solids", "[g]") {
 
 TEST_CASE("g: solids that csgrt does not know keep BRL-CAD's names", "[g]") {
     const std::map<int, std::string> types = {
-        {5, "ars"},      {8, "poly"},     {9, "bspline"},   {11, "nmg"},   {12, "ebm"},      {13, "vol"},
-        {15, "pipe"},    {16, "part"},    {17, "rpc"},      {18, "rhc"},   {19, "epa"},      {21, "eto"},
-        {22, "grip"},    {23, "joint"},   {24, "hf"},       {25, "dsp"},   {26, "sketch"},   {27, "extrude"},
-        {28, "submodel"}, {29, "cline"},  {30, "bot"},      {35, "superell"}, {36, "metaball"}, {37, "brep"},
-        {38, "hyp"},     {39, "constrnt"}, {40, "revolve"}, {41, "pnts"},  {42, "annot"},    {43, "hrt"},
-        {44, "datum"},   {45, "script"},  {32, "type 32"},  {0, "type 0"}, {200, "type 200"},
+        {0, "type 0"},   {8, "poly"}, {9, "bspline"},   {24, "hf"},       {28, "submodel"},
+        {32, "type 32"}, {37, "brep"}, {41, "pnts"}, {200, "type 200"},
     };
     std::string objects;
     for (const auto& [type, name] : types) {
@@ -99,8 +95,22 @@ TEST_CASE("g: solids that csgrt does not know keep BRL-CAD's names", "[g]") {
     REQUIRE(scene.objects.size() == types.size());
     for (const auto& [type, name] : types) CHECK(unsupported_type(scene, "s" + std::to_string(type)) == name);
     // Their bodies are not looked at, so it does not matter that they are compressed.
-    const std::string packed = WrittenObject{.minor = 30, .name = "b", .body = "zz", .compression = 1}.bytes();
-    CHECK(unsupported_type(parse(packed), "b") == "bot");
+    const std::string packed = WrittenObject{.minor = 37, .name = "b", .body = "zz", .compression = 1}.bytes();
+    CHECK(unsupported_type(parse(packed), "b") == "brep");
+}
+
+TEST_CASE("g: objects without an inside are the empty set where they are used, and else left out", "[g]") {
+    const std::map<int, std::string> types = {{22, "grip"},  {23, "joint"},  {39, "constrnt"}, {42, "annot"},
+                                              {44, "datum"}, {45, "script"}, {46, "material"}};
+    std::string objects = sphere("ball");
+    for (const auto& [type, name] : types) {
+        objects += WrittenObject{.minor = type, .name = name, .body = "any bytes"}.bytes();
+    }
+    CHECK(parse(objects).objects.size() == 1);
+    const Scene scene = parse(objects + combination("c", {.leaves = {{"grip"}, {"ball"}}, .expression = "\1\1\2"}));
+    CHECK(scene.objects.size() == 3);
+    CHECK(comb(scene, "grip").tree.nodes.empty());
+    CHECK(validate(scene).empty());
 }
 
 TEST_CASE("g: lengths of every width", "[g]") {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -13,6 +14,46 @@
 #include "catch.hpp"
 
 namespace csgrt::brlcad_test {
+
+/// The points of each loop of an nmg, from the smallest on, in the order of the points: a text may number vertices and
+/// faces in any order.
+inline std::vector<std::vector<Vec3>> plain_faces(const Nmg& nmg) {
+    const auto less = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+    std::vector<std::vector<Vec3>> loops;
+    for (const auto& face : nmg.faces) {
+        for (const Nmg::Loop& loop : face) {
+            auto& points = loops.emplace_back();
+            for (const std::uint32_t vertex : loop) points.push_back(nmg.vertices.at(vertex));
+            std::rotate(points.begin(), std::min_element(points.begin(), points.end(), less), points.end());
+        }
+    }
+    std::sort(loops.begin(), loops.end(), [&](const auto& a, const auto& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), less);
+    });
+    return loops;
+}
+
+inline void put_sketch(const Sketch& sketch, std::vector<double>& out) {
+    for (const Sketch::Point& p : sketch.vertices) out.insert(out.end(), {p.u, p.v});
+    for (const Sketch::Curve& curve : sketch.curves) {
+        out.push_back(static_cast<double>(curve.index()));
+        if (const auto* line = std::get_if<Sketch::Line>(&curve)) {
+            out.insert(out.end(), {double(line->start), double(line->end)});
+        } else if (const auto* arc = std::get_if<Sketch::Arc>(&curve)) {
+            out.insert(out.end(), {double(arc->start), double(arc->end), arc->radius, double(arc->center_left),
+                                   double(arc->clockwise)});
+        } else if (const auto* bezier = std::get_if<Sketch::Bezier>(&curve)) {
+            out.insert(out.end(), bezier->points.begin(), bezier->points.end());
+        } else {
+            const auto& nurb = std::get<Sketch::Nurb>(curve);
+            out.push_back(nurb.order);
+            out.insert(out.end(), nurb.knots.begin(), nurb.knots.end());
+            out.insert(out.end(), nurb.points.begin(), nurb.points.end());
+            out.insert(out.end(), nurb.weights.begin(), nurb.weights.end());
+        }
+    }
+    out.insert(out.end(), sketch.reversed.begin(), sketch.reversed.end());
+}
 
 /// All numbers of a solid.
 inline std::vector<double> numbers_of(const Shape& any) {
@@ -44,6 +85,84 @@ inline std::vector<double> numbers_of(const Shape& any) {
             } else if constexpr (std::is_same_v<T, Ehy>) {
                 for (const Vec3& v : {s.v, s.h, s.a}) put(v);
                 out.insert(out.end(), {s.r_1, s.r_2, s.c});
+            } else if constexpr (std::is_same_v<T, Part>) {
+                for (const Vec3& v : {s.v, s.h}) put(v);
+                out.insert(out.end(), {s.r_v, s.r_h});
+            } else if constexpr (std::is_same_v<T, Epa>) {
+                for (const Vec3& v : {s.v, s.h, s.a}) put(v);
+                out.insert(out.end(), {s.r_1, s.r_2});
+            } else if constexpr (std::is_same_v<T, Rpc>) {
+                for (const Vec3& v : {s.v, s.h, s.b}) put(v);
+                out.push_back(s.r);
+            } else if constexpr (std::is_same_v<T, Rhc>) {
+                for (const Vec3& v : {s.v, s.h, s.b}) put(v);
+                out.insert(out.end(), {s.r, s.c});
+            } else if constexpr (std::is_same_v<T, Eto>) {
+                for (const Vec3& v : {s.v, s.n, s.c}) put(v);
+                out.insert(out.end(), {s.r, s.r_d});
+            } else if constexpr (std::is_same_v<T, Hyp>) {
+                for (const Vec3& v : {s.v, s.h, s.a}) put(v);
+                out.insert(out.end(), {s.b, s.neck});
+            } else if constexpr (std::is_same_v<T, Superell>) {
+                for (const Vec3& v : {s.v, s.a, s.b, s.c}) put(v);
+                out.insert(out.end(), {s.n, s.e});
+            } else if constexpr (std::is_same_v<T, Hrt>) {
+                for (const Vec3& v : {s.v, s.x, s.y, s.z}) put(v);
+                out.push_back(s.d);
+            } else if constexpr (std::is_same_v<T, Metaball>) {
+                out.insert(out.end(), {static_cast<double>(s.method), s.threshold});
+                for (const Metaball::Point& p : s.points) {
+                    put(p.position);
+                    out.insert(out.end(), {p.strength, p.softness});
+                }
+            } else if constexpr (std::is_same_v<T, Pipe>) {
+                for (const Pipe::Point& p : s.points) {
+                    put(p.position);
+                    out.insert(out.end(), {p.outer, p.inner, p.bend});
+                }
+            } else if constexpr (std::is_same_v<T, Cline>) {
+                for (const Vec3& v : {s.v, s.h}) put(v);
+                out.insert(out.end(), {s.radius, s.thickness});
+            } else if constexpr (std::is_same_v<T, Bot>) {
+                out.insert(out.end(), {static_cast<double>(s.mode), static_cast<double>(s.orientation)});
+                for (const Vec3& v : s.vertices) put(v);
+                for (const auto& face : s.faces) out.insert(out.end(), face.begin(), face.end());
+                out.insert(out.end(), s.thickness.begin(), s.thickness.end());
+                out.insert(out.end(), s.append.begin(), s.append.end());
+                for (const Vec3& v : s.normals) put(v);
+                for (const auto& face : s.face_normals) out.insert(out.end(), face.begin(), face.end());
+            } else if constexpr (std::is_same_v<T, Ars>) {
+                for (const auto& curve : s.curves) {
+                    out.push_back(static_cast<double>(curve.size()));
+                    for (const Vec3& v : curve) put(v);
+                }
+            } else if constexpr (std::is_same_v<T, Nmg>) {
+                for (const auto& face : plain_faces(s)) {
+                    out.push_back(static_cast<double>(face.size()));
+                    for (const Vec3& v : face) put(v);
+                }
+            } else if constexpr (std::is_same_v<T, Ebm>) {
+                out.insert(out.end(), {double(s.width), double(s.depth), s.height});
+                out.insert(out.end(), s.matrix.begin(), s.matrix.end());
+                out.insert(out.end(), s.cells.begin(), s.cells.end());
+            } else if constexpr (std::is_same_v<T, Vol>) {
+                out.insert(out.end(), {double(s.width), double(s.depth), double(s.height), double(s.low), double(s.high)});
+                put(s.cell);
+                out.insert(out.end(), s.matrix.begin(), s.matrix.end());
+                out.insert(out.end(), s.cells.begin(), s.cells.end());
+            } else if constexpr (std::is_same_v<T, Dsp>) {
+                out.insert(out.end(), {double(s.width), double(s.depth), double(s.smooth), double(s.cut)});
+                out.insert(out.end(), s.matrix.begin(), s.matrix.end());
+                out.insert(out.end(), s.heights.begin(), s.heights.end());
+            } else if constexpr (std::is_same_v<T, Extrude>) {
+                for (const Vec3& v : {s.v, s.h, s.a, s.b}) put(v);
+                put_sketch(s.sketch, out);
+            } else if constexpr (std::is_same_v<T, Revolve>) {
+                for (const Vec3& v : {s.v, s.axis, s.r}) put(v);
+                out.push_back(s.angle);
+                put_sketch(s.sketch, out);
+            } else {
+                static_assert(std::is_same_v<T, Unsupported>);
             }
         },
         any);

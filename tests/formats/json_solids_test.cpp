@@ -82,7 +82,9 @@ TEST_CASE("json solids: a mesh's thickness is one number, or one a face") {
     CHECK(volume.append.empty());
     const Bot plate = read<Bot>(R"({"type": "bot", "mode": "plate", "thickness": 2, )" + mesh + "}");
     CHECK(plate.thickness == std::vector<double>{20, 20});
-    CHECK(plate.append == std::vector<std::uint8_t>{0, 0});
+    CHECK(plate.append.empty());
+    CHECK(read<Bot>(R"({"type": "bot", "mode": "plate", "append": 1, )" + mesh + "}").append ==
+          std::vector<std::uint8_t>{1, 1});
     const Bot plates =
         read<Bot>(R"({"type": "bot", "mode": "plate_nocos", "thickness": [1, 2], "append": [0, 1], )" + mesh + "}");
     CHECK(plates.thickness == std::vector<double>{10, 20});

@@ -85,7 +85,8 @@ inline Sketch random_sketch(Numbers& n) {
                                     list_of(n.below(3), std::ref(n))};
         }
     });
-    for (std::size_t i = 0; i < sketch.curves.size(); ++i) sketch.reversed.push_back(n.coin());
+    const std::size_t odds = 1 + n.below(3);
+    if (n.coin()) sketch.reversed = list_of(sketch.curves.size(), [&] { return std::uint8_t{n.below(odds) == 1}; });
     return sketch;
 }
 
@@ -100,9 +101,8 @@ inline Bot random_bot(Numbers& n) {
     bot.faces = list_of(n.below(9), triangle);
     const double thickness = n();
     if (n.coin()) bot.thickness = list_of(bot.faces.size(), [&] { return n.below(9) == 0 ? n() : thickness; });
-    const std::size_t sides = n.coin() || bot.mode >= Bot::Mode::plate ? bot.faces.size() : 0;
-    const std::uint8_t side = n.coin() ? 255 : 0;
-    bot.append = list_of(sides, [&] { return n.below(3) == 0 ? side : std::uint8_t{0}; });
+    const std::size_t sides = 1 + n.below(3);
+    if (n.coin()) bot.append = list_of(bot.faces.size(), [&] { return static_cast<std::uint8_t>(n.below(sides)); });
     if (n.coin()) bot.normals = list_of(n.below(9), [&] { return n.vector(); });
     if (n.coin()) bot.face_normals = list_of(n.below(9), triangle);
     return bot;

@@ -3,12 +3,9 @@
 #include "geometry/check_meshes.hpp"
 
 using namespace csgrt;
-using oracle::infinity;
-using oracle::larger;
 using oracle::quad;
 using oracle::QVec;
 using oracle::Random;
-using oracle::smaller;
 using oracle::to_double;
 
 namespace {
@@ -27,24 +24,7 @@ Slab slab_of(const Bot& bot, const oracle::QAffine& place, std::size_t i, const 
     const quad rate = bot.mode == Bot::Mode::plate ? oracle::absolute(dot(n, d)) : length(d);
     const quad thickness = bot.thickness[i];
     const bool append = !bot.append.empty() && bot.append[i] != 0;
-    Slab slab{face - (append ? quad(0) : thickness / 2 / rate), face,
-              face + (append ? thickness : thickness / 2) / rate};
-    // All ends where the box around the faces does, the thickest one's thickness around them.
-    const quad thickest = *std::max_element(bot.thickness.begin(), bot.thickness.end());
-    const auto clip = [&](double Vec3::* axis, quad from, quad along) {
-        quad low = infinity(), high = -infinity();
-        for (const auto& f : bot.faces)
-            for (const std::uint32_t corner : f) {
-                low = smaller(low, bot.vertices[corner].*axis);
-                high = larger(high, bot.vertices[corner].*axis);
-            }
-        if (along == 0) return;
-        const quad one = (low - thickest - from) / along, other = (high + thickest - from) / along;
-        slab.in = smaller(face, larger(slab.in, smaller(one, other)));
-        slab.out = larger(face, smaller(slab.out, larger(one, other)));
-    };
-    clip(&Vec3::x, o.x, d.x), clip(&Vec3::y, o.y, d.y), clip(&Vec3::z, o.z, d.z);
-    return slab;
+    return {face - (append ? quad(0) : thickness / 2 / rate), face, face + (append ? thickness : thickness / 2) / rate};
 }
 
 struct Tally {

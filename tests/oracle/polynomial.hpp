@@ -38,15 +38,17 @@ struct Polynomial {
         return d;
     }
 
-    friend Polynomial operator+(Polynomial a, const Polynomial& b) {
-        a.degree = a.degree > b.degree ? a.degree : b.degree;
-        for (std::size_t i = 0; i <= static_cast<std::size_t>(b.degree); ++i) a.c[i] += b.c[i];
-        return a;
+    friend Polynomial operator+(const Polynomial& a, const Polynomial& b) {
+        Polynomial result;
+        result.degree = a.degree > b.degree ? a.degree : b.degree;
+        for (std::size_t i = 0; i < result.c.size(); ++i) result.c[i] = a.c[i] + b.c[i];
+        return result;
     }
-    friend Polynomial operator-(Polynomial a, const Polynomial& b) {
-        a.degree = a.degree > b.degree ? a.degree : b.degree;
-        for (std::size_t i = 0; i <= static_cast<std::size_t>(b.degree); ++i) a.c[i] -= b.c[i];
-        return a;
+    friend Polynomial operator-(const Polynomial& a, const Polynomial& b) {
+        Polynomial result;
+        result.degree = a.degree > b.degree ? a.degree : b.degree;
+        for (std::size_t i = 0; i < result.c.size(); ++i) result.c[i] = a.c[i] - b.c[i];
+        return result;
     }
     /// The product; its degree must not pass max_degree.
     friend Polynomial operator*(const Polynomial& a, const Polynomial& b) {

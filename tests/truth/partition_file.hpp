@@ -52,6 +52,7 @@ inline RayFile read_rays(const std::string& path) {
 struct Stretch {
     std::string region;
     double in = 0, out = 0;
+    std::string in_solid, out_solid, in_type, out_type;
 };
 using Stretches = std::vector<Stretch>;  // of one ray, front to back
 
@@ -84,8 +85,10 @@ inline PartitionFile read_partitions(const std::string& path) {
         } else if (!first.empty() && first != "overlap" && first != "seg") {
             std::string in, out;
             words >> in >> out;
-            const Stretch s{last_name(first), std::strtod(in.c_str(), nullptr),
-                            std::strtod(out.c_str(), nullptr)};  // may be inf
+            Stretch s{
+                last_name(first), std::strtod(in.c_str(), nullptr), std::strtod(out.c_str(), nullptr), {}, {}, {}, {}};
+            for (int normals = 0; normals < 6; ++normals) words >> in;
+            words >> s.in_solid >> s.out_solid >> s.in_type >> s.out_type;
             if (!words || file.rays.empty()) throw std::runtime_error("no partition: " + line);
             file.rays.back().push_back(s);
         }

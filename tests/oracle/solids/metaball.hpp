@@ -21,7 +21,7 @@ struct MetaballFunction {
   double settled() const {
     return method == Metaball::Method::blob ? 1e-18 : 1e-28;
   }
-  int pieces() const { return 16 + 6 * static_cast<int>(points.size()); }
+  int pieces() const { return 64 + 24 * static_cast<int>(points.size()); }
   std::vector<quad> breaks(const QVec &, const QVec &) const { return {}; }
 
   /// The field and its derivative by the square of the distance.
