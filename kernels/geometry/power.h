@@ -32,10 +32,12 @@ FN real log_2(real x) {
     return (real)exponent + real_fma(REAL(2.8853900817779268), sum, REAL(4.0710547481862066e-17) * sum);
 }
 
+#define LEAST_EXPONENT (sizeof(real) == 4 ? -125 : -1021)  // below, exp_2 is 0: not every device rounds subnormals alike
+
 FN real exp_2(real y) {
     real whole, x, sum;
-    if (!(y > REAL(-1100))) return 0;
-    if (y > REAL(1100)) return REAL_INFINITY;
+    if (!(y > REAL(LEAST_EXPONENT))) return 0;
+    if (y > REAL(-LEAST_EXPONENT)) return REAL_INFINITY;
     whole = real_floor(y + REAL(0.5));
     x = REAL(0.6931471805599453) * (y - whole);  // |x| < 0.347
     sum = REAL(1) / REAL(6227020800);
@@ -55,6 +57,6 @@ FN real exp_2(real y) {
 }
 
 // x^y for x >= 0 and y > 0.
-FN real power(real x, real y) { return x > 0 ? exp_2(y * log_2(x)) : REAL(0); }
+FN real real_power(real x, real y) { return x > 0 ? exp_2(y * log_2(x)) : REAL(0); }
 
 #endif

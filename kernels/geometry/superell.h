@@ -70,9 +70,9 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     real x = superell_size(l.x, u), y = superell_size(l.y, u), z = superell_size(l.z, u);
     real s, outer;
     a.u = u;
-    a.x = power(x, l.p);
-    a.y = power(y, l.p);
-    a.z = power(z, l.r);
+    a.x = real_power(x, l.p);
+    a.y = real_power(y, l.p);
+    a.z = real_power(z, l.r);
     a.by_x = superell_lower(x, a.x, l.p);
     a.by_y = superell_lower(y, a.y, l.p);
     a.by_z = superell_lower(z, a.z, l.r);
@@ -80,7 +80,7 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     a.by_yy = superell_lower(y, a.by_y, l.p - REAL(1));
     a.by_zz = superell_lower(z, a.by_z, l.r - REAL(1));
     s = a.x + a.y;
-    outer = power(s, l.q);
+    outer = real_power(s, l.q);
     a.value = outer + (a.z - REAL(1));
     a.slope = product_or_0(superell_lower(s, outer, l.q),
                                product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y)) +
@@ -95,7 +95,7 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
 // What is known of G between a and b.
 FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     real low_s = real_min(a.x, b.x) + real_min(a.y, b.y), high_s = real_max(a.x, b.x) + real_max(a.y, b.y);
-    real low_power = power(low_s, l.q), high_power = power(high_s, l.q);
+    real low_power = real_power(low_s, l.q), high_power = real_power(high_s, l.q);
     real by0, by1, bys0, bys1, outer0, outer1, x0, x1, y0, y1, z0, z1, sum0, sum1, square0, square1;
     if (low_power + (real_min(a.z, b.z) - REAL(1)) > SUPERELL_NOISE) return SUPERELL_MONOTONE;
     if (high_power + (real_max(a.z, b.z) - REAL(1)) < -SUPERELL_NOISE) return SUPERELL_MONOTONE;
@@ -257,11 +257,11 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
 FN vec3 superell_normal(GLOBAL const real* p, ray3 r, real t) {
     vec3 at = local_point(to_local(p, r), t), n;
     real x = real_abs(at.x), y = real_abs(at.y), z = real_abs(at.z), most;
-    real xp = power(x, p[12]), yp = power(y, p[12]);
-    real outer = xp + yp > 0 ? power(xp + yp, p[13]) / (xp + yp) : REAL(0);
+    real xp = real_power(x, p[12]), yp = real_power(y, p[12]);
+    real outer = xp + yp > 0 ? real_power(xp + yp, p[13]) / (xp + yp) : REAL(0);
     n.x = x > 0 ? outer * (xp / x) : REAL(0);
     n.y = y > 0 ? outer * (yp / y) : REAL(0);
-    n.z = z > 0 ? power(z, p[14]) / z : REAL(0);
+    n.z = z > 0 ? real_power(z, p[14]) / z : REAL(0);
     most = real_max(n.x, real_max(n.y, n.z));
     n = scale(n, REAL(1) / most);
     if (at.x < 0) n.x = -n.x;

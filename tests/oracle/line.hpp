@@ -81,14 +81,14 @@ private:
         std::sort(samples.begin(), samples.end());
         std::vector<quad> slopes;
         for (const quad s : samples) slopes.push_back(slope(s));
-        for (std::size_t i = 1; i < samples.size(); ++i) {
-            if ((slopes[i - 1] < 0) != (slopes[i] < 0)) {
-                turns_.push_back(turn(samples[i - 1], samples[i], slopes[i - 1] < 0));
-            } else if (i + 1 < samples.size() && (slopes[i] < 0) == (slopes[i + 1] < 0) &&
-                       absolute(slopes[i]) <= absolute(slopes[i - 1]) &&
-                       absolute(slopes[i]) <= absolute(slopes[i + 1])) {
-                dip(samples[i - 1], samples[i + 1]);
-            }
+        const auto same = [&](std::size_t i, std::size_t k) { return (slopes[i] < 0) == (slopes[k] < 0); };
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (i > 0 && !same(i - 1, i)) turns_.push_back(turn(samples[i - 1], samples[i], slopes[i - 1] < 0));
+            // Least among its neighbours of the same sign: it may be 0 twice beside it.
+            const bool left = i > 0 && same(i - 1, i), right = i + 1 < samples.size() && same(i, i + 1);
+            const bool least = (!left || absolute(slopes[i]) <= absolute(slopes[i - 1])) &&
+                               (!right || absolute(slopes[i]) <= absolute(slopes[i + 1]));
+            if (least && (left || right)) dip(samples[left ? i - 1 : i], samples[right ? i + 1 : i]);
         }
         std::sort(turns_.begin(), turns_.end());
     }
