@@ -92,7 +92,8 @@ public:
             if (met.empty()) met = all;
             Spans spans;
             for (std::size_t i = 0; i + 1 < all.size(); i += 2) spans.push_back({{all[i].t, 0}, {all[i + 1].t, 0}});
-            if (all.size() % 2 != 0) doubtful.push_back({{all.front().t, 0}, {all.back().t, 0}});
+            if (!all.empty() && (!closed_ || all.size() % 2 != 0))
+                doubtful.push_back({{all.front().t, 0}, {all.back().t, 0}});
             return spans;
         };
         Answer answer = shaken_answer(o, d, moved, spans_of);
@@ -129,7 +130,15 @@ private:
         return kept;
     }
 
+    static bool is_closed(const Parts& parts) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+        for (const MeshSurface::Face& f : parts.faces)
+            for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(f[k], f[(k + 1) % 3])];
+        return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second % 2 == 0; });
+    }
+
     MeshSurface surface_;
+    bool closed_;
 };
 
 /// Bots without an inside: each triangle a plate of its own, or a skin along the ray.

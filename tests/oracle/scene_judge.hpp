@@ -50,7 +50,7 @@ public:
         wrong.precision(17);
         ties += answer.tie ? 1 : 0;
         check_order(found, wrong);
-        bool overlaps = false;
+        bool overlaps = !found.overlaps.empty();  // some are no longer than the slack
         for (const Piece& piece : answer.pieces) {
             check_piece(piece, found, wrong);
             overlaps = overlaps || certain(piece) > 1;  // also behind the start: they cut what reaches across it
