@@ -73,11 +73,12 @@ inline bool passes_by(const MeshSurface& surface, const QVec& o, const QVec& d, 
     return length(to_center - t * d) > quad(surface.radius * 1.0001 + 2 * moved);
 }
 
-/// A solid that triangles enclose, by parity. One with gaps encloses nothing for certain where a ray meets an odd
-/// number of triangles: all between the first and the last is in doubt then.
+/// A solid that triangles enclose, by parity. One with gaps encloses nothing for certain: all between the first and
+/// the last triangle that a ray meets is in doubt.
 class MeshSolid {
 public:
-    MeshSolid(const Parts& parts, const QAffine& place) : surface_(parts.vertices, parts.faces, place * parts.place) {}
+    MeshSolid(const Parts& parts, const QAffine& place)
+        : surface_(parts.vertices, parts.faces, place * parts.place), closed_(is_closed(parts)) {}
 
     Answer along(const Ray& ray) const {
         const QVec o = ray.origin, d = ray.direction;
