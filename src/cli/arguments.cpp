@@ -12,6 +12,7 @@ namespace csgrt::cli {
 
 namespace {
 
+constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", false}};
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail(std::string message, std::string suggestion) {
@@ -48,12 +49,20 @@ void define_settings(Options& options, Settings& settings) {
         return rule;
     };
     options.value("--tolerance", "MM|relative|none",
-                  "ends of segments closer than this are one; relative: than 1e-9 of the scene's size; none: only equal "
-                  "ones; the scene's if not given",
+                  "ends of segments closer than this are one; relative: than 1e-9 of the scene's size (1e-6 in "
+                  "single precision); none: only equal ones; the scene's if not given",
                   settings.tolerance_rule, parse_tolerance,
                   "a length in millimetres, 0 or more, 'relative' or 'none'");
+    options.choice("--precision",
+                   "of the geometry; single: relative to the eye; single-world: in the world's coordinates; double if "
+                   "not given",
+                   settings.precision, precision_names);
     options.choice("--quartic", "how quartics (tori, ...) are solved; bracketed if not given", settings.quartic,
                    quartic_names);
+    auto& contraction = options.choice(
+        "--contraction", "whether the device may round a product and a sum as one; results then differ; off if not given",
+        settings.contraction, on_off);
+    contraction.excludes = "--reference";
 }
 
 void define(Options& options, RenderArguments& arguments) {
