@@ -1,6 +1,9 @@
 // In every precision that a device has, it gives what the reference gives, to the last bit.
 #include "catch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <csgrt/csgrt.hpp>
 
 #include "pipeline/same_answers.hpp"
@@ -62,4 +65,32 @@ TEST_CASE("device and reference agree in single precision on rays that methods f
             test::require_same(device.shoot(asked), reference.shoot(asked));
         }
     }
+}
+
+TEST_CASE("contraction changes last digits and no region", "[agreement]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    if (folder.empty()) return;
+    const Scene scene = load_scene(folder + "/solids.json");
+    Settings settings = test::on_device();
+    Renderer plain(scene, {}, settings);
+    settings.contraction = true;
+    Renderer contracted(scene, {}, settings);
+    const std::vector<Ray> rays = test::random_rays(plain.bounds(), 2000);
+    const auto a = plain.shoot(rays), b = contracted.shoot(rays);
+    CHECK(contracted.statistics().contraction);
+    std::size_t other_regions = 0;
+    double farthest = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto same_region = [](const Partition& p, const Partition& q) { return p.region == q.region; };
+        if (!std::equal(a[i].partitions.begin(), a[i].partitions.end(), b[i].partitions.begin(), b[i].partitions.end(),
+                        same_region)) {
+            ++other_regions;
+            continue;
+        }
+        for (std::size_t k = 0; k < a[i].partitions.size(); ++k)
+            farthest = std::fmax(farthest, std::fabs(a[i].partitions[k].in - b[i].partitions[k].in));
+    }
+    CHECK(other_regions <= 2);
+    CHECK(farthest > 0);  // in millimetres of some hundred: a few units in the last place
+    CHECK(farthest < 1e-6);
 }
