@@ -12,13 +12,12 @@ __kernel void count_hits(__global const Frame* frame, __global const SolidRecord
     RayCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
-    count.segments = count.words = count.regions = 0;
+    count.segments = count.words = 0;
     if (ray_of(frame, rays, frame->first_ray + id, &r)) {
         walk_state w = walk(frame, g, nodes, r, 0);
         count.segments = w.segments;
         // 2 n x n / 32 passes 2^32 from n = 2^18 on.
         count.words = w.segments < (1u << 18) ? partitions_of(w.segments) * words_of(w.segments) : COUNT_MAX;
-        count.regions = w.regions;
     }
     counts[id] = count;
 }

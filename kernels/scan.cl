@@ -10,7 +10,6 @@
 static RayCount plus(RayCount a, RayCount b) {
     a.segments = add_sat(a.segments, b.segments);
     a.words = add_sat(a.words, b.words);
-    a.regions = add_sat(a.regions, b.regions);
     return a;
 }
 
@@ -20,20 +19,20 @@ __kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u3
     u32 first = block * SCAN_BLOCK + item * SCAN_EACH;
     RayCount sum;
     u32 i;
-    sum.segments = sum.words = sum.regions = 0;
+    sum.segments = sum.words = 0;
     for (i = first; i < first + SCAN_EACH && i < size; ++i) sum = plus(sum, counts[i]);
     partial[item] = sum;
     barrier(CLK_LOCAL_MEM_FENCE);
     for (i = 1; i < SCAN_GROUP; i <<= 1) {
         RayCount before;
-        before.segments = before.words = before.regions = 0;
+        before.segments = before.words = 0;
         if (item >= i) before = partial[item - i];
         barrier(CLK_LOCAL_MEM_FENCE);
         partial[item] = plus(partial[item], before);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     if (item == SCAN_GROUP - 1) sums[block] = partial[item];
-    sum.segments = sum.words = sum.regions = 0;
+    sum.segments = sum.words = 0;
     if (item > 0) sum = partial[item - 1];
     for (i = first; i < first + SCAN_EACH && i < size; ++i) {
         RayCount own = counts[i];

@@ -14,7 +14,6 @@
 // What the walk hands on: counts, and where the next end goes (ends == 0: count only).
 typedef struct {
     u32 segments;
-    u32 regions;
     GLOBAL End* ends;
 } walk_state;
 
@@ -24,7 +23,6 @@ FN walk_state meet_solid(GLOBAL const Frame* f, Geometry g, u32 index, ray3 r, w
     if (wanted) {
         if (w.ends) w.ends += 2 * wanted;
         w.segments += wanted;
-        w.regions += solid.region_count;
     }
     return w;
 }
@@ -34,7 +32,6 @@ FN walk_state walk(GLOBAL const Frame* f, Geometry g, GLOBAL const BvhNode* node
     slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
     u32 i;
     w.segments = 0;
-    w.regions = 0;
     w.ends = ends;
     for (i = 0; i < f->unbounded_count; ++i) w = meet_solid(f, g, i, r, w);
     if (!s.hits_sphere) return w;

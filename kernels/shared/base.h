@@ -45,6 +45,7 @@ FN real real_abs(real x) { return x < 0 ? -x : x; }
 FN real real_floor(real x) { return host::floor(x); }
 FN int real_exponent(real x) { return host::exponent(x); }
 FN real real_scaled(real x, int e) { return host::scaled(x, e); }
+FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
 // As OpenCL's: of a NaN and a number, the number.
 FN float fmin(float a, float b) { return a < b || b != b ? a : b; }
 FN float fmax(float a, float b) { return a > b || b != b ? a : b; }

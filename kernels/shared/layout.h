@@ -46,7 +46,7 @@ typedef struct {
     u32 first_real;
     u32 first_word;                  // into words, for solids of any size: counts, indices
     u32 first_plane, plane_count;    // into plane_refs
-    u32 first_region, region_count;  // into region_lists: the regions whose trees contain this solid, ascending
+    u32 first_leaf, leaf_count;      // into leaves: where it stands in the regions' trees, ascending
     SOLID_CENTER
 } SolidRecord;
 
@@ -83,6 +83,11 @@ typedef struct {
     u32 flags;
     u32 material;
 } RegionRecord;
+
+// A leaf of a region's tree: where its word stands in `trees`. One a solid is enough where there are unions only.
+typedef struct {
+    u32 node, region;
+} LeafRecord;
 
 typedef struct {
     float r, g, b;
@@ -143,7 +148,6 @@ typedef struct {
 typedef struct {
     u32 segments;  // of the ray
     u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
-    u32 regions;   // references to regions by the ray's segments: an upper bound of the regions that may claim
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
 

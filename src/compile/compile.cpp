@@ -121,30 +121,33 @@ void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Compiled
     }
 }
 
-/// The regions of each solid, ascending.
-void list_regions(CompiledScene& compiled) {
-    const auto region_count = static_cast<std::uint32_t>(compiled.flat_trees.size());
+/// Where each solid stands in the trees, ascending.
+void list_leaves(CompiledScene& compiled) {
+    const auto region_count = static_cast<std::uint32_t>(compiled.regions.size());
     std::vector<std::uint32_t> last(compiled.solids.size());
     const auto for_each = [&](const auto& call) {
         std::fill(last.begin(), last.end(), region_count);
         for (std::uint32_t region = 0; region < region_count; ++region) {
-            for (const FlatTree::Node& node : compiled.flat_trees[region].nodes) {
-                if (node.op != Operator::leaf || last[node.solid] == region) continue;
-                last[node.solid] = region;
-                call(compiled.solids[node.solid], region);
+            const kernel::RegionRecord& record = compiled.regions[region];
+            for (std::uint32_t node = record.first_word; node < record.first_word + record.word_count; ++node) {
+                const std::uint32_t word = compiled.trees[node], solid = word & TREE_MASK;
+                if (word >> TREE_SHIFT != OP_LEAF) continue;
+                if ((record.flags & REGION_UNION_ONLY) && last[solid] == region) continue;
+                last[solid] = region;
+                call(compiled.solids[solid], kernel::LeafRecord{node, region});
             }
         }
     };
-    for_each([](kernel::SolidRecord& solid, std::uint32_t) { ++solid.region_count; });
+    for_each([](kernel::SolidRecord& solid, const kernel::LeafRecord&) { ++solid.leaf_count; });
     std::uint32_t total = 0;
     for (kernel::SolidRecord& solid : compiled.solids) {
-        solid.first_region = total;
-        total += solid.region_count;
-        solid.region_count = 0;
+        solid.first_leaf = total;
+        total += solid.leaf_count;
+        solid.leaf_count = 0;
     }
-    compiled.region_lists.resize(total);
-    for_each([&](kernel::SolidRecord& solid, std::uint32_t region) {
-        compiled.region_lists[solid.first_region + solid.region_count++] = region;
+    compiled.leaves.resize(total);
+    for_each([&](kernel::SolidRecord& solid, const kernel::LeafRecord& leaf) {
+        compiled.leaves[solid.first_leaf + solid.leaf_count++] = leaf;
     });
 }
 
@@ -165,8 +168,8 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     if (std::vector<Diagnostic> findings = validate(scene, objects, options.skip_unsupported); !findings.empty())
         throw Error(Status::scene, std::move(findings));
 
-    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air,
-                             options.skip_unsupported);
+    FlatScene flat =
+        flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air, options.skip_unsupported);
     CompiledScene compiled;
     compiled.notes = std::move(flat.notes);
     compiled.skipped = std::move(flat.skipped);
@@ -203,7 +206,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     compiled.instances = static_cast<std::uint32_t>(leaves);
 
     set_regions(flat, brlcad_boxes, compiled);
-    list_regions(compiled);
+    list_leaves(compiled);
     compiled.hash = hash_of(compiled);
     return compiled;
 }

@@ -39,7 +39,7 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const Hos
       plane_refs(device, "references to planes", scene.plane_refs),
       words(device, "solids' parts", scene.words),
       inner_nodes(device, "bounding volumes of solids' parts", tables.inner_nodes),
-      region_lists(device, "solids' regions", scene.region_lists),
+      leaves(device, "trees' leaves", scene.leaves),
       regions(device, "regions", scene.regions),
       trees(device, "trees", scene.trees),
       materials(device, "materials", scene.materials),
@@ -73,8 +73,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       pixels_(device, "pixels"),
       ends_(device, "segments"),
       partitions_(device, "partitions"),
-      bits_(device, "partitions' bits"),
-      candidates_(device, "candidate regions") {}
+      bits_(device, "partitions' bits") {}
 
 // Exclusive prefix sums over the first `size` counts, level by level.
 double Pipeline::scan(std::uint32_t size) {
@@ -96,7 +95,7 @@ double Pipeline::scan(std::uint32_t size) {
 
 // Gives back what holds segments and partitions: memory that another use of the budget wants.
 void Pipeline::release_counted() {
-    for (Buffer* buffer : {&ends_, &partitions_, &bits_, &candidates_}) *buffer = Buffer(device_, buffer->name());
+    for (Buffer* buffer : {&ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
 }
 
 // Returns false if the tile's segments do not fit; nothing is lost then, the caller takes a smaller tile.
@@ -134,29 +133,26 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
     const std::uint64_t end_bytes = node_count * kernels_.end_bytes();
     const std::uint64_t node_bytes = node_count * sizeof(kernel::PartitionNode);
     const std::uint64_t bit_bytes = std::uint64_t{total.words} * sizeof(std::uint32_t);
-    const std::uint64_t candidate_bytes = std::uint64_t{total.regions} * sizeof(std::uint32_t);
-    const std::uint64_t largest = std::max({end_bytes, node_bytes, bit_bytes, candidate_bytes});
+    const std::uint64_t largest = std::max({end_bytes, node_bytes, bit_bytes});
     // Buffers only grow, unless that would not fit.
-    const std::uint64_t held = ends_.size() + partitions_.size() + bits_.size() + candidates_.size();
+    const std::uint64_t held = ends_.size() + partitions_.size() + bits_.size();
     const std::uint64_t grown = std::max<std::uint64_t>(end_bytes, ends_.size()) +
                                 std::max<std::uint64_t>(node_bytes, partitions_.size()) +
-                                std::max<std::uint64_t>(bit_bytes, bits_.size()) +
-                                std::max<std::uint64_t>(candidate_bytes, candidates_.size());
+                                std::max<std::uint64_t>(bit_bytes, bits_.size());
     if (grown > device_.available() + held) release_counted();
-    const bool saturated = total.segments >= NONE / 2 || total.words == COUNT_MAX || total.regions == COUNT_MAX;
+    const bool saturated = total.segments >= NONE / 2 || total.words == COUNT_MAX;
     if (saturated || largest > device_.max_buffer()) return false;
-    const std::uint64_t free = device_.available() + ends_.size() + partitions_.size() + bits_.size() + candidates_.size();
-    if (end_bytes + node_bytes + bit_bytes + candidate_bytes > free) return false;
+    const std::uint64_t free = device_.available() + ends_.size() + partitions_.size() + bits_.size();
+    if (end_bytes + node_bytes + bit_bytes > free) return false;
     ends_.reserve(end_bytes);
     partitions_.reserve(node_bytes);
     bits_.reserve(bit_bytes);
-    candidates_.reserve(candidate_bytes);
 
     const Event store = store_segments_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.reals, s.planes,
                                                s.plane_refs, s.words, s.inner_nodes, s.nodes, rays_, counts_, ends_);
     const Event weave = weave_.launch(tile.rays, group, frame_, rays_, counts_, ends_, partitions_, bits_, results_);
     const Event evaluate = evaluate_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.regions,
-                                            s.region_lists, s.trees, counts_, ends_, partitions_, bits_, candidates_, results_);
+                                            s.leaves, s.trees, counts_, ends_, partitions_, bits_, results_);
     Event shade;
     if (pictured)
         shade = shade_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, s.regions, s.materials,
@@ -170,7 +166,7 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
     counts.hits += node_count;
     counts.partitions_allocated += node_count;
     counts.segment_bytes += end_bytes;
-    counts.partition_bytes += node_bytes + bit_bytes + candidate_bytes;
+    counts.partition_bytes += node_bytes + bit_bytes;
     ++counts.tiles;
     return true;
 }
@@ -185,7 +181,7 @@ void Pipeline::for_each_tile(const PreparedFrame& prepared, bool pictured, const
     if (pictured) rays_ = Buffer(device_, rays_.name());
     if (!pictured) pixels_ = Buffer(device_, pixels_.name());
     const std::uint64_t held = counts_.size() + results_.size() + pixels_.size() + rays_.size() + ends_.size() +
-                               partitions_.size() + bits_.size() + candidates_.size();
+                               partitions_.size() + bits_.size();
     const std::uint64_t fitting = std::min((device_.available() + held) / (4 * ray_bytes), device_.max_buffer() / ray_bytes);
     std::uint64_t size = std::max<std::uint64_t>(1, std::min({fitting, most_rays, prepared.rays}));
 
@@ -229,20 +225,17 @@ std::vector<kernel::Pixel> Pipeline::render(const PreparedFrame& prepared, const
 
 // All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
 std::vector<std::uint32_t> Pipeline::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
-    const kernel::cover cover{ends, bits, segments};
-    std::vector<std::uint32_t> table;
-    for (std::uint32_t s = 0; s < segments; ++s) {
-        if (!kernel::covers(cover, s)) continue;
-        const kernel::SolidRecord& solid = scene_.solids[ends[2 * s].solid];
-        for (std::uint32_t i = 0; i < solid.region_count; ++i) table.push_back(scene_.region_lists[solid.first_region + i]);
+    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.leaves.data()};
+    kernel::leaf_window window;
+    kernel::fill_window(&window, cover, 0);
+    std::vector<std::uint32_t> claimants;
+    std::uint32_t from = 0;
+    for (;;) {
+        const std::uint32_t region =
+            kernel::next_claim(scene_.regions.data(), scene_.trees.data(), &window, cover, &from);
+        if (region == NONE) return claimants;
+        claimants.push_back(region);
     }
-    std::sort(table.begin(), table.end());
-    table.erase(std::unique(table.begin(), table.end()), table.end());
-    std::erase_if(table, [&](std::uint32_t region) {
-        const kernel::RegionRecord& record = scene_.regions[region];
-        return !(record.flags & REGION_UNION_ONLY) && !kernel::evaluate_tree(scene_.trees.data(), record.first_word, cover);
-    });
-    return table;
 }
 
 std::vector<ClaimedPartition> Pipeline::claims_of(const std::vector<kernel::End>& ends,

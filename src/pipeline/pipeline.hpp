@@ -19,7 +19,7 @@ namespace csgrt {
 /// The compiled scene on the device.
 struct SceneBuffers {
     SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
-    Buffer solids, reals, planes, plane_refs, words, inner_nodes, region_lists, regions, trees, materials, nodes;
+    Buffer solids, reals, planes, plane_refs, words, inner_nodes, leaves, regions, trees, materials, nodes;
 };
 
 /// Figures of one frame, summed over its tiles. Times in milliseconds, the device's own.
@@ -62,7 +62,7 @@ private:
     Kernel count_hits_, scan_blocks_, scan_add_, store_segments_, weave_, evaluate_, shade_;
     Buffer frame_, lights_, rays_;
     Buffer counts_, results_, pixels_;             // one entry a ray
-    Buffer ends_, partitions_, bits_, candidates_;  // by what was counted
+    Buffer ends_, partitions_, bits_;              // by what was counted
     std::vector<std::unique_ptr<Buffer>> sums_;    // of the scan, a level each
     std::vector<std::byte> list_;                  // the rays that are being shot, as the kernels read them
 };

@@ -51,8 +51,10 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(c.materials[c.regions[0].material].shine == 10);
 
     for (std::uint32_t i = 0; i < c.solids.size(); ++i) {
-        REQUIRE(c.solids[i].region_count == 1);
-        const std::uint32_t region = c.region_lists[c.solids[i].first_region];
+        REQUIRE(c.solids[i].leaf_count == 1);
+        const kernel::LeafRecord& leaf = c.leaves[c.solids[i].first_leaf];
+        const std::uint32_t region = leaf.region;
+        CHECK(c.trees[leaf.node] == (OP_LEAF << TREE_SHIFT | i));
         const auto& nodes = c.flat_trees[region].nodes;
         CHECK(std::any_of(nodes.begin(), nodes.end(),
                           [&](const auto& n) { return n.op == Operator::leaf && n.solid == i; }));
@@ -65,21 +67,25 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(near(c.radius, std::sqrt(25 + 25 + 4.0), 1e-9));
 }
 
-TEST_CASE("solids of several regions list them ascending, once each") {
+TEST_CASE("solids list their leaves ascending, but one of a region that is a union") {
     Scene s = scene({ball("a"), ball("b", {0.5, 0, 0}), region("r1", {leg("a"), leg("b"), both}),
                      region("r2", {leg("b"), leg("b"), leg("a"), op(Operator::union_, 3)}), region("r3", {leg("b")}),
                      region("r4", {leg("a"), leg("b"), less})});
     const CompiledScene c = compile(s, {"r1", "r2", "r3", "r4"});
     REQUIRE(c.solids.size() == 2);
     CHECK(c.instances == 8);
-    CHECK(c.region_lists.size() == 7);
+    CHECK(c.leaves.size() == 7);
     for (const kernel::SolidRecord& record : c.solids) {
-        const bool is_b = record.region_count == 4;
-        const std::vector<std::uint32_t> list(c.region_lists.begin() + record.first_region,
-                                              c.region_lists.begin() + record.first_region + record.region_count);
+        const bool is_b = record.leaf_count == 4;
+        std::vector<std::uint32_t> list;
+        for (std::uint32_t i = 0; i < record.leaf_count; ++i) {
+            const kernel::LeafRecord& leaf = c.leaves[record.first_leaf + i];
+            list.push_back(leaf.region);
+            if (i > 0) CHECK(c.leaves[record.first_leaf + i - 1].node < leaf.node);
+        }
         CHECK(list == (is_b ? std::vector<std::uint32_t>{0, 1, 2, 3} : std::vector<std::uint32_t>{0, 1, 3}));
     }
-    CHECK(c.solids[0].region_count + c.solids[1].region_count == 7);
+    CHECK(c.solids[0].leaf_count + c.solids[1].leaf_count == 7);
 }
 
 TEST_CASE("solids are numbered in the order of the hierarchy's leaves, behind the unbounded ones") {

@@ -14,7 +14,6 @@ namespace csgrt::kernel {
 
 inline thread_local std::size_t global_id = 0;
 inline std::size_t get_global_id(int) { return global_id; }
-inline u32 clz(u32 x) { return static_cast<u32>(std::countl_zero(x)); }
 using std::size_t;
 
 #define __kernel [[maybe_unused]] static inline
@@ -45,7 +44,7 @@ struct HostRun {
     std::vector<kernel::RayCount> offsets;
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
-    std::vector<std::uint32_t> bits, candidates;
+    std::vector<std::uint32_t> bits;
     std::vector<kernel::RayResult> results;
     std::vector<kernel::Pixel> pixels;
 };
@@ -73,12 +72,10 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         c = sum;
         sum.segments += own.segments;
         sum.words += own.words;
-        sum.regions += own.regions;
     }
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
-    run.candidates.resize(sum.regions);
     run.results.resize(count);
     run.pixels.resize(count);
     each([&] {
@@ -91,9 +88,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
                       run.results.data());
     });
     each([&] {
-        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.region_lists.data(), scene.trees.data(),
-                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.candidates.data(),
-                 run.results.data());
+        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.leaves.data(), scene.trees.data(),
+                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data());
     });
     if (!frame.listed) {
         each([&] {

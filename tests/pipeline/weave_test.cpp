@@ -24,7 +24,7 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     frame.ray_count = frame.listed = 1;
     const kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
     frame.tolerance = tolerance;
-    const std::vector<kernel::RayCount> offsets = {{0, 0, 0}, {segments, kernel::partitions_of(segments) * words, 0}};
+    const std::vector<kernel::RayCount> offsets = {{0, 0}, {segments, kernel::partitions_of(segments) * words}};
     std::vector<kernel::PartitionNode> nodes(ends.size());
     std::vector<std::uint32_t> bits(offsets[1].words, 0xdeadbeefu);  // memory comes as it was left
     kernel::RayResult result{};

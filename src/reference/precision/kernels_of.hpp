@@ -54,8 +54,8 @@ real convert(double x) { return static_cast<real>(x); }
     solid.first_word = s.first_word;
     solid.first_plane = s.first_plane;
     solid.plane_count = s.plane_count;
-    solid.first_region = s.first_region;
-    solid.region_count = s.region_count;
+    solid.first_leaf = s.first_leaf;
+    solid.leaf_count = s.leaf_count;
 #ifdef CSGRT_EYE_RELATIVE
     if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
         for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
