@@ -26,6 +26,7 @@ inline const std::vector<Workload>& workloads() {
         {"tank_car", "tank_car.asc", {"tank_car"}, 0, 0, 182, 625, 191},
         {"tank_car+track", "tank_car.asc", {"tank_car", "track"}, 120, 651742, 0, 0, 0},
         {"havoc", "havoc.asc", {"havoc"}, 520, 701340, 340, 505, 307},
+        {"goliath", "goliath.g", {"Goliath.c"}},
         {"scene operators", "operators.json", {}, 0, 0, 0, 0, 0},
     };
     return all;
