@@ -1,14 +1,13 @@
 // Kernel 4: which region claims each partition. Front to back; unless every partition is wanted, the first claimed one
 // ends the work for its ray: nothing behind it is seen.
 //
-// Only regions with a leaf among the partition's solids can claim it (a region that contains empty space is refused when it
-// is compiled). They come in order of their trees, so the first claim is the smallest index.
+// Only regions that one of the partition's solids starts can claim it (see StartRecord). They come in order of their trees, so the first claim is the smallest index.
 // Overlap: the smallest index keeps the partition, as in BRL-CAD. A rule that looked at the partition before would depend on
 // the direction of the ray.
 #include "boolean.h"
 
 __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* solids,
-                       __global const RegionRecord* regions, __global const LeafRecord* leaves,
+                       __global const RegionRecord* regions, __global const StartRecord* starts, __global const u32* leaves,
                        __global const u32* trees, __global const RayCount* offsets, __global const End* all_ends,
                        __global PartitionNode* all_nodes, __global const u32* all_bits, __global RayResult* results) {
     u32 id = (u32)get_global_id(0);
@@ -24,6 +23,7 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
     c.segments = offsets[id + 1].segments - offset.segments;
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.solids = solids;
+    c.starts = starts;
     c.leaves = leaves;
     list = all_nodes + 2 * (size_t)offset.segments;
     words = words_of(c.segments);
@@ -31,10 +31,10 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
     result.first = NONE;
     while (node != NONE) {
         PartitionNode partition = list[node];
-        leaf_window w;
+        window w;
         u32 from = 0, claimed, overlap;
         c.bits = all_bits + offset.words + node * words;
-        fill_window(&w, c, 0);
+        fill_window(&w, c, 0, 0, NO_END);
         claimed = next_claim(regions, trees, &w, c, &from);
         overlap = claimed != NONE && next_claim(regions, trees, &w, c, &from) != NONE;
         result.overlaps += overlap;

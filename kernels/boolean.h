@@ -15,68 +15,87 @@ typedef struct {
     GLOBAL const u32* bits;
     u32 segments;
     GLOBAL const SolidRecord* solids;
-    GLOBAL const LeafRecord* leaves;
+    GLOBAL const StartRecord* starts;
+    GLOBAL const u32* leaves;
 } cover;
 
 FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 31u) & 1u; }
 
-// The next few covered leaves of all trees, ascending: a window that moves from the first tree to the last. Most partitions
-// have no more than fit.
-#define LEAVES_KEPT 8
+// The next few places in the trees, ascending: a window that moves on as they are used up. Most partitions have no more
+// than fit.
+#define WINDOW 8
 typedef struct {
-    LeafRecord kept[LEAVES_KEPT];
+    u32 nodes[WINDOW], regions[WINDOW];
     u32 count, at;
-    u32 more;  // there may be leaves after those kept
-} leaf_window;
+    u32 more;  // there may be some after those kept
+} window;
 
-// Keeps the first leaves at or after `from`.
-FN void fill_window(leaf_window* w, cover c, u32 from) {
+// Takes up a place that is not before the window; 0: it and all greater ones lie behind it.
+FN u32 keep(window* w, u32 node, u32 region) {
+    u32 k = w->count;
+    if (k == WINDOW) {
+        w->more = 1;
+        if (node >= w->nodes[k - 1]) return 0;
+        --k;
+    } else {
+        ++w->count;
+    }
+    for (; k > 0 && w->nodes[k - 1] > node; --k) {
+        w->nodes[k] = w->nodes[k - 1];
+        w->regions[k] = w->regions[k - 1];
+    }
+    w->nodes[k] = node;
+    w->regions[k] = region;
+    return 1;
+}
+
+// Keeps the first places within [from, end) where covered solids start regions (see StartRecord), or, `leaves`, where they
+// stand in trees at all.
+FN void fill_window(window* w, cover c, u32 leaves, u32 from, u32 end) {
     u32 word, words = words_of(c.segments);
     w->count = w->at = w->more = 0;
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 low = bits & (0u - bits);
-            SolidRecord solid = c.solids[c.ends[2 * (32 * word + 31u - clz(low))].solid];
-            u32 i;
-            bits ^= low;
-            for (i = 0; i < solid.leaf_count; ++i) {
-                LeafRecord leaf = c.leaves[solid.first_leaf + i];
-                u32 k = w->count;
-                if (leaf.node < from) continue;
-                if (k == LEAVES_KEPT) {
-                    w->more = 1;
-                    if (leaf.node >= w->kept[k - 1].node) break;  // a solid's leaves ascend
-                    --k;
+            u32 lowest = bits & (0u - bits);
+            SolidRecord solid = c.solids[c.ends[2 * (32 * word + 31u - clz(lowest))].solid];
+            u32 low = leaves ? solid.first_leaf : solid.first_start;
+            u32 high = low + (leaves ? solid.leaf_count : solid.start_count), last = high;
+            bits ^= lowest;
+            while (low < high) {  // to the first at or after `from`
+                u32 middle = (low + high) >> 1;
+                if ((leaves ? c.leaves[middle] : c.starts[middle].node) < from) {
+                    low = middle + 1;
                 } else {
-                    ++w->count;
+                    high = middle;
                 }
-                while (k > 0 && w->kept[k - 1].node > leaf.node) {
-                    w->kept[k] = w->kept[k - 1];
-                    --k;
-                }
-                w->kept[k] = leaf;
+            }
+            for (; low < last; ++low) {
+                u32 node = leaves ? c.leaves[low] : c.starts[low].node;
+                if (node >= end || !keep(w, node, leaves ? 0 : c.starts[low].region)) break;
             }
         }
     }
 }
 
-// Moves to the first covered leaf at or after `from`, which never goes back. 0: there is none.
-FN u32 find_leaf(leaf_window* w, cover c, u32 from) {
-    while (w->at < w->count && w->kept[w->at].node < from) ++w->at;
-    if (w->at == w->count && w->more) fill_window(w, c, from);
+// Moves to the first place at or after `from`, which never goes back. 0: there is none before `end`.
+FN u32 find_place(window* w, cover c, u32 leaves, u32 from, u32 end) {
+    while (w->at < w->count && w->nodes[w->at] < from) ++w->at;
+    if (w->at == w->count && w->more) fill_window(w, c, leaves, from, end);
     return w->at < w->count;
 }
 
 #define NEGATE_BIT 0x80000000u
 
 // The value of the tree in the words from `node` to `end`.
-FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, leaf_window* w, cover c) {
+FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, cover c) {
     u32 stack[CSGRT_TREE_STACK], ends[CSGRT_TREE_STACK];
-    u32 depth = 0, negate = 0, value;
+    u32 depth = 0, negate = 0, value, tree_end = end;
+    window w;
+    fill_window(&w, c, 1, node, end);
     for (;;) {
         u32 word, op;
-        if (!find_leaf(w, c, node) || w->kept[w->at].node >= end) {
+        if (!find_place(&w, c, 1, node, tree_end) || w.nodes[w.at] >= end) {
             value = negate;
         } else {
             word = trees[node];
@@ -85,7 +104,7 @@ FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, leaf_window* w,
                 value = 1u ^ negate;
             } else {
                 u32 right = word & TREE_MASK;
-                if (w->kept[w->at].node < right) {
+                if (w.nodes[w.at] < right) {
                     stack[depth] = node | (negate ? NEGATE_BIT : 0u);
                     ends[depth++] = end;
                     negate = 0;
@@ -124,15 +143,16 @@ FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, leaf_window* w,
     }
 }
 
+#define NO_END 0xffffffffu
+
 // The next region, ascending, that claims the partition, from the tree at `*from` on, which is moved behind it; NONE: no
-// more. Start with a filled window.
-FN u32 next_claim(GLOBAL const RegionRecord* regions, GLOBAL const u32* trees, leaf_window* w, cover c, u32* from) {
-    while (find_leaf(w, c, *from)) {
-        u32 region = w->kept[w->at].region;
+// more. `starts`: filled from the first.
+FN u32 next_claim(GLOBAL const RegionRecord* regions, GLOBAL const u32* trees, window* starts, cover c, u32* from) {
+    while (find_place(starts, c, 0, *from, NO_END)) {
+        u32 region = starts->regions[starts->at];
         RegionRecord record = regions[region];
-        u32 end = record.first_word + record.word_count;
-        *from = end;
-        if ((record.flags & REGION_UNION_ONLY) || evaluate_tree(trees, record.first_word, end, w, c)) return region;
+        *from = record.first_word + record.word_count;
+        if ((record.flags & REGION_UNION_ONLY) || evaluate_tree(trees, record.first_word, *from, c)) return region;
     }
     return NONE;
 }

@@ -46,7 +46,8 @@ typedef struct {
     u32 first_real;
     u32 first_word;                  // into words, for solids of any size: counts, indices
     u32 first_plane, plane_count;    // into plane_refs
-    u32 first_leaf, leaf_count;      // into leaves: where it stands in the regions' trees, ascending
+    u32 first_start, start_count;    // into starts
+    u32 first_leaf, leaf_count;      // into leaves: where it stands in trees that are not unions only, ascending
     SOLID_CENTER
 } SolidRecord;
 
@@ -84,10 +85,11 @@ typedef struct {
     u32 material;
 } RegionRecord;
 
-// A leaf of a region's tree: where its word stands in `trees`. One a solid is enough where there are unions only.
+// A leaf of a region's tree such that some one of these is covered wherever the region is: all of a union, those of A in
+// A - B, those of either in A and B. `node`: where it stands in `trees`; of a solid's starts in one region the first.
 typedef struct {
     u32 node, region;
-} LeafRecord;
+} StartRecord;
 
 typedef struct {
     float r, g, b;

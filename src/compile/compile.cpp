@@ -121,34 +121,77 @@ void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Compiled
     }
 }
 
-/// Where each solid stands in the trees, ascending.
+/// The leaves of a tree that start it, ascending; positions in `trees`.
+std::vector<std::uint32_t> starts_of(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record) {
+    // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
+    std::vector<std::vector<std::uint32_t>> stack;
+    for (std::uint32_t node = record.first_word + record.word_count; node-- > record.first_word;) {
+        const std::uint32_t op = trees[node] >> TREE_SHIFT;
+        if (op == OP_LEAF) {
+            stack.push_back({node});
+            continue;
+        }
+        std::vector<std::uint32_t> left = std::move(stack.back());
+        stack.pop_back();
+        std::vector<std::uint32_t>& right = stack.back();
+        const bool either = op == OP_INTERSECTION;
+        if (op == OP_DIFFERENCE || (either && left.size() <= right.size())) {
+            right = std::move(left);
+        } else if (op != OP_REVERSE_DIFFERENCE && !either) {
+            if (left.size() > right.size()) std::swap(left, right);
+            right.insert(right.end(), left.begin(), left.end());
+        }
+    }
+    std::sort(stack.back().begin(), stack.back().end());
+    return std::move(stack.back());
+}
+
+/// Gives each solid its part of a table: `for_each(call)` calls call(solid, entry), in order, the same each time.
+template <class Entry, class ForEach>
+void fill_table(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::* first,
+                std::uint32_t kernel::SolidRecord::* count, std::vector<Entry>& table, const ForEach& for_each) {
+    for_each([&](std::uint32_t solid, const Entry&) { ++(solids[solid].*count); });
+    std::uint32_t total = 0;
+    for (kernel::SolidRecord& solid : solids) {
+        solid.*first = total;
+        total += solid.*count;
+        solid.*count = 0;
+    }
+    table.resize(total);
+    for_each([&](std::uint32_t solid, const Entry& entry) {
+        table[solids[solid].*first + solids[solid].*count] = entry;
+        ++(solids[solid].*count);
+    });
+}
+
+/// Where each solid starts regions, and where it stands in their trees.
 void list_leaves(CompiledScene& compiled) {
     const auto region_count = static_cast<std::uint32_t>(compiled.regions.size());
-    std::vector<std::uint32_t> last(compiled.solids.size());
-    const auto for_each = [&](const auto& call) {
-        std::fill(last.begin(), last.end(), region_count);
-        for (std::uint32_t region = 0; region < region_count; ++region) {
-            const kernel::RegionRecord& record = compiled.regions[region];
-            for (std::uint32_t node = record.first_word; node < record.first_word + record.word_count; ++node) {
-                const std::uint32_t word = compiled.trees[node], solid = word & TREE_MASK;
-                if (word >> TREE_SHIFT != OP_LEAF) continue;
-                if ((record.flags & REGION_UNION_ONLY) && last[solid] == region) continue;
-                last[solid] = region;
-                call(compiled.solids[solid], kernel::LeafRecord{node, region});
-            }
-        }
-    };
-    for_each([](kernel::SolidRecord& solid, const kernel::LeafRecord&) { ++solid.leaf_count; });
-    std::uint32_t total = 0;
-    for (kernel::SolidRecord& solid : compiled.solids) {
-        solid.first_leaf = total;
-        total += solid.leaf_count;
-        solid.leaf_count = 0;
-    }
-    compiled.leaves.resize(total);
-    for_each([&](kernel::SolidRecord& solid, const kernel::LeafRecord& leaf) {
-        compiled.leaves[solid.first_leaf + solid.leaf_count++] = leaf;
-    });
+    const auto solid_at = [&](std::uint32_t node) { return compiled.trees[node] & TREE_MASK; };
+    std::vector<std::vector<std::uint32_t>> starts;
+    for (const kernel::RegionRecord& record : compiled.regions) starts.push_back(starts_of(compiled.trees, record));
+    std::vector<std::uint32_t> last;
+    fill_table(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count, compiled.starts,
+               [&](const auto& call) {
+                   last.assign(compiled.solids.size(), region_count);
+                   for (std::uint32_t region = 0; region < region_count; ++region)
+                       for (const std::uint32_t node : starts[region]) {
+                           const std::uint32_t solid = solid_at(node);
+                           if (last[solid] == region) continue;
+                           last[solid] = region;
+                           call(solid, kernel::StartRecord{node, region});
+                       }
+               });
+    fill_table(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count, compiled.leaves,
+               [&](const auto& call) {
+                   for (const kernel::RegionRecord& record : compiled.regions) {
+                       if (record.flags & REGION_UNION_ONLY) continue;
+                       for (std::uint32_t i = 0; i < record.word_count; ++i) {
+                           const std::uint32_t node = record.first_word + i;
+                           if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF) call(solid_at(node), node);
+                       }
+                   }
+               });
 }
 
 void set_surroundings(const Scene& scene, CompiledScene& compiled) {

@@ -39,6 +39,7 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const Hos
       plane_refs(device, "references to planes", scene.plane_refs),
       words(device, "solids' parts", scene.words),
       inner_nodes(device, "bounding volumes of solids' parts", tables.inner_nodes),
+      starts(device, "where trees start", scene.starts),
       leaves(device, "trees' leaves", scene.leaves),
       regions(device, "regions", scene.regions),
       trees(device, "trees", scene.trees),
@@ -152,7 +153,7 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
                                                s.plane_refs, s.words, s.inner_nodes, s.nodes, rays_, counts_, ends_);
     const Event weave = weave_.launch(tile.rays, group, frame_, rays_, counts_, ends_, partitions_, bits_, results_);
     const Event evaluate = evaluate_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.regions,
-                                            s.leaves, s.trees, counts_, ends_, partitions_, bits_, results_);
+                                            s.starts, s.leaves, s.trees, counts_, ends_, partitions_, bits_, results_);
     Event shade;
     if (pictured)
         shade = shade_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, s.regions, s.materials,
@@ -225,9 +226,10 @@ std::vector<kernel::Pixel> Pipeline::render(const PreparedFrame& prepared, const
 
 // All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
 std::vector<std::uint32_t> Pipeline::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
-    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.leaves.data()};
-    kernel::leaf_window window;
-    kernel::fill_window(&window, cover, 0);
+    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(),
+                              scene_.leaves.data()};
+    kernel::window window;
+    kernel::fill_window(&window, cover, 0, 0, NO_END);
     std::vector<std::uint32_t> claimants;
     std::uint32_t from = 0;
     for (;;) {

@@ -19,7 +19,7 @@ namespace csgrt {
 /// The compiled scene on the device.
 struct SceneBuffers {
     SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
-    Buffer solids, reals, planes, plane_refs, words, inner_nodes, leaves, regions, trees, materials, nodes;
+    Buffer solids, reals, planes, plane_refs, words, inner_nodes, starts, leaves, regions, trees, materials, nodes;
 };
 
 /// Figures of one frame, summed over its tiles. Times in milliseconds, the device's own.

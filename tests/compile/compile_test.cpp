@@ -51,11 +51,12 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(c.materials[c.regions[0].material].shine == 10);
 
     for (std::uint32_t i = 0; i < c.solids.size(); ++i) {
-        REQUIRE(c.solids[i].leaf_count == 1);
-        const kernel::LeafRecord& leaf = c.leaves[c.solids[i].first_leaf];
-        const std::uint32_t region = leaf.region;
-        CHECK(c.trees[leaf.node] == (OP_LEAF << TREE_SHIFT | i));
-        const auto& nodes = c.flat_trees[region].nodes;
+        const bool is_hole = c.solid_info[i].name == "hole";
+        REQUIRE(c.solids[i].start_count == (is_hole ? 0 : 1));
+        if (is_hole) continue;
+        const kernel::StartRecord& start = c.starts[c.solids[i].first_start];
+        CHECK(c.trees[start.node] == (OP_LEAF << TREE_SHIFT | i));
+        const auto& nodes = c.flat_trees[start.region].nodes;
         CHECK(std::any_of(nodes.begin(), nodes.end(),
                           [&](const auto& n) { return n.op == Operator::leaf && n.solid == i; }));
     }
@@ -67,25 +68,33 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(near(c.radius, std::sqrt(25 + 25 + 4.0), 1e-9));
 }
 
-TEST_CASE("solids list their leaves ascending, but one of a region that is a union") {
+TEST_CASE("solids list the regions that they start, and all their leaves but those of unions") {
     Scene s = scene({ball("a"), ball("b", {0.5, 0, 0}), region("r1", {leg("a"), leg("b"), both}),
                      region("r2", {leg("b"), leg("b"), leg("a"), op(Operator::union_, 3)}), region("r3", {leg("b")}),
                      region("r4", {leg("a"), leg("b"), less})});
     const CompiledScene c = compile(s, {"r1", "r2", "r3", "r4"});
     REQUIRE(c.solids.size() == 2);
     CHECK(c.instances == 8);
-    CHECK(c.leaves.size() == 7);
-    for (const kernel::SolidRecord& record : c.solids) {
-        const bool is_b = record.leaf_count == 4;
-        std::vector<std::uint32_t> list;
-        for (std::uint32_t i = 0; i < record.leaf_count; ++i) {
-            const kernel::LeafRecord& leaf = c.leaves[record.first_leaf + i];
-            list.push_back(leaf.region);
-            if (i > 0) CHECK(c.leaves[record.first_leaf + i - 1].node < leaf.node);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const kernel::SolidRecord& record = c.solids[i];
+        std::vector<std::uint32_t> starts, leaves;
+        for (std::uint32_t k = 0; k < record.start_count; ++k) {
+            const kernel::StartRecord& start = c.starts[record.first_start + k];
+            starts.push_back(start.region);
+            CHECK(c.trees[start.node] == (OP_LEAF << TREE_SHIFT | i));
         }
-        CHECK(list == (is_b ? std::vector<std::uint32_t>{0, 1, 2, 3} : std::vector<std::uint32_t>{0, 1, 3}));
+        for (std::uint32_t k = 0; k < record.leaf_count; ++k) {
+            leaves.push_back(c.leaves[record.first_leaf + k]);
+            CHECK(c.trees[leaves.back()] == (OP_LEAF << TREE_SHIFT | i));
+        }
+        CHECK(std::is_sorted(leaves.begin(), leaves.end()));
+        CHECK(leaves.size() == 2);
+        // One of the two starts r1, a starts r4, both r2.
+        starts.erase(std::remove(starts.begin(), starts.end(), 0u), starts.end());
+        const bool is_b = c.solid_info[i].name == "b";
+        CHECK(starts == (is_b ? std::vector<std::uint32_t>{1, 2} : std::vector<std::uint32_t>{1, 3}));
     }
-    CHECK(c.solids[0].leaf_count + c.solids[1].leaf_count == 7);
+    CHECK(c.starts.size() == 5);
 }
 
 TEST_CASE("solids are numbered in the order of the hierarchy's leaves, behind the unbounded ones") {

@@ -88,7 +88,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
                       run.results.data());
     });
     each([&] {
-        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.leaves.data(), scene.trees.data(),
+        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(),
                  run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data());
     });
     if (!frame.listed) {

@@ -54,6 +54,8 @@ real convert(double x) { return static_cast<real>(x); }
     solid.first_word = s.first_word;
     solid.first_plane = s.first_plane;
     solid.plane_count = s.plane_count;
+    solid.first_start = s.first_start;
+    solid.start_count = s.start_count;
     solid.first_leaf = s.first_leaf;
     solid.leaf_count = s.leaf_count;
 #ifdef CSGRT_EYE_RELATIVE
