@@ -17,7 +17,7 @@ using k::wide;
 // ---- Records from those in double. A table that is the same in both is not copied. ----
 
 template <class To, class From>
-using Converted = std::conditional_t<std::is_same_v<To, From>, const std::vector<From>&, std::vector<To>>;
+using Converted = std::conditional_t<std::is_same_v<To, From>, std::span<const From>, std::vector<To>>;
 
 real convert(double x) { return static_cast<real>(x); }
 [[maybe_unused]] k::PlaneRecord convert(const kernel::PlaneRecord& p) {
