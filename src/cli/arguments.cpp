@@ -47,7 +47,7 @@ void define_settings(Options& options, Settings& settings) {
         }
         return rule;
     };
-    options.value("--tolerance", "MM|relative|none",
+    options.value("--tolerance", "MM|surfaces|relative|none",
                   "ends of segments closer than this are one; relative: than 1e-9 of the scene's size; none: only equal "
                   "ones; the scene's if not given",
                   settings.tolerance_rule, parse_tolerance,
