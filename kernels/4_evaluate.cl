@@ -7,6 +7,7 @@
 // Overlap: the smallest index keeps the partition, as in BRL-CAD. A rule that looked at the partition before would depend on
 // the direction of the ray.
 #include "boolean.h"
+#include "camera.h"
 
 // The distinct regions of the ray's solids, ascending.
 static u32 collect_candidates(__global const SolidRecord* solids, __global const u32* region_lists,
@@ -78,6 +79,7 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
     RayResult result;
     RayCount offset;
     u32 count, node, words;
+    real t_min;
     cover c;
     __global PartitionNode* list;
     __global u32* candidates;
@@ -93,6 +95,7 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
     count = collect_candidates(solids, region_lists, c.ends, c.segments, candidates);
     node = result.first;
     result.first = NONE;
+    t_min = t_min_of(frame, frame->first_ray + id);
     while (node != NONE) {
         PartitionNode partition = list[node];
         u32 claimed = NONE, claims = 0, word;
@@ -112,7 +115,7 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
         }
         if (claims > 1) ++result.overlaps;
         list[node].region = claimed | (claims > 1 ? OVERLAP : 0u);
-        if (claimed != NONE && result.first == NONE && c.ends[partition.out_end].t > frame->t_min) {
+        if (claimed != NONE && result.first == NONE && c.ends[partition.out_end].t > t_min) {
             result.first = node;
             if (!frame->every_partition) break;
         }

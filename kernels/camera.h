@@ -20,44 +20,102 @@ FN pixel_position pixel_of(u32 ray, u32 width, u32 height) {
     return p;
 }
 
-FN ray3 camera_ray(GLOBAL const Frame* f, pixel_position at) {
-    ray3 r;
-    real x = REAL(at.x) + REAL(0.5) - REAL(0.5) * REAL(f->width);
-    real y = REAL(0.5) * REAL(f->height) - REAL(at.y) - REAL(0.5);
-    vec3 eye = make_vec3(f->eye[0], f->eye[1], f->eye[2]);
-    vec3 w = make_vec3(f->w[0], f->w[1], f->w[2]);
-    vec3 across = add_scaled(scale(make_vec3(f->u[0], f->u[1], f->u[2]), x), y, make_vec3(f->v[0], f->v[1], f->v[2]));
+FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) {
+    world_ray r;
+    wide x = (wide)at.x + (wide)0.5 - (wide)0.5 * (wide)f->width;
+    wide y = (wide)0.5 * (wide)f->height - (wide)at.y - (wide)0.5;
+    wide3 eye = make_wide3(f->eye[0], f->eye[1], f->eye[2]);
+    wide3 w = make_wide3(f->w[0], f->w[1], f->w[2]);
+    wide3 across =
+        wide_add_scaled(wide_scale(make_wide3(f->u[0], f->u[1], f->u[2]), x), y, make_wide3(f->v[0], f->v[1], f->v[2]));
     if (f->perspective) {
+        wide3 d = make_wide3(w.x + across.x, w.y + across.y, w.z + across.z);
         r.o = eye;
-        r.d = normalize3(add(w, across));
+        r.d = wide_scale(d, (wide)1 / wide_sqrt(wide_dot(d, d)));
     } else {
-        r.o = add(eye, across);
+        r.o = make_wide3(eye.x + across.x, eye.y + across.y, eye.z + across.z);
         r.d = w;
     }
     return r;
 }
 
+FN wide3 frame_center(GLOBAL const Frame* f) { return make_wide3(f->center[0], f->center[1], f->center[2]); }
+
+#ifdef CSGRT_EYE_RELATIVE
+// The direction becomes a unit vector; an origin outside the sphere around the scene is moved to its closest approach to
+// the center. So distances along the ray are small where there is anything.
+FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
+    ray3 r;
+    wide3 from = wide_subtract(w.o, frame_center(f));
+    if (f->listed) {
+        wide longest = wide_max(wide_abs(w.d.x), wide_max(wide_abs(w.d.y), wide_abs(w.d.z)));
+        w.d = wide_scale(w.d, (wide)1 / longest);
+        w.d = wide_scale(w.d, (wide)1 / wide_sqrt(wide_dot(w.d, w.d)));
+    }
+    r.start = f->radius > 0 && wide_dot(from, from) > f->radius * f->radius ? -wide_dot(from, w.d) : 0;
+    r.o = wide_add_scaled(w.o, r.start, w.d);
+    r.d = narrow(w.d);
+    r.center = make_wide3(0, 0, 0);
+    return r;
+}
+FN real t_min_along(GLOBAL const Frame* f, ray3 r) { return REAL(f->t_min - r.start); }
+FN wide distance_along(ray3 r, real t) { return r.start + (wide)t; }  // from where the ray begins
+#else
+FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
+    ray3 r;
+    (void)f;
+    r.o = w.o;
+    r.d = w.d;
+    return r;
+}
+FN real t_min_along(GLOBAL const Frame* f, ray3 r) {
+    (void)r;
+    return f->t_min;
+}
+FN real distance_along(ray3 r, real t) {
+    (void)r;
+    return t;
+}
+#endif
+
 // The ray of a number: from the list of rays if there is one, else through a pixel. Returns 0 if there is no such ray.
 FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r) {
     if (f->listed) {
         RayRecord record = rays[number];
-        r->o = make_vec3(record.ox, record.oy, record.oz);
-        r->d = make_vec3(record.dx, record.dy, record.dz);
+        world_ray w;
+        w.o = make_wide3(record.ox, record.oy, record.oz);
+        w.d = make_wide3(record.dx, record.dy, record.dz);
+        *r = geometry_ray(f, w);
         return 1;
     } else {
         pixel_position at = pixel_of(number, f->width, f->height);
-        *r = camera_ray(f, at);
+        *r = geometry_ray(f, camera_ray(f, at));
         return at.inside;
     }
 }
 
+// The same as t_min_along for a ray that is not at hand.
+FN real t_min_of(GLOBAL const Frame* f, u32 number) {
+#ifdef CSGRT_EYE_RELATIVE
+    ray3 r;
+    if (!f->listed && ray_of(f, 0, number, &r)) return t_min_along(f, r);
+#endif
+    (void)number;
+    return REAL(f->t_min);
+}
+
 // The frame's tolerance in units of the ray's own direction, which a listed ray brings in any length.
 FN real tolerance_along(GLOBAL const Frame* f, ray3 r) {
+#ifdef CSGRT_EYE_RELATIVE
+    (void)r;
+    return REAL(f->tolerance);
+#else
     vec3 d = r.d;
     real longest = real_max(real_abs(d.x), real_max(real_abs(d.y), real_abs(d.z)));
     if (!f->listed) return f->tolerance;
     d = scale(d, REAL(1) / longest);  // the squares of 1e-200 and of 1e200 are no numbers
     return f->tolerance / (longest * real_sqrt(dot3(d, d)));
+#endif
 }
 
 #endif

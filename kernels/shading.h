@@ -6,7 +6,7 @@
 #ifndef CSGRT_SHADING_H
 #define CSGRT_SHADING_H
 
-#include "shared/layout.h"
+#include "camera.h"
 
 typedef struct {
     real r, g, b;
@@ -23,10 +23,10 @@ FN real whole_power(real x, u32 n) {
 }
 
 // n: unit normal towards the viewer's side of the surface; d: direction of the ray, any length.
-FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, vec3 at, vec3 n, vec3 d) {
+FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, wide3 at, vec3 n, vec3 d) {
     vec3 view = scale(normalize3(d), REAL(-1));
     real facing = dot3(n, view);
-    real ambient = facing > 0 ? facing * f->ambient * REAL(m.ambient) : REAL(0);
+    real ambient = facing > 0 ? facing * REAL(f->ambient) * REAL(m.ambient) : REAL(0);
     rgb c;
     u32 i;
     c.r = ambient * REAL(m.r);
@@ -34,7 +34,7 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Material
     c.b = ambient * REAL(m.b);
     for (i = 0; i < f->light_count; ++i) {
         LightRecord light = lights[i];
-        vec3 to_light = normalize3(subtract(make_vec3(light.x, light.y, light.z), at));
+        vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), at)));
         real cosine = dot3(n, to_light);
         real diffuse, mirrored, specular;
         if (!(cosine > 0)) continue;
@@ -66,16 +66,16 @@ FN Pixel background_pixel(GLOBAL const Frame* f) {
 FN Pixel hit_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, ray3 r, real t, vec3 n) {
     Pixel p;
     rgb c;
-    if (t < f->t_min) {
-        t = f->t_min;
+    if (t < t_min_along(f, r)) {
+        t = t_min_along(f, r);
         n = scale(normalize3(r.d), REAL(-1));
     }
-    c = plastic(f, lights, m, add_scaled(r.o, t, r.d), n, r.d);
+    c = plastic(f, lights, m, wide_add_scaled(r.o, t, widen(r.d)), n, r.d);
     p.rgba[0] = (float)c.r;
     p.rgba[1] = (float)c.g;
     p.rgba[2] = (float)c.b;
     p.rgba[3] = 1;
-    p.z = (float)t;
+    p.z = (float)distance_along(r, t);
     p.normal[0] = (float)n.x;
     p.normal[1] = (float)n.y;
     p.normal[2] = (float)n.z;

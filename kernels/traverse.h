@@ -7,6 +7,7 @@
 #ifndef CSGRT_TRAVERSE_H
 #define CSGRT_TRAVERSE_H
 
+#include "camera.h"
 #include "geometry/collect.h"
 #include "shared/slab.h"
 
@@ -19,7 +20,7 @@ typedef struct {
 
 FN walk_state meet_solid(GLOBAL const Frame* f, Geometry g, u32 index, ray3 r, walk_state w) {
     SolidRecord solid = g.solids[index];
-    u32 wanted = collect(g, solid, index, r, f->t_min, w.ends);
+    u32 wanted = collect(g, solid, index, r, t_min_along(f, r), w.ends);
     if (wanted) {
         if (w.ends) w.ends += 2 * wanted;
         w.segments += wanted;
@@ -30,7 +31,7 @@ FN walk_state meet_solid(GLOBAL const Frame* f, Geometry g, u32 index, ray3 r, w
 
 FN walk_state walk(GLOBAL const Frame* f, Geometry g, GLOBAL const BvhNode* nodes, ray3 r, GLOBAL End* ends) {
     walk_state w;
-    slab_ray s = make_slab_ray(r, make_vec3(f->center[0], f->center[1], f->center[2]), f->radius, f->t_min);
+    slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
     u32 i;
     w.segments = 0;
     w.regions = 0;

@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <limits>
 
+#include "host_math.hpp"
+
 namespace csgrt::kernel {
 
 using real = double;
+using wide = double;
 using u32 = std::uint32_t;
 inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
 

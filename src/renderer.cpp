@@ -72,12 +72,12 @@ void describe_camera(const PreparedFrame& prepared, Image& image) {
 /// The tolerance that the settings ask for, in millimetres.
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     if (settings.tolerance_rule == Tolerance::none) return 0;
-    if (settings.tolerance_rule == Tolerance::relative) return relative_tolerance * 2 * scene.radius;
+    if (settings.tolerance_rule == Tolerance::relative) return relative_tolerance(settings.precision) * 2 * scene.radius;
     if (settings.tolerance_rule == Tolerance::length) {
         if (settings.tolerance >= 0) return settings.tolerance;
         if (scene.tolerance > 0) return scene.tolerance;
     }
-    return rounding_tolerance * 2 * scene.radius;
+    return rounding_tolerance(settings.precision) * 2 * scene.radius;
 }
 
 std::string hexadecimal(std::uint64_t value) {
@@ -92,6 +92,7 @@ struct Renderer::Impl {
     Settings settings;
     CompiledScene scene;
     std::string title;
+    std::unique_ptr<ReferenceKernels> kernels;
     std::unique_ptr<Device> device;
     std::unique_ptr<Pipeline> pipeline;
     std::optional<Reference> reference;
@@ -104,6 +105,7 @@ struct Renderer::Impl {
         fresh.method = statistics.method;
         fresh.quartic = statistics.quartic;
         fresh.tolerance = statistics.tolerance;
+        fresh.contraction = statistics.contraction;
         fresh.ms.compile = statistics.ms.compile;
         fresh.ms.build = statistics.ms.build;
         fresh.rays = rays;
@@ -139,24 +141,31 @@ struct Renderer::Impl {
 
 Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
     : impl_(std::make_unique<Impl>()) {
+    if (settings.precision == Precision::quad && !settings.reference)
+        throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
+    if (settings.contraction && settings.reference)
+        throw Error(Status::usage, "contraction is on a device only: the reference rounds every operation");
     Impl& impl = *impl_;
     impl.settings = settings;
     impl.title = scene.title;
     auto start = Clock::now();
     impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
     impl.statistics.ms.compile = milliseconds_since(start);
-    impl.statistics.precision = "double";
+    impl.kernels = make_kernels(impl.scene, settings.precision, settings.quartic);
+    impl.statistics.precision = name_of(precision_names, settings.precision);
+    if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
+    impl.statistics.contraction = settings.contraction;
     impl.statistics.quartic = name_of(quartic_names, settings.quartic);
     impl.statistics.tolerance = tolerance_of(impl.scene, settings);
     if (settings.reference) {
         impl.statistics.device = "reference";
         impl.statistics.method = "every solid, unique lists";
-        impl.reference.emplace(impl.scene, settings.threads, settings.quartic);
+        impl.reference.emplace(impl.scene, *impl.kernels, settings.threads);
         return;
     }
     start = Clock::now();
     impl.device = std::make_unique<Device>(settings.device, settings.max_memory);
-    impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene, settings);
+    impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene, *impl.kernels, settings);
     impl.statistics.ms.build = milliseconds_since(start);
     impl.statistics.device = impl.device->info().name;
     impl.statistics.method = "five kernels, exact counts";
@@ -193,7 +202,8 @@ Image Renderer::render(const View& view) {
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
     image.attributes["csgrt:precision"] = impl.statistics.precision;
-    image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " + impl.statistics.quartic;
+    image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " +
+                                        impl.statistics.quartic + (impl.settings.contraction ? ", contraction" : "");
     image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
     if (!impl.scene.skipped.empty()) {
         std::string& skipped = image.attributes["csgrt:skipped"];
@@ -218,6 +228,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     }
     const PreparedFrame prepared =
         prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.statistics.tolerance);
+    impl.kernels->check(rays);
     impl.start_call(rays.size(), 0, 0);
     std::vector<RayPartitions> answers;
     if (impl.reference) {

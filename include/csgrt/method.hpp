@@ -7,6 +7,14 @@
 
 namespace csgrt {
 
+/// In which numbers rays meet solids. The three of them on a device and on the reference.
+enum class Precision {
+    double_,
+    single,        ///< relative to the eye: rays and solids' places in double, their difference rounded to float once
+    single_world,  ///< float throughout, in the world's coordinates
+    quad,          ///< 113 bits, on the reference only: to see what rounding does to the others
+};
+
 /// How quartics (tor, eto, cones with two tapers) are solved.
 enum class Quartic {
     bracketed,            ///< origin at the closest approach, roots between those of the derivative
@@ -19,16 +27,25 @@ enum class Quartic {
 enum class Tolerance {
     length,    ///< those closer than Settings::tolerance; the scene's, by default
     surfaces,  ///< those on one surface, as found when the scene is compiled, and those that rounding alone sets apart
-    relative,  ///< those closer than relative_tolerance of the scene's size
+    relative,  ///< those closer than a share of the scene's size
     none,      ///< only those that are equal
 };
-/// Of the diameter of a sphere around the scene's bounded solids.
-inline constexpr double relative_tolerance = 1e-9;
+/// For Tolerance::relative: of the diameter of a sphere around the scene's bounded solids.
+constexpr double relative_tolerance(Precision precision) {
+    return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-9;
+}
 /// What rounding may set apart where one surface is computed in two ways (a ball and the end of a part), of the same
 /// diameter.
-inline constexpr double rounding_tolerance = 1e-12;
+constexpr double rounding_tolerance(Precision precision) {
+    return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-12;
+}
 
 /// What the command line and the figures call them.
+inline constexpr std::pair<std::string_view, Precision> precision_names[] = {
+    {"double", Precision::double_},
+    {"single", Precision::single},
+    {"single-world", Precision::single_world},
+};
 inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
     {"bracketed", Quartic::bracketed},
     {"bracketed-unshifted", Quartic::bracketed_unshifted},

@@ -27,7 +27,9 @@ struct Settings {
     bool reference = false;       ///< the CPU reference in place of a device
     std::string device;           ///< "", "cpu", "gpu", a number, or part of a name
     std::uint64_t max_memory = 0; ///< bytes of device memory; 0: what the device can give
+    Precision precision = Precision::double_;
     Quartic quartic = Quartic::bracketed;
+    bool contraction = false;     ///< on a device: it may make one operation of a product and a sum; results differ
     Tolerance tolerance_rule = Tolerance::length;
     double tolerance = -1;        ///< millimetres, for Tolerance::length; negative: the scene's
     bool air = false;             ///< keep air regions
@@ -82,6 +84,7 @@ struct Statistics {
     std::string device, precision, method;
     std::string quartic;   ///< as in quartic_names
     double tolerance = 0;  ///< millimetres
+    bool contraction = false;
     int width = 0, height = 0;
     std::uint64_t rays = 0, hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
     std::uint64_t device_bytes = 0, segment_bytes = 0, partition_bytes = 0;

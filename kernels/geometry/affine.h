@@ -3,7 +3,7 @@
 //
 // The ray's origin is first moved to its closest approach to the center (in the solid's own metric), because
 // coefficients formed from a far origin lose their digits. The moved origin w = (o - center) + shift * d is computed
-// with the rounding errors of its two large terms kept (two_sum, two_product), so it is good to a few ulps of |w|,
+// with the rounding errors of its two large terms kept, so it is good to a few ulps of |w|,
 // however far the ray starts.
 #ifndef CSGRT_AFFINE_H
 #define CSGRT_AFFINE_H
@@ -25,28 +25,32 @@ FN vec3 affine_normal(GLOBAL const real* p, vec3 n) {
                      dot3(make_vec3(p[5], p[8], p[11]), n));
 }
 
-FN real shifted(pair offset, real shift, real d) {
-    pair step = two_product(shift, d);
-    pair sum = two_sum(offset.hi, step.hi);
-    return sum.hi + (sum.lo + (step.lo + offset.lo));
+#ifdef CSGRT_EYE_RELATIVE
+FN wide3 affine_center(GLOBAL const real* p, ray3 r) {
+    (void)p;  // its own center is rounded
+    return r.center;
 }
+#else
+FN wide3 affine_center(GLOBAL const real* p, ray3 r) {
+    (void)r;
+    return make_vec3(p[0], p[1], p[2]);
+}
+#endif
 
 FN local_ray to_local(GLOBAL const real* p, ray3 r) {
     local_ray l;
-    pair x = two_sum(r.o.x, -p[0]);
-    pair y = two_sum(r.o.y, -p[1]);
-    pair z = two_sum(r.o.z, -p[2]);
-    vec3 o = affine_linear(p, make_vec3(x.hi, y.hi, z.hi));
+    offset3 from = offset_from(affine_center(p, r), r.o);
+    vec3 o = affine_linear(p, leading(from));
     l.d = affine_linear(p, r.d);
     l.shift = -dot3(o, l.d) / dot3(l.d, l.d);
-    l.o = affine_linear(p, make_vec3(shifted(x, l.shift, r.d.x), shifted(y, l.shift, r.d.y), shifted(z, l.shift, r.d.z)));
+    l.o = affine_linear(p, moved(from, l.shift, r.d));
     return l;
 }
 
 // The same with the origin where it is: what the shift is good for shows in the difference.
 FN local_ray to_local_unmoved(GLOBAL const real* p, ray3 r) {
     local_ray l;
-    l.o = affine_linear(p, make_vec3(r.o.x - p[0], r.o.y - p[1], r.o.z - p[2]));
+    l.o = affine_linear(p, leading(offset_from(affine_center(p, r), r.o)));
     l.d = affine_linear(p, r.d);
     l.shift = 0;
     return l;

@@ -18,7 +18,7 @@
 #include "../shared/base.h"
 
 #define BERNSTEIN_SIZE 25  // coefficients at most: degree 24
-#define SIGN_DEPTH 28
+#define SIGN_DEPTH (sizeof(real) == 4 ? 22u : 28u)
 
 // (1 - t) a + t b, exact at 0 and 1.
 FN real blend(real t, real a, real b) { return real_fma(t, b, (REAL(1) - t) * a); }
@@ -95,8 +95,8 @@ typedef struct {
     int done;
 } bracket;
 
-#define BRACKET_STEPS 120  // a bisection every other step halves [0, 1] to neighbours; Newton takes about 5
-#define PARAMETER_PRECISION REAL(0x1p-53)  // of a curve's parameter, which runs from 0 to 1
+#define BRACKET_STEPS (sizeof(real) == 16 ? 240 : 120)  // a bisection every other step halves [0, 1] to neighbours; Newton takes about 5
+#define PARAMETER_PRECISION BY_PRECISION(0x1p-24, 0x1p-53, 0x1p-113)  // of a curve's parameter, which runs from 0 to 1
 
 FN bracket start_bracket(real low, real high, int positive) {
     bracket b;

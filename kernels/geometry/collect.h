@@ -25,6 +25,7 @@ FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real o
 FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
     hits h;
     u32 count = 0;
+    r = ray_at(solid, r);
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, no_crossings(index, t_min, ends)));
 #endif

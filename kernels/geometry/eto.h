@@ -11,7 +11,7 @@
 #include "affine.h"
 #include "quartic.h"
 
-#define ETO_MARGIN REAL(1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
+#define ETO_MARGIN BY_PRECISION(1.0001, 1.000001, 1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
 
 // F at a point, and its rate of change along d.
 typedef struct {
@@ -30,15 +30,15 @@ FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u) {
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about 1e-7 (a grazed thin tube, a pinched one). A step is taken
-// if it is small and brings the point nearer to the surface.
+// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube, a pinched one). A step
+// is taken if it is small and brings the point nearer to the surface.
 FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
     eto_form f = eto_at(p, o, d, u);
     int step;
     for (step = 0; step < 2; ++step) {
         real next = u - f.value / f.slope;
         eto_form g;
-        if (!(real_abs(next - u) < REAL(1e-6))) return u;
+        if (!(real_abs(next - u) < POLISH_STEP)) return u;
         g = eto_at(p, o, d, next);
         if (!(real_abs(g.value) < real_abs(f.value))) return u;
         u = next;

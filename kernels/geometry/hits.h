@@ -48,6 +48,16 @@ typedef struct {
 #define QUARTIC_OF(g) (g).quartic
 #endif
 
+// What a ray knows of the solid that it is put to.
+FN ray3 ray_at(SolidRecord solid, ray3 r) {
+#ifdef CSGRT_EYE_RELATIVE
+    r.center = make_wide3(solid.center[0], solid.center[1], solid.center[2]);
+#else
+    (void)solid;
+#endif
+    return r;
+}
+
 FN Geometry make_geometry(GLOBAL const SolidRecord* solids, GLOBAL const real* reals, GLOBAL const PlaneRecord* planes,
                           GLOBAL const PlaneRef* plane_refs, GLOBAL const u32* words, GLOBAL const BvhNode* inner_nodes) {
     Geometry g;

@@ -17,10 +17,10 @@
 
 #define HRT_Y REAL(2.25)
 #define HRT_DIMPLE_Y REAL(0.1125)
-#define HRT_LEAST REAL(2.8421709430404007e-14)  // of a part; 2^-45
+#define HRT_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of a part
 #define HRT_STEPS 500
-#define HRT_NOISE REAL(1e-14)
-#define HRT_ROOT_STEPS 120
+#define HRT_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)
+#define HRT_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 
 typedef struct {
     real a_least, a_at, a_rate;  // A = a_least + a_rate (u - a_at)^2
@@ -92,7 +92,7 @@ FN real hrt_root(hrt_ray l, hrt_point a, hrt_point b) {
         if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
         if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
         if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < REAL(1e-17)) return next;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35)) return next;
         u = next;
     }
     return u;

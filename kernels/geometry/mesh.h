@@ -25,14 +25,12 @@ typedef struct {
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {
     mesh_walk w;
-    ray3 inner;
     w.vertices = g.reals + mesh[MESH_VERTICES];
     w.nodes = g.inner_nodes + mesh[MESH_NODES];
     w.triangles = mesh + MESH_TRIANGLES;
     w.ray = make_upright(to_local(place, r));
-    inner.o = w.ray.ray.o;
-    inner.d = w.ray.ray.d;
-    w.slab = make_slab_ray(inner, make_vec3(0, 0, 0), MESH_RADIUS, -REAL_INFINITY);
+    w.slab = make_slab_ray(offset_from(widen(make_vec3(0, 0, 0)), widen(w.ray.ray.o)), w.ray.ray.d, MESH_RADIUS,
+                           -REAL_INFINITY);
     w.node = 0;
     w.node_count = w.slab.hits_sphere ? mesh[MESH_NODE_COUNT] : 0;
     w.next = w.last = 0;

@@ -18,11 +18,11 @@
 #include "power.h"
 #include "range.h"
 
-#define METABALL_REACH2 REAL(1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
-#define METABALL_LEAST REAL(2.8421709430404007e-14)  // of the piece; 2^-45
+#define METABALL_REACH2 BY_PRECISION(1.0001, 1.000001, 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
+#define METABALL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of the piece
 #define METABALL_STEPS 2000
-#define METABALL_NOISE REAL(1e-14)  // in thresholds
-#define METABALL_ROOT_STEPS 120
+#define METABALL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // in thresholds
+#define METABALL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 #define METABALL_POINT 5  // reals
 
 typedef struct {
@@ -138,7 +138,7 @@ FN real metaball_root(metaball_ray l, metaball_point a, metaball_point b) {
         if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
         if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
         if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < REAL(1e-17)) return next;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35)) return next;
         u = next;
     }
     return u;

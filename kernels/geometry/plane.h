@@ -5,11 +5,13 @@
 
 #include "hits.h"
 
+FN wide3 plane_normal(PlaneRecord p) { return make_wide3(p.nx, p.ny, p.nz); }
+FN real plane_above(PlaneRecord p, ray3 r) { return REAL(wide_dot(plane_normal(p), r.o) - p.d); }  // the origin's distance
+
 // Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high.
 FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
-    vec3 n = make_vec3(plane.nx, plane.ny, plane.nz);
-    real above = dot3(n, r.o) - plane.d;  // signed distance of the origin
-    real rate = dot3(n, r.d);
+    real above = plane_above(plane, r);
+    real rate = dot3(narrow(plane_normal(plane)), r.d);
     real t = -above / rate;
     if (flipped) {
         above = -above;
@@ -40,14 +42,12 @@ FN span clip_to_face(span s, Geometry g, u32 index, ray3 r, u32 surface) {
 // Where the ray meets the plane: the same t, to the last bit, as clip's. Not finite if it runs along it.
 FN real face_distance(Geometry g, u32 index, ray3 r) {
     PlaneRecord plane = g.planes[g.plane_refs[index] >> 1];
-    vec3 n = make_vec3(plane.nx, plane.ny, plane.nz);
-    return -(dot3(n, r.o) - plane.d) / dot3(n, r.d);
+    return -plane_above(plane, r) / dot3(narrow(plane_normal(plane)), r.d);
 }
 
 FN vec3 face_normal(Geometry g, u32 index) {
     PlaneRef ref = g.plane_refs[index];
-    PlaneRecord plane = g.planes[ref >> 1];
-    vec3 n = make_vec3(plane.nx, plane.ny, plane.nz);
+    vec3 n = narrow(plane_normal(g.planes[ref >> 1]));
     return (ref & 1u) ? scale(n, REAL(-1)) : n;
 }
 

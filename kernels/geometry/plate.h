@@ -19,7 +19,7 @@
 #define PLATE_MESH 2
 
 // Nothing that is met at a smaller cosine has a thickness that makes sense.
-#define PLATE_FLATTEST REAL(1e-9)
+#define PLATE_FLATTEST BY_PRECISION(1e-5, 1e-9, 1e-9)
 
 // Where a plate begins and ends that is met at w.t; empty: nowhere. A ray that grazes a plate stays in it for long, and far
 // beyond the solid's box, as in BRL-CAD. Only the triangle itself is sure to lie in the box, so one before t_min is not

@@ -87,7 +87,7 @@ FN quartic derivative(quartic p) {
 
 // The one root of p between a and b, where p is monotone and of different signs: Newton, kept within the bracket by
 // bisection. `slope` is p's derivative. 100 steps halve any bracket of doubles to neighbours; Newton takes about 5.
-#define ROOT_STEPS 100
+#define ROOT_STEPS (sizeof(real) == 16 ? 240 : 100)
 FN real bracketed_root(quartic p, quartic slope, real a, real b, int negative_at_a) {
     real u = REAL(0.5) * (a + b);
     int step;

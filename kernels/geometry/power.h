@@ -1,5 +1,6 @@
 // Powers with real exponents, the same to the bit on every device: only + - * / fma floor and exact scaling by powers of 2.
-// log2 by atanh's series on sqrt(1/2) .. sqrt(2), exp2 by Taylor's on -1/2 .. 1/2; both within about 1 ulp of double.
+// log2 by atanh's series on sqrt(1/2) .. sqrt(2), exp2 by Taylor's on -1/2 .. 1/2; both within about 1 ulp of double. With
+// 113 bits the series are longer.
 #ifndef CSGRT_POWER_H
 #define CSGRT_POWER_H
 
@@ -16,6 +17,12 @@ FN real log_2(real x) {
     }
     f = (m - REAL(1)) / (m + REAL(1));  // log m = 2 (f + f^3 / 3 + f^5 / 5 + ...), f^2 < 0.0295
     g = f * f;
+    if (sizeof(real) == 16) {
+        int k;
+        for (sum = 0, k = 27; k > 0; --k) sum = sum * g + REAL(1) / REAL(2 * k + 1);
+        sum = f * g * sum + f;
+        return (real)exponent + (REAL(2.8853900817779268) + REAL(4.0710547481862066e-17) + REAL(-2.1229319912234516e-33)) * sum;
+    }
     sum = REAL(1) / REAL(23);
     sum = real_fma(sum, g, REAL(1) / REAL(21));
     sum = real_fma(sum, g, REAL(1) / REAL(19));
@@ -40,6 +47,12 @@ FN real exp_2(real y) {
     if (y > REAL(-LEAST_EXPONENT)) return REAL_INFINITY;
     whole = real_floor(y + REAL(0.5));
     x = REAL(0.6931471805599453) * (y - whole);  // |x| < 0.347
+    if (sizeof(real) == 16) {
+        int k;
+        x = (REAL(0.6931471805599453) + REAL(2.3190468138462996e-17) + REAL(5.707708438416212e-34)) * (y - whole);
+        for (sum = 1, k = 28; k > 0; --k) sum = REAL(1) + x / REAL(k) * sum;
+        return real_scaled(sum, (int)whole);
+    }
     sum = REAL(1) / REAL(6227020800);
     sum = real_fma(sum, x, REAL(1) / REAL(479001600));
     sum = real_fma(sum, x, REAL(1) / REAL(39916800));

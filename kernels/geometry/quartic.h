@@ -13,8 +13,11 @@
 #include "polynomial.h"
 
 // Where Yuksel's search ends, in units of the solid: half the digits, as in his own code; the solid polishes its roots.
-#define YUKSEL_ERROR (sizeof(real) == 4 ? REAL(6e-4) : REAL(6e-7))
+#define YUKSEL_ERROR BY_PRECISION(6e-4, 6e-7, 6e-7)
 #define YUKSEL_STEPS 100
+
+// A solid polishes a root on a form of its own by steps up to this, in its own units.
+#define POLISH_STEP BY_PRECISION(1e-3, 1e-6, 1e-6)
 
 FN local_ray quartic_ray(u32 method, GLOBAL const real* p, ray3 r) {
     return method == QUARTIC_UNSHIFTED ? to_local_unmoved(p, r) : to_local(p, r);

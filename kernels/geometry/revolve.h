@@ -14,7 +14,7 @@
 
 #define REVOLVE_CUT 12         // where that parameter is (shared/layout.h has its values)
 #define REVOLVE_FACES 2        // surfaces of the cut
-#define FLAT_SLACK REAL(1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
+#define FLAT_SLACK BY_PRECISION(1e-5, 1e-9, 1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
 
 FN cut meet_profile(cut k, GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, u32 surface) {
     profile_walk w;

@@ -61,6 +61,7 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
 FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 n = make_vec3(0, 0, 0);
     real length2;
+    r = ray_at(solid, r);
 #if HAS_SOLID(SOLID_ELL)
     if (solid.type == SOLID_ELL) n = ell_normal(g.reals + solid.first_real, r, t);
 #endif

@@ -16,11 +16,11 @@
 #include "power.h"
 #include "range.h"
 
-#define SUPERELL_MARGIN REAL(1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
-#define SUPERELL_LEAST REAL(2.8421709430404007e-14)  // 2^-45
+#define SUPERELL_MARGIN BY_PRECISION(1.0001, 1.000001, 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
+#define SUPERELL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)
 #define SUPERELL_STEPS 500
-#define SUPERELL_NOISE REAL(1e-14)  // |G| beyond this is no rounding
-#define SUPERELL_ROOT_STEPS 120
+#define SUPERELL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // |G| beyond this is no rounding
+#define SUPERELL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 
 // One local coordinate along the ray, as |rate| |u - zero| where it is 0 in the searched piece.
 typedef struct {
@@ -153,7 +153,7 @@ FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_poin
         if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
         if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
         if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < REAL(1e-17)) return next;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35)) return next;
         u = next;
     }
     return u;

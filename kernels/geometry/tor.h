@@ -13,7 +13,7 @@
 #include "plane.h"
 #include "quartic.h"
 
-#define TOR_MARGIN REAL(1.000001)  // the piece is a little larger than the torus, so that its ends are outside
+#define TOR_MARGIN BY_PRECISION(1.0001, 1.000001, 1.000001)  // the piece is a little larger than the torus, so that its ends are outside
 
 // (rho - 1)^2 + z^2 - ratio^2 at a point, and its rate of change along d.
 typedef struct {
@@ -30,15 +30,15 @@ FN tor_form tor_at(vec3 o, vec3 d, real u, real ratio) {
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about 1e-7 (a grazed thin tube, a pinched one). A step is taken
-// if it is small and brings the point nearer to the surface.
+// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube, a pinched one). A step
+// is taken if it is small and brings the point nearer to the surface.
 FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
     tor_form f = tor_at(o, d, u, ratio);
     int step;
     for (step = 0; step < 2; ++step) {
         real next = u - f.value / f.slope;
         tor_form g;
-        if (!(real_abs(next - u) < REAL(1e-6))) return u;
+        if (!(real_abs(next - u) < POLISH_STEP)) return u;
         g = tor_at(o, d, next, ratio);
         if (!(real_abs(g.value) < real_abs(f.value))) return u;
         u = next;

@@ -34,17 +34,25 @@
 #define REVOLVE_LESS 1   // at most half a turn: what lies between its two planes stays
 #define REVOLVE_MORE 2   // more: what lies between them is cut off
 
+// In eye-relative single precision a solid's center is known better than its parameters.
+#ifdef CSGRT_EYE_RELATIVE
+#define SOLID_CENTER wide center[3];
+#else
+#define SOLID_CENTER
+#endif
+
 typedef struct {
     u32 type;
     u32 first_real;
     u32 first_word;                  // into words, for solids of any size: counts, indices
     u32 first_plane, plane_count;    // into plane_refs
     u32 first_region, region_count;  // into region_lists: the regions whose trees contain this solid, ascending
+    SOLID_CENTER
 } SolidRecord;
 
 // A plane of the world: inside is n . p <= d. Shared by all faces that lie in it, so that they are hit at the very same t.
 typedef struct {
-    real nx, ny, nz, d;
+    wide nx, ny, nz, d;
 } PlaneRecord;
 
 // A reference to a plane: index << 1 | flip. Flipped, inside is n . p >= d and the outward normal -n.
@@ -83,7 +91,7 @@ typedef struct {
 } MaterialRecord;
 
 typedef struct {
-    real x, y, z;       // position
+    wide x, y, z;       // position
     float r, g, b;      // colour x intensity
 } LightRecord;
 
@@ -105,14 +113,14 @@ typedef struct {
 
 typedef struct {
     // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
-    real eye[3];   // perspective: the eye. Orthographic: the centre of the picture plane
-    real u[3], v[3];  // one pixel to the right, one pixel up, millimetres on the picture plane
-    real w[3];     // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
-    real center[3];  // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
-    real radius;
-    real t_min;    // segments that end before this distance are not wanted
-    real tolerance;  // ends closer than this along the ray are one
-    real ambient;
+    wide eye[3];   // perspective: the eye. Orthographic: the centre of the picture plane
+    wide u[3], v[3];  // one pixel to the right, one pixel up, millimetres on the picture plane
+    wide w[3];     // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
+    wide center[3];  // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
+    wide radius;
+    wide t_min;    // segments that end before this distance are not wanted
+    wide tolerance;  // ends closer than this along the ray are one
+    wide ambient;
     float background[3];
     u32 width, height;
     u32 perspective;       // 0 or 1
@@ -126,7 +134,7 @@ typedef struct {
 #define BLOCK 8u
 
 typedef struct {
-    real ox, oy, oz, dx, dy, dz;
+    wide ox, oy, oz, dx, dy, dz;
 } RayRecord;
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----

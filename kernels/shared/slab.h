@@ -2,7 +2,8 @@
 //
 // The slab test may enter a box that the ray misses, never the reverse: the origin is moved to the ray's closest approach
 // to the hierarchy's center, so |p| <= radius; then the errors of p, 1/d and the products amount to less than
-// radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built.
+// radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single precision
+// boxes grow with the distance of the ray's origin: there a solid may be met where it is not.
 #ifndef CSGRT_SLAB_H
 #define CSGRT_SLAB_H
 
@@ -12,18 +13,25 @@ typedef struct {
     float px, py, pz;  // a point of the ray, relative to the center
     float ix, iy, iz;  // 1 / direction
     float t_min;       // in the hierarchy's own parameter
+    float pad;         // single precision: by which boxes grow
     int hits_sphere;   // 0: nothing can be hit
 } slab_ray;
 
-// All boxes lie within `radius` of `center`. What ends before t_min is not wanted.
-FN slab_ray make_slab_ray(ray3 r, vec3 center, real radius, real t_min) {
+#define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)
+#define SLAB_SLACK BY_PRECISION(0x1p-10, 0x1p-20, 0x1p-20)  // covers the rounding of t_min to float
+
+// `o`: the ray's origin relative to the center, around which all boxes lie within `radius`. What ends before t_min is not
+// wanted.
+FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
     slab_ray s;
-    vec3 o = subtract(r.o, center);
-    real length = real_sqrt(dot3(r.d, r.d));
-    vec3 d = scale(r.d, REAL(1) / length);
-    real shift = -dot3(o, d);
-    vec3 p = add_scaled(o, shift, d);
-    real reach = radius * REAL(1.0000001);
+    real length = real_sqrt(dot3(direction, direction));
+    vec3 d = scale(direction, REAL(1) / length);
+    real shift = -dot3(leading(o), d);
+    vec3 p = moved(o, shift, d);
+    real pad = (radius + real_max(real_abs(o.x.hi), real_max(real_abs(o.y.hi), real_abs(o.z.hi)))) * REAL(0x1p-16);
+    real reach = radius * SLAB_REACH;
+    s.pad = (float)pad;
+    if (sizeof(real) == 4) reach = reach + REAL(2) * pad;
     s.hits_sphere = dot3(p, p) <= reach * reach;
     s.px = (float)p.x;
     s.py = (float)p.y;
@@ -31,16 +39,17 @@ FN slab_ray make_slab_ray(ray3 r, vec3 center, real radius, real t_min) {
     s.ix = 1.0f / (float)d.x;
     s.iy = 1.0f / (float)d.y;
     s.iz = 1.0f / (float)d.z;
-    // Segments that end before t_min are not wanted; radius * 2^-20 covers the rounding to float.
-    s.t_min = (float)(real_max(t_min * length - shift, REAL(-4) * radius) - radius * REAL(0x1p-20));
+    s.t_min = (float)(real_max(t_min * length - shift, REAL(-4) * radius) - radius * SLAB_SLACK);
     return s;
 }
 
+FN float grown(float x, float pad) { return sizeof(real) == 4 ? x + pad : x; }
+
 // fmin and fmax pass a NaN by: 0 * infinity arises only for a ray within a padded face's plane, outside the true box.
 FN int box_is_hit(slab_ray s, BvhNode node) {
-    float x0 = (node.low[0] - s.px) * s.ix, x1 = (node.high[0] - s.px) * s.ix;
-    float y0 = (node.low[1] - s.py) * s.iy, y1 = (node.high[1] - s.py) * s.iy;
-    float z0 = (node.low[2] - s.pz) * s.iz, z1 = (node.high[2] - s.pz) * s.iz;
+    float x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
+    float y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
+    float z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
     float in = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), s.t_min));
     float out = fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmax(z0, z1));
     return in <= out;

@@ -12,6 +12,7 @@ namespace csgrt::cli {
 
 namespace {
 
+constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", false}};
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail(std::string message, std::string suggestion) {
@@ -49,11 +50,19 @@ void define_settings(Options& options, Settings& settings) {
     };
     options.value("--tolerance", "MM|surfaces|relative|none",
                   "ends of segments closer than this are one; surfaces: those on one surface; relative: closer than 1e-9 of the "
-                  "scene's size; none: only equal ones; not given: the scene's, or surfaces",
+                  "scene's size (1e-6 in single precision); none: only equal ones; not given: the scene's, or surfaces",
                   settings.tolerance_rule, parse_tolerance,
                   "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
+    options.choice("--precision",
+                   "of the geometry; single: relative to the eye; single-world: in the world's coordinates; double if "
+                   "not given",
+                   settings.precision, precision_names);
     options.choice("--quartic", "how quartics (tori, ...) are solved; bracketed if not given", settings.quartic,
                    quartic_names);
+    auto& contraction = options.choice(
+        "--contraction", "whether the device may round a product and a sum as one; results then differ; off if not given",
+        settings.contraction, on_off);
+    contraction.excludes = "--reference";
 }
 
 void define(Options& options, RenderArguments& arguments) {

@@ -84,8 +84,11 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
     option("--elevation", camera.elevation);
     option("--perspective", camera.perspective);
     option("--tolerance", tolerance);
+    if (arguments.settings.precision != Precision::double_)
+        text.append(" --precision ").append(name_of(precision_names, arguments.settings.precision));
     if (arguments.settings.quartic != Quartic::bracketed)
         text.append(" --quartic ").append(name_of(quartic_names, arguments.settings.quartic));
+    if (arguments.settings.contraction) text += " --contraction on";
     if (arguments.settings.air) text += " --air";
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
     if (arguments.first_hit) text += " --first-hit";

@@ -62,7 +62,8 @@ std::string to_json(const Statistics& s) {
         return std::string("  \"") + name + "\": " + quoted(value) + ",\n";
     };
     std::string out = "{\n" + text("device", s.device) + text("precision", s.precision) + text("method", s.method) +
-                      text("quartic", s.quartic) + "  \"tolerance\": " + shortest(s.tolerance) + ",\n";
+                      text("quartic", s.quartic) + "  \"tolerance\": " + shortest(s.tolerance) +
+                      ",\n  \"contraction\": " + (s.contraction ? "true" : "false") + ",\n";
     out += "  \"size\": [" + std::to_string(s.width) + ", " + std::to_string(s.height) + "],\n";
     out += count("rays", s.rays) + count("hits", s.hits) + count("segments", s.segments);
     out += "  \"partitions\": {\"used\": " + std::to_string(s.partitions_used) +

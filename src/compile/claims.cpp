@@ -1,25 +1,16 @@
 #include "compile/claims.hpp"
 
-#include "compile/tables.hpp"
-
 namespace csgrt {
 namespace {
 
-kernel::ray3 to_kernel(const Ray& r) {
-    return {{r.origin.x, r.origin.y, r.origin.z}, {r.direction.x, r.direction.y, r.direction.z}};
-}
-
-Vec3 normal(const CompiledScene& scene, const kernel::ray3& ray, const kernel::End& end, bool flip) {
-    kernel::vec3 n = kernel::normal_at(tables(scene), scene.solids[end.solid], ray, end.t, end.surface);
-    if (flip) n = kernel::scale(n, -1);
-    return {n.x, n.y, n.z};
-}
+Vec3 flipped(Vec3 n, bool flip) { return flip ? Vec3{-n.x, -n.y, -n.z} : n; }
 
 }  // namespace
 
-RayPartitions to_partitions(const CompiledScene& scene, const Ray& ray, const std::vector<ClaimedPartition>& claims) {
+RayPartitions to_partitions(const HostKernels& kernels, const kernel::Frame& frame, const Ray& ray,
+                            const std::vector<ClaimedPartition>& claims) {
     RayPartitions result;
-    const kernel::ray3 r = to_kernel(ray);
+    const auto distance = [&](const kernel::End& end) { return kernels.distance(frame, ray, end.t); };
     std::size_t i = 0;
     while (i < claims.size()) {
         const ClaimedPartition& first = claims[i];
@@ -29,27 +20,29 @@ RayPartitions to_partitions(const CompiledScene& scene, const Ray& ray, const st
             ++last;
         const ClaimedPartition& end = claims[last];
         Partition p;
-        p.in = first.in.t;
-        p.out = end.out.t;
+        p.in = distance(first.in);
+        p.out = distance(end.out);
         p.region = first.region;
         p.in_solid = first.in.solid;
         p.out_solid = end.out.solid;
         i = last + 1;
         if (p.out < 0) continue;
-        p.in_normal = normal(scene, r, first.in, first.in_leaves);
-        p.out_normal = normal(scene, r, end.out, end.out_enters);
+        p.in_normal = flipped(kernels.normal(frame, ray, first.in), first.in_leaves);
+        p.out_normal = flipped(kernels.normal(frame, ray, end.out), end.out_enters);
         result.partitions.push_back(p);
     }
     for (const ClaimedPartition& claim : claims) {
-        if (claim.claimants.size() < 2 || claim.out.t < 0) continue;
+        if (claim.claimants.size() < 2) continue;
+        const double in = distance(claim.in), out = distance(claim.out);
+        if (out < 0) continue;
         if (!result.overlaps.empty()) {
             Overlap& before = result.overlaps.back();
-            if (before.out == claim.in.t && before.regions == claim.claimants) {
-                before.out = claim.out.t;
+            if (before.out == in && before.regions == claim.claimants) {
+                before.out = out;
                 continue;
             }
         }
-        result.overlaps.push_back({claim.in.t, claim.out.t, claim.claimants});
+        result.overlaps.push_back({in, out, claim.claimants});
     }
     return result;
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compiled_scene.hpp"
+#include "host_kernels.hpp"
 
 namespace csgrt {
 
@@ -18,6 +18,7 @@ struct ClaimedPartition {
 
 /// Joins neighbours of one region, leaves out what ends behind the ray's start, computes the normals, lists the
 /// overlaps. `claims` in order of distance.
-RayPartitions to_partitions(const CompiledScene& scene, const Ray& ray, const std::vector<ClaimedPartition>& claims);
+RayPartitions to_partitions(const HostKernels& kernels, const kernel::Frame& frame, const Ray& ray,
+                            const std::vector<ClaimedPartition>& claims);
 
 }  // namespace csgrt

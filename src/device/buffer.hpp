@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,10 @@ public:
     Buffer(Device& device, std::string name, const std::vector<T>& values)
         : Buffer(device, std::move(name), values.size() * sizeof(T)) {
         upload(values);
+    }
+    Buffer(Device& device, std::string name, std::span<const std::byte> bytes)
+        : Buffer(device, std::move(name), bytes.size()) {
+        upload(bytes.data(), bytes.size());
     }
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;

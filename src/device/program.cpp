@@ -19,6 +19,12 @@ std::string log_of(cl_program program, cl_device_id device) {
     return log;
 }
 
+bool rounds_single_correctly(const Device& device) {
+    cl_device_fp_config config = 0;
+    check(clGetDeviceInfo(device.id(), CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, nullptr), "clGetDeviceInfo");
+    return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+}
+
 template <class T>
 T group_info(const Handle<cl_kernel, clReleaseKernel>& kernel, const Device& device, cl_kernel_work_group_info what) {
     T value{};
@@ -29,9 +35,10 @@ T group_info(const Handle<cl_kernel, clReleaseKernel>& kernel, const Device& dev
 
 }  // namespace
 
-Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines)
+Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines, bool single)
     : device_(&device) {
-    std::string options = "-cl-std=CL1.2 -DCSGRT_REAL=double";
+    std::string options = std::string("-cl-std=CL1.2 -DCSGRT_REAL=") + (single ? "float" : "double");
+    if (single && rounds_single_correctly(device)) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const std::string& define : defines) options += " -D" + define;
 
     const char* text = source.data();

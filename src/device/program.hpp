@@ -58,12 +58,14 @@ private:
     Handle<cl_kernel, clReleaseKernel> kernel_;
 };
 
-/// OpenCL C source, compiled for one device in double precision. `source` is what assemble_program gives; each of
-/// `defines` becomes a -D ("COUNT=3", "HAS_TORUS").
+/// OpenCL C source, compiled for one device. `source` is what assemble_program gives; each of `defines` becomes a -D
+/// ("COUNT=3", "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly where
+/// the device can do it, as every result in double is.
 class Program {
 public:
     /// Throws Error (device_fault) with the compiler's words if the source does not compile.
-    Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {});
+    Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {},
+            bool single = false);
 
     /// Throws Error (device_fault) if the program has no kernel of that name.
     Kernel kernel(const std::string& name) const;

@@ -21,38 +21,43 @@ constexpr std::uint64_t ray_bytes =
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
 
 std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
-    return {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
+    std::vector<std::string> defines = {
+            "CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
             "CSGRT_TREE_STACK=" + std::to_string(std::max(1u, scene.tree_stack)),
             "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
+    if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
+    if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
+    return defines;
 }
 
 }  // namespace
 
-SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene)
-    : solids(device, "solids", scene.solids),
-      reals(device, "solids' parameters", scene.reals),
-      planes(device, "planes", scene.planes),
+SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables)
+    : solids(device, "solids", tables.solids),
+      reals(device, "solids' parameters", tables.reals),
+      planes(device, "planes", tables.planes),
       plane_refs(device, "references to planes", scene.plane_refs),
       words(device, "solids' parts", scene.words),
-      inner_nodes(device, "bounding volumes of solids' parts", scene.inner_nodes),
+      inner_nodes(device, "bounding volumes of solids' parts", tables.inner_nodes),
       region_lists(device, "solids' regions", scene.region_lists),
       regions(device, "regions", scene.regions),
       trees(device, "trees", scene.trees),
       materials(device, "materials", scene.materials),
-      nodes(device, "bounding volumes", scene.nodes) {}
+      nodes(device, "bounding volumes", tables.nodes) {}
 
 struct Pipeline::Tile {
     std::uint32_t first_ray = 0, rays = 0;
     kernel::RayCount total{};
 };
 
-Pipeline::Pipeline(Device& device, const CompiledScene& scene, const Settings& settings)
+Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
     : device_(device),
       scene_(scene),
-      buffers_(device, scene),
+      kernels_(kernels),
+      buffers_(device, scene, kernels.tables()),
       program_(device,
                assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
-               defines_of(scene, settings)),
+               defines_of(scene, settings), settings.precision != Precision::double_),
       count_hits_(program_.kernel("count_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
       scan_add_(program_.kernel("scan_add")),
@@ -60,7 +65,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const Settings& s
       weave_(program_.kernel("weave")),
       evaluate_(program_.kernel("evaluate")),
       shade_(program_.kernel("shade")),
-      frame_(device, "frame", sizeof(kernel::Frame)),
+      frame_(device, "frame"),
       lights_(device, "lights"),
       rays_(device, "rays"),
       counts_(device, "counts"),
@@ -106,10 +111,13 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
     if (pictured) pixels_.reserve(tile.rays * sizeof(kernel::Pixel));
     if (frame.listed) {  // the device holds this tile's part of the list only
         frame.first_ray = 0;
-        rays_.reserve(tile.rays * sizeof(kernel::RayRecord));
-        rays_.upload(list_.data() + tile.first_ray, tile.rays * sizeof(kernel::RayRecord));
+        const std::size_t bytes = kernels_.ray_bytes();
+        rays_.reserve(tile.rays * bytes);
+        rays_.upload(list_.data() + tile.first_ray * bytes, tile.rays * bytes);
     }
-    frame_.upload(&frame, sizeof frame);
+    const std::vector<std::byte> frame_bytes = kernels_.frame(frame);
+    frame_.reserve(frame_bytes.size());
+    frame_.upload(frame_bytes);
 
     const SceneBuffers& s = buffers_;
     const kernel::RayCount zero{};
@@ -123,7 +131,7 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
 
     const kernel::RayCount total = tile.total;
     const std::uint64_t node_count = 2 * std::uint64_t{total.segments};
-    const std::uint64_t end_bytes = node_count * sizeof(kernel::End);
+    const std::uint64_t end_bytes = node_count * kernels_.end_bytes();
     const std::uint64_t node_bytes = node_count * sizeof(kernel::PartitionNode);
     const std::uint64_t bit_bytes = std::uint64_t{total.words} * sizeof(std::uint32_t);
     const std::uint64_t candidate_bytes = std::uint64_t{total.regions} * sizeof(std::uint32_t);
@@ -169,8 +177,9 @@ bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured
 
 void Pipeline::for_each_tile(const PreparedFrame& prepared, bool pictured, const Progress& progress, PipelineCounts& counts,
                              const std::function<void(const Tile&)>& finish) {
-    lights_.reserve(prepared.lights.size() * sizeof(kernel::LightRecord));
-    if (!prepared.lights.empty()) lights_.upload(prepared.lights);
+    const std::vector<std::byte> lights = kernels_.lights(prepared.lights);
+    lights_.reserve(lights.size());
+    if (!lights.empty()) lights_.upload(lights);
 
     // A quarter of the budget goes to what every ray needs, the rest to segments and partitions.
     if (pictured) rays_ = Buffer(device_, rays_.name());
@@ -262,16 +271,13 @@ std::vector<ClaimedPartition> Pipeline::claims_of(const std::vector<kernel::End>
 
 std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
                                            const Progress& progress, PipelineCounts& counts) {
-    list_.clear();
-    list_.reserve(rays.size());
-    for (const Ray& r : rays)
-        list_.push_back({r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z});
-
+    list_ = kernels_.rays(rays);
     std::vector<RayPartitions> answers(rays.size());
     for_each_tile(prepared, false, progress, counts, [&](const Tile& tile) {
         const auto offsets = counts_.read<kernel::RayCount>(std::size_t{tile.rays} + 1);
         const auto results = results_.read<kernel::RayResult>(tile.rays);
-        const auto ends = ends_.read<kernel::End>(2 * std::size_t{tile.total.segments});
+        const auto ends =
+            kernels_.ends(ends_.read<std::byte>(2 * std::size_t{tile.total.segments} * kernels_.end_bytes()));
         const auto nodes = partitions_.read<kernel::PartitionNode>(2 * std::size_t{tile.total.segments});
         const auto bits = bits_.read<std::uint32_t>(tile.total.words);
         for (std::uint32_t i = 0; i < tile.rays; ++i) {
@@ -279,7 +285,7 @@ std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const 
             counts.overlaps += results[i].overlaps;
             // The first claimed partition is where the list is worth reading from.
             const auto claims = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], results[i].first);
-            answers[tile.first_ray + i] = to_partitions(scene_, rays[tile.first_ray + i], claims);
+            answers[tile.first_ray + i] = to_partitions(kernels_, prepared.frame, rays[tile.first_ray + i], claims);
         }
     });
     return answers;

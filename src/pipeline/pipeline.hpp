@@ -18,7 +18,7 @@ namespace csgrt {
 
 /// The compiled scene on the device.
 struct SceneBuffers {
-    SceneBuffers(Device& device, const CompiledScene& scene);
+    SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
     Buffer solids, reals, planes, plane_refs, words, inner_nodes, region_lists, regions, trees, materials, nodes;
 };
 
@@ -32,8 +32,9 @@ struct PipelineCounts {
 
 class Pipeline {
 public:
-    /// Compiles the kernels for what the scene holds, and uploads it. Both must outlive the pipeline.
-    Pipeline(Device& device, const CompiledScene& scene, const Settings& settings = {});
+    /// Compiles the kernels for what the scene holds, and uploads it. `kernels` are the host's in the same precision. All
+    /// three must outlive the pipeline.
+    Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     using Progress = std::function<bool(double)>;
     /// Pixels by row from the top left. Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
@@ -55,6 +56,7 @@ private:
 
     Device& device_;
     const CompiledScene& scene_;
+    const HostKernels& kernels_;
     SceneBuffers buffers_;
     Program program_;
     Kernel count_hits_, scan_blocks_, scan_add_, store_segments_, weave_, evaluate_, shade_;
@@ -62,7 +64,7 @@ private:
     Buffer counts_, results_, pixels_;             // one entry a ray
     Buffer ends_, partitions_, bits_, candidates_;  // by what was counted
     std::vector<std::unique_ptr<Buffer>> sums_;    // of the scan, a level each
-    std::vector<kernel::RayRecord> list_;          // the rays that are being shot, on the host
+    std::vector<std::byte> list_;                  // the rays that are being shot, as the kernels read them
 };
 
 }  // namespace csgrt

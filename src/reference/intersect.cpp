@@ -39,12 +39,4 @@ std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint3
     return segments;
 }
 
-void collect_ends(const CompiledScene& scene, Quartic quartic, const Ray& ray, double t_min,
-                  std::vector<kernel::End>& ends) {
-    const kernel::Geometry g = tables(scene, quartic);
-    const kernel::ray3 r = to_kernel(ray);
-    ends.clear();
-    for (std::uint32_t solid = 0; solid < scene.solids.size(); ++solid) append_ends(g, solid, r, t_min, ends);
-}
-
 }  // namespace csgrt

@@ -5,9 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "compile/tables.hpp"
-#include "reference/intersect.hpp"
-#include "reference/weave.hpp"
+#include "kernel_geometry.hpp"
 
 namespace csgrt {
 
@@ -19,8 +17,22 @@ struct Reference::Claims {
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };
 
-Reference::Reference(const CompiledScene& scene, unsigned threads, Quartic quartic)
-    : scene_(scene), threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())), quartic_(quartic) {
+std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Precision precision, Quartic quartic) {
+    if (precision == Precision::single) return make_single_kernels(scene, quartic);
+    if (precision == Precision::single_world) return make_single_world_kernels(scene, quartic);
+    if (precision == Precision::quad) return make_quad_kernels(scene, quartic);
+    return make_double_kernels(scene, quartic);
+}
+
+Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const {
+    const kernel::world_ray r = kernel::camera_ray(&frame, {x, y, 1});
+    return {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
+}
+
+Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads)
+    : scene_(scene),
+      kernels_(kernels),
+      threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())) {
     regions_of_.resize(scene.solids.size());
     for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
         for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
@@ -58,12 +70,10 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
     claims.first_seen = SIZE_MAX;
-    collect_ends(scene_, quartic_, ray, frame.t_min, claims.ends);
+    const std::vector<WovenPartition> woven = kernels_.trace(frame, ray, claims.ends);
     if (claims.ends.empty()) return;
-    const kernel::ray3 r{{ray.origin.x, ray.origin.y, ray.origin.z},
-                         {ray.direction.x, ray.direction.y, ray.direction.z}};
-    const std::vector<WovenPartition> woven = weave(claims.ends, kernel::tolerance_along(&frame, r));
     claims.woven = woven.size();
+    const double t_min = kernels_.t_min(frame, ray);
 
     std::vector<std::uint32_t> solids, table, claimants;
     for (const WovenPartition& partition : woven) {
@@ -92,7 +102,7 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
         claim.region = claimants.front();
         if (claimants.size() > 1) claim.claimants = claimants;
         claims.partitions.push_back(std::move(claim));
-        if (claims.first_seen == SIZE_MAX && partition.out > frame.t_min) {
+        if (claims.first_seen == SIZE_MAX && partition.out > t_min) {
             claims.first_seen = claims.partitions.size() - 1;
             if (!frame.every_partition) return;
         }
@@ -133,24 +143,20 @@ void Reference::parallel(std::size_t count, const std::function<bool(double)>& p
 std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
                                              ReferenceCounts& counts) const {
     const kernel::Frame& frame = prepared.frame;
-    const kernel::Geometry g = tables(scene_);
     std::vector<kernel::Pixel> pixels(std::size_t{frame.width} * frame.height);
     parallel(pixels.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;
         for (std::size_t i = begin; i < end; ++i) {
-            const kernel::pixel_position at{static_cast<std::uint32_t>(i % frame.width),
-                                            static_cast<std::uint32_t>(i / frame.width), 1};
-            const kernel::ray3 r = kernel::camera_ray(&frame, at);
-            evaluate(frame, {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}}, claims);
+            const Ray ray = kernels_.camera_ray(frame, static_cast<std::uint32_t>(i % frame.width),
+                                                static_cast<std::uint32_t>(i / frame.width));
+            evaluate(frame, ray, claims);
             kernel::Pixel pixel;
             if (claims.first_seen == SIZE_MAX) {
                 pixel = kernel::background_pixel(&frame);
             } else {
                 const ClaimedPartition& hit = claims.partitions[claims.first_seen];
-                kernel::vec3 n = kernel::normal_at(g, scene_.solids[hit.in.solid], r, hit.in.t, hit.in.surface);
-                if (hit.in_leaves) n = kernel::scale(n, -1);
                 const kernel::MaterialRecord& material = scene_.materials[scene_.regions[hit.region].material];
-                pixel = kernel::hit_pixel(&frame, prepared.lights.data(), material, r, hit.in.t, n);
+                pixel = kernels_.hit_pixel(frame, prepared.lights, material, ray, hit.in, hit.in_leaves);
                 pixel.region = hit.region + 1;
                 pixel.solid = hit.in.solid + 1;
             }
@@ -180,7 +186,7 @@ std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const
         ReferenceCounts sum;
         for (std::size_t i = begin; i < end; ++i) {
             evaluate(prepared.frame, rays[i], claims);
-            results[i] = to_partitions(scene_, rays[i], claims.partitions);
+            results[i] = to_partitions(kernels_, prepared.frame, rays[i], claims.partitions);
             sum.hits += claims.ends.size();
             sum.segments += claims.ends.size() / 2;
             sum.partitions += claims.woven;

@@ -7,6 +7,7 @@
 
 #include "compile/claims.hpp"
 #include "compile/frame.hpp"
+#include "reference/reference_kernels.hpp"
 
 namespace csgrt {
 
@@ -16,7 +17,8 @@ struct ReferenceCounts {
 
 class Reference {
 public:
-    Reference(const CompiledScene& scene, unsigned threads, Quartic quartic = Quartic::bracketed);
+    /// Both must outlive it.
+    Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads);
 
     /// Pixels by row from the top left. Throws Error (interrupted) if `progress` returns false.
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
@@ -32,8 +34,8 @@ private:
     void parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const;
 
     const CompiledScene& scene_;
+    const ReferenceKernels& kernels_;
     unsigned threads_;
-    Quartic quartic_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees here
 };
 

@@ -2,7 +2,11 @@
 // event, keep the covering segments in a unique list.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <numeric>
 #include <vector>
 
 #include "kernel_host.hpp"
@@ -15,7 +19,51 @@ struct WovenPartition {
     std::vector<std::uint32_t> segments;    ///< that cover it, ascending, each once
 };
 
-/// `ends`: two a segment, in then out.
-std::vector<WovenPartition> weave(const std::vector<kernel::End>& ends, double tolerance);
+/// `ends`: two a segment, in then out; their t and the tolerance in the precision of the geometry that found them.
+template <class End>
+std::vector<WovenPartition> weave(const std::vector<End>& ends, decltype(End::t) tolerance) {
+    std::vector<std::uint32_t> order(ends.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return ends[a].t < ends[b].t; });
+
+    std::vector<WovenPartition> partitions;
+    std::vector<std::uint32_t> covering;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        const auto t = ends[order[begin]].t;
+        const auto at = static_cast<double>(t);
+        while (end < order.size() && (ends[order[end]].t == t || ends[order[end]].t - t <= tolerance)) ++end;
+
+        // The segments that cover what follows: those before, less those that end here, and those that begin here,
+        // unless they end here too.
+        std::vector<std::uint32_t> begun, ended;
+        for (std::size_t i = begin; i < end; ++i) (order[i] % 2 ? ended : begun).push_back(order[i] / 2);
+        std::sort(begun.begin(), begun.end());
+        std::sort(ended.begin(), ended.end());
+        std::vector<std::uint32_t> stay, enter, next;
+        std::set_difference(covering.begin(), covering.end(), ended.begin(), ended.end(), std::back_inserter(stay));
+        std::set_difference(begun.begin(), begun.end(), ended.begin(), ended.end(), std::back_inserter(enter));
+        std::merge(stay.begin(), stay.end(), enter.begin(), enter.end(), std::back_inserter(next));
+
+        const auto contains = [](const std::vector<std::uint32_t>& list, std::uint32_t value) {
+            return std::binary_search(list.begin(), list.end(), value);
+        };
+        const auto first_of = [&](std::uint32_t side, const std::vector<std::uint32_t>& list) {
+            const auto found = std::find_if(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                                            order.begin() + static_cast<std::ptrdiff_t>(end),
+                                            [&](std::uint32_t e) { return e % 2 == side && contains(list, e / 2); });
+            return found == order.begin() + static_cast<std::ptrdiff_t>(end) ? NONE : *found;
+        };
+        const std::uint32_t in_end = first_of(0, enter), out_end = first_of(1, covering);
+        if (in_end == NONE && out_end == NONE) continue;  // only segments shorter than the tolerance
+        if (!covering.empty()) {
+            partitions.back().out = at;
+            partitions.back().out_end = out_end != NONE ? out_end : in_end;
+        }
+        if (!next.empty()) partitions.push_back({at, at, in_end != NONE ? in_end : out_end, 0, next});
+        covering = std::move(next);
+    }
+    return partitions;
+}
 
 }  // namespace csgrt

@@ -11,50 +11,8 @@
 
 using namespace csgrt;
 using test::on_device;
-using test::random_rays;
+using test::require_agreement;
 using test::require_same;
-
-namespace {
-
-void require_agreement(const Scene& scene, const std::vector<std::string>& objects, int size, int rays) {
-    Settings by_reference;
-    by_reference.reference = true;
-    Renderer reference(scene, objects, by_reference);
-    Renderer device(scene, objects, on_device());
-    const std::uint64_t scene_bytes = [&] {
-        device.render({.width = 8, .height = 8, .camera = {}});
-        return device.statistics().device_bytes;
-    }();
-    Settings little = on_device();
-    little.max_memory = scene_bytes + 400'000;  // some dozen tiles
-    Renderer tiled(scene, objects, little);
-    for (const double perspective : {0.0, 40.0}) {
-        View view;
-        view.width = size;
-        view.height = size;
-        view.camera = scene.camera;
-        view.camera.perspective = perspective;
-        INFO("perspective " << perspective);
-        const Image expected = reference.render(view);
-        require_same(device.render(view), expected);
-        require_same(tiled.render(view), expected);
-        if (expected.width >= 64) CHECK(tiled.statistics().tiles > 1);
-        CHECK(device.statistics().segments == reference.statistics().segments);
-        CHECK(device.statistics().partitions_used == reference.statistics().partitions_used);
-        CHECK(device.statistics().overlaps == reference.statistics().overlaps);
-        view.every_partition = false;
-        const Image first = device.render(view);
-        require_same(first, reference.render(view));
-        for (std::size_t c = 0; c + 1 < expected.names.size(); ++c)  // all but the last, `overlap`
-            CHECK(std::memcmp(first.channels[c].data(), expected.channels[c].data(), first.channels[c].size() * 4) == 0);
-    }
-    const std::vector<Ray> list = random_rays(reference.bounds(), rays);
-    const auto expected = reference.shoot(list);
-    require_same(device.shoot(list), expected);
-    require_same(tiled.shoot(list), expected);
-}
-
-}  // namespace
 
 TEST_CASE("device and reference agree on our scenes", "[agreement]") {
     const auto files = test::scene_files();

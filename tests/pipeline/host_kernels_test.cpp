@@ -18,6 +18,7 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
         INFO(file);
         const Scene scene = load_scene(file);
         const CompiledScene compiled = compile(scene);
+        const auto kernels = make_double_kernels(compiled, Quartic::bracketed);
         for (const double perspective : {0.0, 40.0}) {
             View view;
             view.width = 50;  // not a multiple of the block
@@ -27,7 +28,7 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
             const PreparedFrame prepared = prepare_frame(compiled, view);
             const test::HostRun run = test::run_kernels(compiled, prepared);
             ReferenceCounts counts;
-            const std::vector<kernel::Pixel> expected = Reference(compiled, 1).render(prepared, nullptr, counts);
+            const std::vector<kernel::Pixel> expected = Reference(compiled, *kernels, 1).render(prepared, nullptr, counts);
             CHECK(2 * run.offsets.back().segments == counts.hits);
             std::size_t different = 0;
             for (std::uint32_t i = 0; i < run.pixels.size(); ++i) {

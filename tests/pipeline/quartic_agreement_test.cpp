@@ -12,18 +12,6 @@
 using namespace csgrt;
 using oracle::Kind;
 
-namespace {
-
-/// Without the family of far origins, which scene_of_kind.hpp takes in turn with the others.
-std::vector<Ray> near_only(const std::vector<Ray>& rays) {
-    std::vector<Ray> near;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (i % 21 % oracle::ray_families != static_cast<std::size_t>(oracle::RayFamily::far)) near.push_back(rays[i]);
-    return near;
-}
-
-}  // namespace
-
 TEST_CASE("device and reference agree however quartics are solved", "[agreement]") {
     for (const Kind kind : {Kind::tor, Kind::eto, Kind::tgc}) {
         std::vector<Ray> rays;
@@ -39,7 +27,7 @@ TEST_CASE("device and reference agree however quartics are solved", "[agreement]
             Renderer reference(scene, {"all"}, settings);
             // From afar the unshifted method finds roots beyond the solid's box: the device's hierarchy spares it
             // those.
-            const std::vector<Ray> asked = quartic == Quartic::bracketed_unshifted ? near_only(rays) : rays;
+            const std::vector<Ray> asked = quartic == Quartic::bracketed_unshifted ? test::near_only(rays) : rays;
             test::require_same(device.shoot(asked), reference.shoot(asked));
         }
     }

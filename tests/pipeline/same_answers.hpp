@@ -76,4 +76,45 @@ inline Settings on_device() {
     return settings;
 }
 
+/// Whole and in tiles, parallel and in perspective, every partition and the first hit; then `rays` random rays.
+inline void require_agreement(const Scene& scene, const std::vector<std::string>& objects, int size, int rays,
+                              const Settings& settings = on_device()) {
+    Settings by_reference = settings;
+    by_reference.reference = true;
+    by_reference.device.clear();
+    Renderer reference(scene, objects, by_reference);
+    Renderer device(scene, objects, settings);
+    const std::uint64_t scene_bytes = [&] {
+        device.render({.width = 8, .height = 8, .camera = {}});
+        return device.statistics().device_bytes;
+    }();
+    Settings little = settings;
+    little.max_memory = scene_bytes + 400'000;  // some dozen tiles
+    Renderer tiled(scene, objects, little);
+    for (const double perspective : {0.0, 40.0}) {
+        View view;
+        view.width = size;
+        view.height = size;
+        view.camera = scene.camera;
+        view.camera.perspective = perspective;
+        INFO("perspective " << perspective);
+        const Image expected = reference.render(view);
+        require_same(device.render(view), expected);
+        require_same(tiled.render(view), expected);
+        if (expected.width >= 64) CHECK(tiled.statistics().tiles > 1);
+        CHECK(device.statistics().segments == reference.statistics().segments);
+        CHECK(device.statistics().partitions_used == reference.statistics().partitions_used);
+        CHECK(device.statistics().overlaps == reference.statistics().overlaps);
+        view.every_partition = false;
+        const Image first = device.render(view);
+        require_same(first, reference.render(view));
+        for (std::size_t c = 0; c + 1 < expected.names.size(); ++c)  // all but the last, `overlap`
+            CHECK(std::memcmp(first.channels[c].data(), expected.channels[c].data(), first.channels[c].size() * 4) == 0);
+    }
+    const std::vector<Ray> list = random_rays(reference.bounds(), rays);
+    const auto expected = reference.shoot(list);
+    require_same(device.shoot(list), expected);
+    require_same(tiled.shoot(list), expected);
+}
+
 }  // namespace csgrt::test

@@ -40,4 +40,12 @@ inline Scene scene_of(oracle::Kind kind, std::vector<Ray> &rays) {
   return scene;
 }
 
+/// scene_of's rays without the family of far origins, which it takes in turn with the others.
+inline std::vector<Ray> near_only(const std::vector<Ray>& rays) {
+    std::vector<Ray> near;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (i % 21 % oracle::ray_families != static_cast<std::size_t>(oracle::RayFamily::far)) near.push_back(rays[i]);
+    return near;
+}
+
 }  // namespace csgrt::test

@@ -1,0 +1,26 @@
+// kernels/ once more, in the namespace CSGRT_KERNELS and with CSGRT_NUMBERS: for the one file that includes this.
+// What src/compile has brought of it in double comes first, and its guards are lifted. Numbers of many kinds
+// meet in that source, and warnings about narrowing would be about the other kinds.
+#include <cmath>
+#include <limits>
+
+#include "compile/compiled_scene.hpp"
+#include "reference/reference_kernels.hpp"
+
+#undef CSGRT_BASE_H
+#undef CSGRT_LAYOUT_H
+#undef SOLID_CENTER
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wfloat-conversion"
+
+namespace csgrt::CSGRT_KERNELS {
+
+CSGRT_NUMBERS
+using u32 = std::uint32_t;
+inline const real REAL_INFINITY = static_cast<real>(std::numeric_limits<double>::infinity());
+
+#include "../../../kernels/camera.h"
+#include "../../../kernels/geometry/collect.h"
+#include "../../../kernels/shading.h"
+
+}  // namespace csgrt::CSGRT_KERNELS

@@ -1,0 +1,284 @@
+// HostKernels and ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS: the
+// body of the one file that includes this.
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include "reference/reference_kernels.hpp"
+
+namespace csgrt {
+namespace {
+
+namespace k = CSGRT_KERNELS;
+using k::real;
+using k::wide;
+
+// ---- Records from those in double. A table that is the same in both is not copied. ----
+
+template <class To, class From>
+using Converted = std::conditional_t<std::is_same_v<To, From>, const std::vector<From>&, std::vector<To>>;
+
+real convert(double x) { return static_cast<real>(x); }
+[[maybe_unused]] k::PlaneRecord convert(const kernel::PlaneRecord& p) {
+    return {static_cast<wide>(p.nx), static_cast<wide>(p.ny), static_cast<wide>(p.nz), static_cast<wide>(p.d)};
+}
+[[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) {
+    return {static_cast<wide>(l.x), static_cast<wide>(l.y), static_cast<wide>(l.z), l.r, l.g, l.b};
+}
+[[maybe_unused]] k::MaterialRecord convert(const kernel::MaterialRecord& m) {
+    return {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine};
+}
+
+// In single precision a ray may meet a solid a little beside where it is: the boxes make room for that, so that a
+// device finds everything that the reference finds.
+[[maybe_unused]] k::BvhNode convert_node(const kernel::BvhNode& n) {
+    k::BvhNode node{};
+    double diagonal = 0;
+    for (int i = 0; i < 3; ++i) diagonal += double(n.high[i] - n.low[i]) * double(n.high[i] - n.low[i]);
+    const bool single = sizeof(real) == sizeof(float);
+    const auto pad = static_cast<float>(single ? 0x1p-10 * std::sqrt(diagonal) : 0);
+    for (int i = 0; i < 3; ++i) {
+        node.low[i] = n.low[i] - pad;
+        node.high[i] = n.high[i] + pad;
+    }
+    node.skip = n.skip;
+    node.leaf = n.leaf;
+    return node;
+}
+
+[[maybe_unused]] k::SolidRecord convert_solid(const kernel::SolidRecord& s, const CompiledScene& scene) {
+    k::SolidRecord solid{};
+    solid.type = s.type;
+    solid.first_real = s.first_real;
+    solid.first_word = s.first_word;
+    solid.first_plane = s.first_plane;
+    solid.plane_count = s.plane_count;
+    solid.first_region = s.first_region;
+    solid.region_count = s.region_count;
+#ifdef CSGRT_EYE_RELATIVE
+    if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
+        for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
+#endif
+    (void)scene;
+    return solid;
+}
+
+template <class To, class From, class Convert>
+Converted<To, From> convert_all(const std::vector<From>& from, const Convert& one) {
+    if constexpr (std::is_same_v<To, From>) {
+        return from;
+    } else {
+        std::vector<To> to;
+        to.reserve(from.size());
+        for (const From& x : from) to.push_back(one(x));
+        return to;
+    }
+}
+
+[[maybe_unused]] std::vector<kernel::End> ends_of(std::vector<kernel::End>&& ends) { return std::move(ends); }
+template <class End>
+std::vector<kernel::End> ends_of(std::vector<End>&& ends) {
+    std::vector<kernel::End> result;
+    result.reserve(ends.size());
+    for (const End& e : ends) result.push_back({static_cast<double>(e.t), e.solid, e.surface});
+    return result;
+}
+
+/// An empty list, with the memory of one that is done with if that is of the same kind.
+template <class To, class From>
+std::vector<To> again([[maybe_unused]] std::vector<From>&& used, To*) {
+    if constexpr (std::is_same_v<To, From>) {
+        used.clear();
+        return std::move(used);
+    } else {
+        return {};
+    }
+}
+
+template <class T>
+std::vector<std::byte> bytes_of(const T* values, std::size_t count) {
+    std::vector<std::byte> bytes(count * sizeof(T));
+    if (count) std::memcpy(bytes.data(), values, bytes.size());
+    return bytes;
+}
+
+// ---- A frame in this precision, made once and kept for the rays of one call. ----
+
+k::Frame convert_frame(const kernel::Frame& f) {
+    k::Frame frame{};
+    for (int i = 0; i < 3; ++i) {
+        frame.eye[i] = static_cast<wide>(f.eye[i]);
+        frame.u[i] = static_cast<wide>(f.u[i]);
+        frame.v[i] = static_cast<wide>(f.v[i]);
+        frame.w[i] = static_cast<wide>(f.w[i]);
+        frame.center[i] = static_cast<wide>(f.center[i]);
+        frame.background[i] = f.background[i];
+    }
+    frame.radius = static_cast<wide>(f.radius);
+    frame.t_min = static_cast<wide>(f.t_min);
+    frame.tolerance = static_cast<wide>(f.tolerance);
+    frame.ambient = static_cast<wide>(f.ambient);
+    frame.width = f.width;
+    frame.height = f.height;
+    frame.perspective = f.perspective;
+    frame.listed = f.listed;
+    frame.first_ray = f.first_ray;
+    frame.ray_count = f.ray_count;
+    frame.solid_count = f.solid_count;
+    frame.unbounded_count = f.unbounded_count;
+    frame.node_count = f.node_count;
+    frame.light_count = f.light_count;
+    frame.every_partition = f.every_partition;
+    return frame;
+}
+
+k::world_ray convert_ray(const Ray& r) {
+    return {{static_cast<wide>(r.origin.x), static_cast<wide>(r.origin.y), static_cast<wide>(r.origin.z)},
+            {static_cast<wide>(r.direction.x), static_cast<wide>(r.direction.y), static_cast<wide>(r.direction.z)}};
+}
+
+class Kernels : public ReferenceKernels {
+public:
+    Kernels(const CompiledScene& scene, Quartic quartic)
+        : solids_(convert_all<k::SolidRecord>(scene.solids, [&](const auto& s) { return convert_solid(s, scene); })),
+          reals_(convert_all<real>(scene.reals, [](double x) { return convert(x); })),
+          planes_(convert_all<k::PlaneRecord>(scene.planes, [](const auto& p) { return convert(p); })),
+          inner_nodes_(convert_all<k::BvhNode>(scene.inner_nodes, [](const auto& n) { return convert_node(n); })),
+          nodes_(convert_all<k::BvhNode>(scene.nodes, [](const auto& n) { return convert_node(n); })),
+          g_(k::make_geometry(solids_.data(), reals_.data(), planes_.data(), scene.plane_refs.data(),
+                              scene.words.data(), inner_nodes_.data())) {
+        g_.quartic = static_cast<k::u32>(quartic);
+    }
+
+    Tables tables() const override {
+        const auto bytes = [](const auto& table) { return std::as_bytes(std::span(table)); };
+        return {bytes(solids_), bytes(reals_), bytes(planes_), bytes(inner_nodes_), bytes(nodes_)};
+    }
+    std::vector<std::byte> frame(const kernel::Frame& f) const override {
+        const k::Frame frame = convert_frame(f);
+        return bytes_of(&frame, 1);
+    }
+    std::vector<std::byte> lights(const std::vector<kernel::LightRecord>& lights) const override {
+        const auto& records = lights_of(lights);
+        return bytes_of(records.data(), records.size());
+    }
+    std::vector<std::byte> rays(const std::vector<Ray>& rays) const override {
+        std::vector<k::RayRecord> records;
+        records.reserve(rays.size());
+        for (const Ray& ray : rays) {
+            const k::world_ray r = convert_ray(ray);
+            records.push_back({r.o.x, r.o.y, r.o.z, r.d.x, r.d.y, r.d.z});
+        }
+        return bytes_of(records.data(), records.size());
+    }
+    void check(const std::vector<Ray>& rays) const override {
+        if (sizeof(wide) > sizeof(float)) return;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const k::world_ray r = convert_ray(rays[i]);
+            const wide sum = r.o.x + r.o.y + r.o.z;
+            const wide size2 = r.d.x * r.d.x + r.d.y * r.d.y + r.d.z * r.d.z;
+            if (sum - sum == 0 && size2 > wide(1e-30) && size2 < wide(1e30)) continue;
+            throw Error(Status::usage, "ray " + std::to_string(i) +
+                                           ": single precision in world coordinates needs a direction whose length is "
+                                           "between 1e-15 and 1e15, and an origin below 1e38");
+        }
+    }
+    std::size_t ray_bytes() const override { return sizeof(k::RayRecord); }
+    std::size_t end_bytes() const override { return sizeof(k::End); }
+    std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const override {
+        std::vector<k::End> ends(bytes.size() / sizeof(k::End));
+        if (!ends.empty()) std::memcpy(ends.data(), bytes.data(), bytes.size());
+        return ends_of(std::move(ends));
+    }
+
+    double distance(const kernel::Frame& f, const Ray& ray, double t) const override {
+#ifdef CSGRT_EYE_RELATIVE
+        const k::Frame frame = convert_frame(f);
+        const double all = k::distance_along(k::geometry_ray(&frame, convert_ray(ray)), static_cast<real>(t));
+        if (!frame.listed) return all;
+        const Vec3& d = ray.direction;
+        const double longest = std::fmax(std::fabs(d.x), std::fmax(std::fabs(d.y), std::fabs(d.z)));
+        return all / (longest * std::hypot(d.x / longest, d.y / longest, d.z / longest));
+#else
+        (void)f;
+        (void)ray;
+        return t;
+#endif
+    }
+    Vec3 normal(const kernel::Frame& f, const Ray& ray, const kernel::End& end) const override {
+        const k::Frame frame = convert_frame(f);
+        const k::vec3 n = normal_at(k::geometry_ray(&frame, convert_ray(ray)), end);
+        return {static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)};
+    }
+
+    Ray camera_ray(const kernel::Frame& f, std::uint32_t x, std::uint32_t y) const override {
+        if constexpr (sizeof(real) > sizeof(double)) {
+            return ReferenceKernels::camera_ray(f, x, y);
+        } else {
+            const k::Frame frame = convert_frame(f);
+            const k::world_ray r = k::camera_ray(&frame, {x, y, 1});
+            const auto point = [](const auto& p) {
+                return Vec3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+            };
+            return {point(r.o), point(r.d)};
+        }
+    }
+    std::vector<WovenPartition> trace(const kernel::Frame& f, const Ray& ray,
+                                      std::vector<kernel::End>& ends) const override {
+        const k::Frame frame = convert_frame(f);
+        const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
+        const real t_min = k::t_min_along(&frame, r);
+        std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
+        for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) {
+            const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
+            if (segments == 0) continue;
+            const std::size_t first = own.size();
+            own.resize(first + 2 * std::size_t{segments});
+            k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
+        }
+        std::vector<WovenPartition> woven = weave(own, k::tolerance_along(&frame, r));
+        ends = ends_of(std::move(own));
+        return woven;
+    }
+    double t_min(const kernel::Frame& f, const Ray& ray) const override {
+        const k::Frame frame = convert_frame(f);
+        return static_cast<double>(k::t_min_along(&frame, k::geometry_ray(&frame, convert_ray(ray))));
+    }
+    kernel::Pixel hit_pixel(const kernel::Frame& f, const std::vector<kernel::LightRecord>& lights,
+                            const kernel::MaterialRecord& material, const Ray& ray, const kernel::End& end,
+                            bool leaves) const override {
+        const k::Frame frame = convert_frame(f);
+        const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
+        const auto& records = lights_of(lights);
+        k::vec3 n = normal_at(r, end);
+        if (leaves) n = k::scale(n, real(-1));
+        const k::Pixel pixel = k::hit_pixel(&frame, records.data(), convert(material), r, static_cast<real>(end.t), n);
+        kernel::Pixel result;
+        static_assert(sizeof result == sizeof pixel && std::is_trivially_copyable_v<k::Pixel>);
+        std::memcpy(&result, &pixel, sizeof result);
+        return result;
+    }
+
+private:
+    k::vec3 normal_at(const k::ray3& r, const kernel::End& end) const {
+        return k::normal_at(g_, solids_[end.solid], r, static_cast<real>(end.t), end.surface);
+    }
+    static Converted<k::LightRecord, kernel::LightRecord> lights_of(const std::vector<kernel::LightRecord>& lights) {
+        return convert_all<k::LightRecord>(lights, [](const auto& l) { return convert(l); });
+    }
+
+    const Converted<k::SolidRecord, kernel::SolidRecord> solids_;
+    const Converted<real, double> reals_;
+    const Converted<k::PlaneRecord, kernel::PlaneRecord> planes_;
+    const Converted<k::BvhNode, kernel::BvhNode> inner_nodes_, nodes_;
+    k::Geometry g_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReferenceKernels> CSGRT_MAKE_KERNELS(const CompiledScene& scene, Quartic quartic) {
+    return std::make_unique<Kernels>(scene, quartic);
+}
+
+}  // namespace csgrt

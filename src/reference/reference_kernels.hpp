@@ -1,0 +1,37 @@
+// What the reference asks of the kernels' geometry, in any precision.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "compile/host_kernels.hpp"
+#include "reference/weave.hpp"
+
+namespace csgrt {
+
+class ReferenceKernels : public HostKernels {
+public:
+    /// In 113 bits it is the one in double: so that the two see the same rays.
+    virtual Ray camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const;
+    /// The ends of all segments along a ray, every solid tried, no hierarchy: two a segment, by ascending solid.
+    /// Segments that end before the frame's t_min are left out. Then what they weave.
+    virtual std::vector<WovenPartition> trace(const kernel::Frame& frame, const Ray& ray,
+                                              std::vector<kernel::End>& ends) const = 0;
+    /// The frame's t_min as it is compared with ends.
+    virtual double t_min(const kernel::Frame& frame, const Ray& ray) const = 0;
+    /// A pixel that shows the surface at an end; `leaves`: from within.
+    virtual kernel::Pixel hit_pixel(const kernel::Frame& frame, const std::vector<kernel::LightRecord>& lights,
+                                    const kernel::MaterialRecord& material, const Ray& ray, const kernel::End& end,
+                                    bool leaves) const = 0;
+};
+
+/// `scene` must outlive the result. Precision::quad is on the host only.
+std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Precision precision, Quartic quartic);
+
+std::unique_ptr<ReferenceKernels> make_double_kernels(const CompiledScene& scene, Quartic quartic);
+std::unique_ptr<ReferenceKernels> make_single_kernels(const CompiledScene& scene, Quartic quartic);
+std::unique_ptr<ReferenceKernels> make_single_world_kernels(const CompiledScene& scene, Quartic quartic);
+std::unique_ptr<ReferenceKernels> make_quad_kernels(const CompiledScene& scene, Quartic quartic);
+
+}  // namespace csgrt

@@ -1,0 +1,96 @@
+// In every precision that a device has, it gives what the reference gives, to the last bit.
+#include "catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <csgrt/csgrt.hpp>
+
+#include "pipeline/same_answers.hpp"
+#include "pipeline/scene_of_kind.hpp"
+#include "pipeline/scenes.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+std::vector<Settings> in_single() {
+    Settings eye = test::on_device(), world = eye;
+    eye.precision = Precision::single;
+    world.precision = Precision::single_world;
+    return {eye, world};
+}
+
+}  // namespace
+
+TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") {
+    const auto files = test::scene_files();
+    if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
+    for (const std::string& file : files)
+        for (const Settings& settings : in_single()) {
+            INFO(file << " " << name_of(precision_names, settings.precision));
+            test::require_agreement(load_scene(file), {}, 64, 200, settings);
+        }
+}
+
+TEST_CASE("device and reference agree in single precision on BRL-CAD's models", "[agreement]") {
+    const std::string folder = test::folder("CSGRT_BRLCAD");
+    if (folder.empty()) {
+        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
+        return;
+    }
+    for (const test::Model& model : test::models()) {
+        if (!model.main) continue;
+        for (const Settings& settings : in_single()) {
+            INFO(model.file << " " << name_of(precision_names, settings.precision));
+            test::require_agreement(load_scene(folder + "/" + model.file), model.objects, 64, 100, settings);
+        }
+    }
+}
+
+TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[agreement]") {
+    using oracle::Kind;
+    for (const Kind kind : {Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}) {
+        std::vector<Ray> rays;
+        const Scene scene = test::scene_of(kind, rays);
+        for (Settings settings : in_single()) {
+            INFO(static_cast<int>(kind) << " " << name_of(precision_names, settings.precision));
+            Renderer device(scene, {"all"}, settings);
+            settings.reference = true;
+            settings.device.clear();
+            Renderer reference(scene, {"all"}, settings);
+            // From afar, coordinates of the world in float put solids outside their boxes: the device's hierarchy does
+            // not see those there.
+            const std::vector<Ray> asked = settings.precision == Precision::single ? rays : test::near_only(rays);
+            test::require_same(device.shoot(asked), reference.shoot(asked));
+        }
+    }
+}
+
+TEST_CASE("contraction changes last digits and no region", "[agreement]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    if (folder.empty()) return;
+    const Scene scene = load_scene(folder + "/solids.json");
+    Settings settings = test::on_device();
+    Renderer plain(scene, {}, settings);
+    settings.contraction = true;
+    Renderer contracted(scene, {}, settings);
+    const std::vector<Ray> rays = test::random_rays(plain.bounds(), 2000);
+    const auto a = plain.shoot(rays), b = contracted.shoot(rays);
+    CHECK(contracted.statistics().contraction);
+    std::size_t other_regions = 0;
+    double farthest = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto same_region = [](const Partition& p, const Partition& q) { return p.region == q.region; };
+        if (!std::equal(a[i].partitions.begin(), a[i].partitions.end(), b[i].partitions.begin(), b[i].partitions.end(),
+                        same_region)) {
+            ++other_regions;
+            continue;
+        }
+        for (std::size_t k = 0; k < a[i].partitions.size(); ++k)
+            farthest = std::fmax(farthest, std::fabs(a[i].partitions[k].in - b[i].partitions[k].in));
+    }
+    CHECK(other_regions <= 2);
+    CHECK(farthest > 0);  // in millimetres of some hundred: a few units in the last place
+    CHECK(farthest < 1e-6);
+}

@@ -1,0 +1,167 @@
+// What each precision is worth: regions before the oracle from afar, and 113 bits against what is known exactly.
+#include "catch.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <csgrt/csgrt.hpp>
+
+#include "compile/frame.hpp"
+#include "geometry/kernel_answer.hpp"
+#include "oracle/random.hpp"
+#include "oracle/rays.hpp"
+#include "oracle/scene_oracle.hpp"
+#include "pipeline/scenes.hpp"
+#include "reference/reference_kernels.hpp"
+
+using namespace csgrt;
+using oracle::quad;
+using oracle::QVec;
+
+namespace {
+
+Settings on_reference(Precision precision) {
+    Settings settings;
+    settings.reference = true;
+    settings.threads = 1;
+    settings.precision = precision;
+    return settings;
+}
+
+/// Rays through a box from `away` times its diagonal.
+std::vector<Ray> rays_from(double away, const Box& box, std::size_t count) {
+    oracle::Random random(31);
+    const QVec low = box.low, high = box.high, center = quad(0.5) * (low + high), half = quad(0.5) * (high - low);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        const QVec p = random.in_cube(), d = random.direction();
+        const QVec through = center + QVec{half.x * p.x, half.y * p.y, half.z * p.z};
+        rays.push_back({oracle::to_vec3(through - quad(2 * away) * oracle::length(half) * d), oracle::to_vec3(d)});
+    }
+    return rays;
+}
+
+struct Score {
+    std::size_t decided = 0, wrong = 0;
+};
+
+/// How often the sequence of regions along a ray is not the oracle's, on rays that it can decide.
+Score score(const Scene& scene, Precision precision, double away) {
+    const oracle::SceneOracle judge(scene);
+    Renderer renderer(scene, {}, on_reference(precision));
+    const std::vector<Ray> rays = rays_from(away, renderer.bounds(), 800);
+    const std::vector<RayPartitions> found = renderer.shoot(rays);
+    Score score;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const oracle::SceneAnswer answer = judge.shoot(rays[i], scene.tolerance);
+        std::vector<std::string> expected, seen;
+        bool decided = !answer.tie;
+        double end = 0;
+        for (const oracle::Piece& piece : answer.pieces) {
+            if (piece.claims.empty()) continue;
+            decided = decided && piece.claims.size() == 1 && piece.claims[0].certain;
+            const std::string& path = judge.regions()[piece.claims[0].region].path;
+            if (expected.empty() || expected.back() != path || piece.in != end) expected.push_back(path);
+            end = piece.out;
+        }
+        if (!decided) continue;
+        for (const Partition& p : found[i].partitions) seen.push_back(renderer.regions()[p.region].path);
+        ++score.decided;
+        score.wrong += seen != expected;
+    }
+    INFO(name_of(precision_names, precision)
+         << " from " << away << ": " << score.wrong << " wrong of " << score.decided);
+    CHECK(score.decided > 200);
+    return score;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "single precision relative to the eye sees from afar what double sees; in the world's coordinates it does not",
+    "[pipeline][oracle]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    if (folder.empty()) {
+        WARN("CSGRT_SCENES names no folder of scenes: nothing judged");
+        return;
+    }
+    const Scene scene = load_scene(folder + "/gear.json");
+    for (const double away : {3.0, 1e5}) {
+        INFO("from " << away << " sizes");
+        CHECK(score(scene, Precision::double_, away).wrong == 0);
+        CHECK(score(scene, Precision::single, away).wrong == 0);
+        const Score world = score(scene, Precision::single_world, away);
+        if (away > 100) CHECK(world.wrong * 100 > world.decided);
+    }
+    // The model far from the world's origin, the eye near it.
+    const Scene far = load_scene(folder + "/far_origin.json");
+    CHECK(score(far, Precision::single, 3).wrong == 0);
+    CHECK(score(far, Precision::single_world, 3).wrong > 0);
+}
+
+TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]") {
+    // Of these every parameter is exact, so that the oracle and the kernels speak of the same solid.
+    const std::pair<const char*, Shape> solids[] = {
+        {"sphere", Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+        {"torus", Tor{{0, 0, 0}, {0, 0, 1}, 1, 0.25}},
+        {"superellipsoid", Superell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.5, 0.5}},
+    };
+    for (const auto& [name, shape] : solids) {
+        const CompiledScene compiled = compile_alone(shape, identity);
+        const kernel::Frame frame = prepare_rays(compiled, 1).frame;
+        const oracle::ImplicitSolid solid = oracle::implicit(shape, identity);
+        oracle::Random random(3);
+        oracle::RayMaker maker(shape, solid, random);
+        // In units of the last place of where the end lies; the worst, and how many were looked at.
+        const auto worst = [&](Precision precision, const std::vector<Ray>& rays, std::size_t& ends_seen) {
+            const auto kernels = make_kernels(compiled, precision, Quartic::bracketed);
+            double most = 0;
+            for (const Ray& ray : rays) {
+                const oracle::Answer answer = oracle::intersect(solid, ray);
+                if (answer.tie) continue;
+                std::vector<kernel::End> ends;
+                kernels->trace(frame, ray, ends);
+                REQUIRE(ends.size() == 2 * answer.intervals.size());
+                for (std::size_t i = 0; i < ends.size(); ++i, ++ends_seen) {
+                    const auto& interval = answer.intervals[i / 2];
+                    const double t = i % 2 ? interval.out.t : interval.in.t;
+                    const double ulp = std::nextafter(std::fabs(t), 1e300) - std::fabs(t);
+                    most = std::fmax(most, std::fabs(ends[i].t - t) / ulp);
+                }
+            }
+            return most;
+        };
+        std::vector<Ray> rays;
+        for (int i = 0; i < 200; ++i) rays.push_back(maker.make(oracle::RayFamily::ordinary));
+        std::size_t ends = 0;
+        const double by_quad = worst(Precision::quad, rays, ends), by_double = worst(Precision::double_, rays, ends);
+        INFO(name << ": worst error in ulps, 113 bits " << by_quad << ", double " << by_double);
+        CHECK(ends > 300);
+        CHECK(by_quad == 0);
+        CHECK(by_double >= 1);
+    }
+}
+
+TEST_CASE("a precision where it is not is refused", "[pipeline]") {
+    Settings settings;
+    settings.precision = Precision::quad;
+    const auto refusal = [](const Settings& wanted) {
+        try {
+            Scene scene;
+            Renderer(scene, {}, wanted);
+        } catch (const Error& error) {
+            CHECK(error.status() == Status::usage);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(refusal(settings).find("113-bit precision is on the reference only") != std::string::npos);
+    settings = {};
+    settings.reference = settings.contraction = true;
+    CHECK(refusal(settings).find("contraction is on a device only") != std::string::npos);
+
+    const CompiledScene compiled = compile_alone(Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, identity);
+    const std::vector<Ray> faint = {{{-9, 0, 0}, {1e-40, 0, 0}}};
+    CHECK_THROWS_AS(make_kernels(compiled, Precision::single_world, Quartic::bracketed)->check(faint), Error);
+    CHECK_NOTHROW(make_kernels(compiled, Precision::single, Quartic::bracketed)->check(faint));
+}
