@@ -34,7 +34,12 @@ FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, 
         }
         return append(h, s.low, s.low_surface, s.high, s.high_surface);
     }
-    if (!(discriminant > 0)) return a < 0 ? append(h, s.low, s.low_surface, s.high, s.high_surface) : h;
+    if (!(discriminant > 0)) {
+        if (a < 0) return append(h, s.low, s.low_surface, s.high, s.high_surface);
+        if (!(c < 0)) return h;
+        // Inside at u = 0, so there are roots, however far: along an asymptote, where a is rounding, the discriminant is, too.
+        discriminant = real_fma(b, b, -a * c);
+    }
     {
         real root = real_sqrt(discriminant);
         real q = b > 0 ? -(b + root) : root - b;

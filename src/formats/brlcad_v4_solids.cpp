@@ -22,16 +22,18 @@ Vec3 vec3_at(const Parameters& p, std::size_t at) {
     return {p[at], p[at + 1], p[at + 2]};
 }
 
+/// Rounded as where BRL-CAD turns these databases into .g files, so that both give the same scene.
 double length(const Vec3& v) {
-    return std::hypot(v.x, v.y, v.z);
+    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
 Shape torus(const Parameters& p) {
     const Vec3 h = vec3_at(p, 3);
     const double r_a = length(vec3_at(p, 6));
     double r_h = length(h);
+    const double f = r_h > 0 ? 1 / r_h : 1;
     if (r_h > r_a && r_h <= r_a * (1 + torus_rounding)) r_h = r_a;
-    return Tor{vec3_at(p, 0), h, r_a, r_h};
+    return Tor{vec3_at(p, 0), {h.x * f, h.y * f, h.z * f}, r_a, r_h};
 }
 
 /// The first vertex is absolute, the others stand relative to it.

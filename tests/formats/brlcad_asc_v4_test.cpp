@@ -83,7 +83,7 @@ TEST_CASE("v4: solids of 24 parameters", "[asc]") {
 
     const auto& tor = shape<Tor>(scene, "tor");
     CHECK(tor.v == Vec3{1, 2, 3});
-    CHECK(tor.h == Vec3{0, 0, 2});
+    CHECK(tor.h == Vec3{0, 0, 1});
     CHECK(tor.r_a == 5);
     CHECK(tor.r_h == 2);
 

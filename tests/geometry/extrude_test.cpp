@@ -23,7 +23,7 @@ OutlineCase extrude_case(std::size_t index, oracle::Random& random) {
     OutlineCase one;
     one.name = std::string(sketch_forms[form]) + ", " + oracle::detail::placements[place];
     one.matrix = oracle::detail::placement(place, stand.size, random);
-    one.solid = extruded(shape, one.matrix);
+    one.solid = extruded(shape, oracle::to_affine(one.matrix));
     const QAffine map = to_affine(one.matrix);
     for (const Sketch::Point& p : shape.sketch.vertices)
         for (const double z : {0, 1})

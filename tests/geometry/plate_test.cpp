@@ -70,7 +70,7 @@ void shoot(const oracle::Case& one, Random& random, Tally& tally) {
             REQUIRE(s.in <= s.out);
             if (k > 0) REQUIRE(segments[k - 1].in <= s.in);
             REQUIRE(to_double(length(QVec(s.in_normal) + QVec(s.out_normal))) < 1e-15);
-            REQUIRE(to_double(dot(QVec(s.in_normal), d)) <= 0);
+            REQUIRE(to_double(dot(QVec(s.in_normal), d)) <= 1e-12 * speed);  // edge-on it is rounding
             // Some triangle there has just this extent.
             bool found = grazes;
             for (std::size_t f = 0; f < surface.size() && !found; ++f) {

@@ -43,7 +43,7 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
     one.name = std::string(profile_forms[form]) + ", " + oracle::detail::placements[place] + ", angle " +
                std::to_string(shape.angle);
     one.matrix = oracle::detail::placement(place, stand.size, random);
-    one.solid = revolved(shape, one.matrix);
+    one.solid = revolved(shape, oracle::to_affine(one.matrix));
     const QAffine map = to_affine(one.matrix);
     const auto at = [&](const Sketch::Point& p, double turn) {
         return map.point(stand.at + quad(p.u * std::cos(turn)) * stand.x + quad(p.u * std::sin(turn)) * stand.y +

@@ -7,10 +7,10 @@
 
 namespace csgrt::oracle {
 
-inline ExactSolid celled(const Ebm& shape, const Matrix& matrix) {
+inline ExactSolid celled(const Ebm& shape, const QAffine& place) {
     const QAffine own = to_affine(shape.matrix);
     ImplicitSolid frame;
-    add_frame(frame, to_affine(matrix), own);
+    add_frame(frame, place, own);
     const QAffine to_world = frame.to_world, to_local = frame.to_local;
     ExactSolid solid;
     solid.frame = to_world;
@@ -20,7 +20,7 @@ inline ExactSolid celled(const Ebm& shape, const Matrix& matrix) {
     solid.radius =
         to_double(length(size.x * to_world.x) + length(size.y * to_world.y) + length(size.z * to_world.z)) / 2;
     solid.placement =
-        to_double(length((componentwise_absolute(to_affine(matrix)) * componentwise_absolute(own)).point(size)));
+        to_double(length((componentwise_absolute(place) * componentwise_absolute(own)).point(size)));
     const auto cell = [](quad x) {
         const double whole = std::floor(to_double(x));  // rounded up, perhaps
         return static_cast<std::int64_t>(quad(whole) > x ? whole - 1 : whole);

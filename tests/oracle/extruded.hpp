@@ -37,9 +37,9 @@ inline ExactIntervals outward(ExactIntervals intervals, const QVec& d) {
 
 }  // namespace detail
 
-inline ExactSolid extruded(const Extrude& shape, const Matrix& matrix) {
+inline ExactSolid extruded(const Extrude& shape, const QAffine& place) {
     ImplicitSolid frame;
-    add_frame(frame, to_affine(matrix), {shape.a, shape.b, shape.h, shape.v});
+    add_frame(frame, place, {shape.a, shape.b, shape.h, shape.v});
     const QAffine to_world = frame.to_world, to_local = frame.to_local;
     const auto outline = std::make_shared<Outline>(shape.sketch);
 
@@ -69,7 +69,7 @@ inline ExactSolid extruded(const Extrude& shape, const Matrix& matrix) {
     const QVec half = quad(0.5) * (high - low);
     solid.radius = to_double(length(half.x * to_world.x) + length(half.y * to_world.y) + length(half.z * to_world.z));
     const QAffine rounding =
-        componentwise_absolute(to_affine(matrix)) * componentwise_absolute(QAffine{shape.a, shape.b, shape.h, shape.v});
+        componentwise_absolute(place) * componentwise_absolute(QAffine{shape.a, shape.b, shape.h, shape.v});
     solid.placement = to_double(length(
         rounding.point({larger(absolute(low.x), absolute(high.x)), larger(absolute(low.y), absolute(high.y)), 1})));
 

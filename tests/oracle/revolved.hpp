@@ -145,11 +145,11 @@ private:
     std::vector<Outline::Rational> rationals_;
 };
 
-inline ExactSolid revolved(const Revolve& shape, const Matrix& matrix) {
+inline ExactSolid revolved(const Revolve& shape, const QAffine& place) {
     const QVec axis = unit(shape.axis), given = shape.r;
     const QVec x = unit(given - dot(given, axis) * axis);
     ImplicitSolid frame;
-    add_frame(frame, to_affine(matrix), {x, cross(axis, x), axis, shape.v});
+    add_frame(frame, place, {x, cross(axis, x), axis, shape.v});
     const QAffine to_world = frame.to_world, to_local = frame.to_local;
 
     ExactSolid solid;
@@ -170,7 +170,7 @@ inline ExactSolid revolved(const Revolve& shape, const Matrix& matrix) {
     solid.radius =
         to_double(wide * root(dot(to_world.x, to_world.x) + dot(to_world.y, to_world.y)) + half * length(to_world.z));
     const QAffine rounding =
-        componentwise_absolute(to_affine(matrix)) * componentwise_absolute(QAffine{x, cross(axis, x), axis, shape.v});
+        componentwise_absolute(place) * componentwise_absolute(QAffine{x, cross(axis, x), axis, shape.v});
     solid.placement = to_double(length(rounding.point({wide, wide, larger(absolute(low), absolute(high))})));
 
     const quad reach = wide + absolute(middle) + half;

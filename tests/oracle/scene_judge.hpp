@@ -1,8 +1,8 @@
 // Puts the partitions of a ray before the scene oracle.
 //
 // Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one
-// that may be there is; where several are, the overlap is listed with all of them. On rays without a tie and without
-// overlaps, each region's partitions are the oracle's spans, end for end. Normals are unit vectors, and at an end that
+// that may be there is; where several are, the overlap is listed with all of them. On rays without a tie partitions
+// begin and end where some solid does; without overlaps, too, each region's are the oracle's spans, end for end. Normals are unit vectors, and at an end that
 // belongs to one solid's surface alone they are that surface's, turned against the ray on the way in and along it on
 // the way out.
 #pragma once
@@ -50,12 +50,13 @@ public:
         wrong.precision(17);
         ties += answer.tie ? 1 : 0;
         check_order(found, wrong);
-        bool overlaps = false;
+        bool overlaps = !found.overlaps.empty();  // some are no longer than the slack
         for (const Piece& piece : answer.pieces) {
             check_piece(piece, found, wrong);
             overlaps = overlaps || certain(piece) > 1;  // also behind the start: they cut what reaches across it
         }
         if (!answer.tie && !overlaps) check_spans(ray, answer, found, wrong);
+        if (!answer.tie) check_ends(ray, answer, found, wrong);
         check_normals(ray, answer, found, wrong);
         if (wrong.str().empty()) return {};
         wrong << "\n  " << describe(ray) << "\n  found:";
@@ -148,6 +149,19 @@ private:
         }
     }
 
+    /// Also where regions overlap: nothing begins or ends but where a solid does.
+    void check_ends(const Ray& ray, const SceneAnswer& answer, const RayPartitions& found, std::ostream& wrong) const {
+        const double slack = slack_ / to_double(length(QVec(ray.direction)));
+        for (const Partition& p : found.partitions)
+            for (const double t : {p.in, p.out}) {
+                const bool known =
+                    !std::isfinite(t) || std::any_of(answer.events.begin(), answer.events.end(), [&](const Event& e) {
+                        return std::abs(e.t - t) <= slack + e.tolerance;
+                    });
+                if (!known) wrong << "no solid has an end at " << t << "; ";
+            }
+    }
+
     void check_normals(const Ray& ray, const SceneAnswer& answer, const RayPartitions& found,
                        std::ostream& wrong) const {
         const QVec d = ray.direction;
@@ -163,7 +177,7 @@ private:
                 only = &e;
             }
             // Where the hit itself may be displaced, curvature turns the normal: left to the judge of single solids.
-            if (!only || only->tolerance * speed > 1e-8) return;
+            if (!only || only->tolerance * speed > 1e-8 || only->normal == Vec3{}) return;
             const double side = to_double(dot(only->normal, d)) * turned > 0 ? 1 : -1;
             if (to_double(length(quad(side) * QVec(only->normal) - QVec(normal))) > 1e-6)
                 wrong << "the normal at " << t << " is not the surface's; ";

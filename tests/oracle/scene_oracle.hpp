@@ -20,8 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "intersect.hpp"
-#include "solids/all.hpp"
+#include "scene_solid.hpp"
 #include "solids/pipe.hpp"
 
 namespace csgrt::oracle {
@@ -37,7 +36,7 @@ inline Membership one_of(Membership a, Membership b) { return either(both(a, opp
 struct Expression {
     Operator op = Operator::union_;  ///< a union of nothing is the empty set
     std::vector<Expression> operands;
-    std::size_t solid = 0;  ///< leaf: index into SceneOracle::solids()
+    std::size_t solid = 0;  ///< leaf: index into the oracle's solids
 
     /// In any of the solids?
     template <class Of>
@@ -98,7 +97,7 @@ struct Piece {
 /// An end of a solid's interval.
 struct Event {
     double t = 0, tolerance = 0;
-    Vec3 normal;          ///< outward from the solid
+    Vec3 normal;          ///< outward from the solid; 0: more than one would do
     double rounding = 0;  ///< of the tolerance: what rounding the ray's and the solid's numbers can cause
     std::size_t solid = 0;
 };
@@ -126,7 +125,6 @@ public:
     explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}, bool = false) = delete;
 
     const std::vector<OracleRegion>& regions() const { return regions_; }
-    const std::vector<ImplicitSolid>& solids() const { return solids_; }
 
     /// `slack` in millimetres.
     SceneAnswer shoot(const Ray& ray, double slack) const {
@@ -135,7 +133,7 @@ public:
         std::vector<Sure> sets(solids_.size());
         std::vector<quad> bounds;
         for (std::size_t i = 0; i < solids_.size(); ++i) {
-            const Answer one = intersect(solids_[i], ray);
+            const Answer one = solids_[i](ray);
             answer.solid_tie = answer.solid_tie || one.tie;
             double widest = 0;
             for (const Interval& interval : one.intervals) {
@@ -234,7 +232,9 @@ private:
         Expression outer, bores;
         for (PipePart& part : parts) {
             (part.bore ? bores : outer).operands.push_back({Operator::leaf, {}, solids_.size()});
-            solids_.push_back(std::move(part.solid));
+            solids_.push_back([solid = std::make_shared<ImplicitSolid>(std::move(part.solid))](const Ray& ray) {
+                return intersect(*solid, ray);
+            });
         }
         return bores.operands.empty() ? outer : apply(Operator::difference, outer, bores);
     }
@@ -243,7 +243,8 @@ private:
         if (skip_unsupported_ && std::holds_alternative<Unsupported>(solid.shape)) return {};
         if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
         if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
-        solids_.push_back(implicit(solid.shape, place));
+        const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 1e-9;
+        solids_.push_back(scene_solid(solid.shape, place, skin));
         return {Operator::leaf, {}, solids_.size() - 1};
     }
 
@@ -320,7 +321,7 @@ private:
 
     const Scene& scene_;
     const bool skip_unsupported_;
-    std::vector<ImplicitSolid> solids_;
+    std::vector<SceneSolid> solids_;
     std::vector<OracleRegion> regions_;
 };
 

@@ -6,7 +6,8 @@
 //
 //     (1e-12 condition size + delta) x (the end's largest shift / delta) / |d| + 4 x 2^-53 |t|
 //
-// Otherwise it is a tie: then what all the rays have in common must be found, and nothing that none has.
+// Otherwise, or where some end leaps by more than a thousandth of the solid (to another surface, where the ray runs
+// along one), it is a tie: then what all the rays have in common must be found, and nothing that none has.
 #pragma once
 
 #include <functional>
@@ -45,6 +46,13 @@ struct ShakenAnswer {
     double delta = 0;  ///< millimetres
 };
 
+inline bool leaps(const ExactIntervals& a, const ExactIntervals& b, quad far) {
+    if (a.size() != b.size()) return true;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (absolute(a[i].in.t - b[i].in.t) > far || absolute(a[i].out.t - b[i].out.t) > far) return true;
+    return false;
+}
+
 inline ShakenAnswer shake(const ExactSolid& solid, const Ray& ray) {
     const QVec o = ray.origin, d = ray.direction, off = solid.center - o;
     const quad way = absolute(dot(off, d)) / length(d);
@@ -60,7 +68,8 @@ inline ShakenAnswer shake(const ExactSolid& solid, const Ray& ray) {
                 if (sides != 1 && sides != 3) continue;
                 const QVec moved = solid.frame.direction({quad(x) * most.x, quad(y) * most.y, quad(z) * most.z});
                 answer.shaken.push_back(solid.along(o + moved, d));
-                answer.tie = answer.tie || answer.shaken.back().size() != answer.exact.size();
+                answer.tie =
+                    answer.tie || leaps(answer.exact, answer.shaken.back(), quad(1e-3 * solid.radius) / length(d));
             }
     return answer;
 }

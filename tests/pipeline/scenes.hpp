@@ -30,15 +30,32 @@ inline std::vector<std::string> scene_files() {
 struct Model {
     std::string file;
     std::vector<std::string> objects;
+    bool main = false;  ///< one of those that every method is tried on first
 };
 
-/// The models that the device and the reference must agree on to the last bit.
+/// BRL-CAD's sample models, and what to draw of them.
 inline std::vector<Model> models() {
-    return {{"boolean-ops.asc", {"all"}},
-            {"operators.asc", {"operators"}},
-            {"truck.asc", {"g1", "g2", "g4"}},
-            {"tank_car.asc", {"tank_car", "track"}},
-            {"havoc.asc", {"havoc"}}};
+    return {{"boolean-ops.asc", {"all"}, true},
+            {"operators.asc", {"operators"}, true},
+            {"truck.asc", {"g1", "g2", "g4"}, true},
+            {"tank_car.asc", {"tank_car", "track"}, true},
+            {"havoc.asc", {"havoc"}, true},
+            {"goliath.asc", {"Goliath.c"}},
+            {"aet.asc", {"rings.c", "diagram.r"}},
+            {"arb8_showcase.asc", {"arb8_showcase"}},
+            {"axis.asc", {"all"}},
+            {"bearing.asc", {"bearing"}},
+            {"bicycle_wheel.asc", {"rwheel"}},
+            {"cube.asc", {"all.g"}},
+            {"demo.asc", {"track.rt", "track.lt", "widgets", "crod", "BRL"}},
+            {"moss.asc", {"all.g"}},
+            {"pawn.asc", {"scene.g"}},
+            {"prim.asc", {"ellg", "arb8", "arb7", "arb5", "tor", "tgc"}},
+            {"rounds.asc", {"all.g"}},
+            {"shipping_container.asc", {"all"}},
+            {"sphflake.asc", {"scene.r"}},
+            {"terra.asc", {"all.g"}},
+            {"toyjeep.asc", {"all"}}};
 }
 
 }  // namespace csgrt::test

@@ -83,7 +83,8 @@ private:
             least = std::min(least, e.t);
             most = std::max(most, e.t);
             const oracle::QVec turn = oracle::cross(oracle::QVec(first->normal), oracle::QVec(e.normal));
-            if (oracle::to_double(oracle::length(turn)) > 1e-13) return false;
+            const bool known = first->normal != Vec3{} && e.normal != Vec3{};
+            if (!known || oracle::to_double(oracle::length(turn)) > 1e-13) return false;
         }
         return most - least <= rounding;
     }
