@@ -16,9 +16,22 @@ Matrix scaling(double by) { return {by, 0, 0, 0, 0, by, 0, 0, 0, 0, by, 0, 0, 0,
 
 Matrix rotation(int w, int x, int y, int z) {
     const double n = w * w + x * x + y * y + z * z;
-    return {(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n,             2 * (x * z + w * y) / n, 0,
-            2 * (x * y + w * z) / n,             (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n, 0,
-            2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n, 0, 0, 0, 0, 1};
+    return {(w * w + x * x - y * y - z * z) / n,
+            2 * (x * y - w * z) / n,
+            2 * (x * z + w * y) / n,
+            0,
+            2 * (x * y + w * z) / n,
+            (w * w - x * x + y * y - z * z) / n,
+            2 * (y * z - w * x) / n,
+            0,
+            2 * (x * z - w * y) / n,
+            2 * (y * z + w * x) / n,
+            (w * w - x * x - y * y + z * z) / n,
+            0,
+            0,
+            0,
+            0,
+            1};
 }
 
 Matrix rotation(Random& random) {

@@ -70,7 +70,8 @@ std::string some_solid(Builder& to);
 /// A tree over the solids, each used once: operators at random, complements only where something bounds them.
 Tree some_tree(const std::vector<std::string>& solids, Random& random);
 
-/// Rays through a ball around the origin: from all sides, along the axes, from inside, with directions of other lengths.
+/// Rays through a ball around the origin: from all sides, along the axes, from inside, with directions of other
+/// lengths.
 void some_rays(Builder& to, double radius, int count);
 
 // The families: each makes one scene.

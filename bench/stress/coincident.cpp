@@ -16,8 +16,7 @@ enum class Frame {
 class Placed {
 public:
     explicit Placed(Builder& to, Frame frame) : to_(to), frame_(frame) {
-        if (frame != Frame::none)
-            matrix_ = translation({0.1, 0.2, 0.3}) * rotation(to.random());
+        if (frame != Frame::none) matrix_ = translation({0.1, 0.2, 0.3}) * rotation(to.random());
     }
 
     Tree add(const Shape& shape) {
@@ -35,8 +34,7 @@ private:
     Vec3 d(const Vec3& v) const { return moved_direction(matrix_, v); }
     Shape moved(const Shape& shape) const {
         if (const auto* s = std::get_if<Ell>(&shape)) return Ell{p(s->v), d(s->a), d(s->b), d(s->c)};
-        if (const auto* s = std::get_if<Tgc>(&shape))
-            return Tgc{p(s->v), d(s->h), d(s->a), d(s->b), d(s->c), d(s->d)};
+        if (const auto* s = std::get_if<Tgc>(&shape)) return Tgc{p(s->v), d(s->h), d(s->a), d(s->b), d(s->c), d(s->d)};
         if (const auto* s = std::get_if<Tor>(&shape)) return Tor{p(s->v), d(s->h), s->r_a, s->r_h};
         if (const auto* s = std::get_if<Part>(&shape)) return Part{p(s->v), d(s->h), s->r_v, s->r_h};
         if (const auto* s = std::get_if<Epa>(&shape)) return Epa{p(s->v), d(s->h), d(s->a), s->r_1, s->r_2};
@@ -57,7 +55,7 @@ private:
 /// A tree over leaves, left to right.
 Tree chain(std::vector<Tree> leaves, Random& random) {
     static constexpr Operator operators[] = {Operator::union_, Operator::difference, Operator::intersection,
-                                             Operator::xor_, Operator::difference, Operator::union_};
+                                             Operator::xor_,   Operator::difference, Operator::union_};
     Tree tree = leaves.front();
     for (std::size_t i = 1; i < leaves.size(); ++i) tree = operate(operators[random.below(6)], {tree, leaves[i]});
     return tree;
@@ -168,23 +166,20 @@ StressScene coincident(std::uint64_t seed) {
             }
             case 2: {  // pieces of one cone, of radius 2 - z / 4
                 const double at_bottom = 2 - bottom / 4, at_top = 2 - top / 4;
-                leaves.push_back(placed.add(Tgc{{0, 0, bottom},
-                                                {0, 0, top - bottom},
-                                                at_bottom * x,
-                                                at_bottom * y,
-                                                at_top * x,
-                                                at_top * y}));
+                leaves.push_back(placed.add(
+                    Tgc{{0, 0, bottom}, {0, 0, top - bottom}, at_bottom * x, at_bottom * y, at_top * x, at_top * y}));
                 break;
             }
             case 3:
                 leaves.push_back(placed.add(Tor{{0, 0, 0}, {0, 0, upward ? 1.0 : -1.0}, 3, 1}));
                 if (random.coin())
-                    leaves.back() = operate(Operator::intersection, {leaves.back(), placed.add(box({-5, -5, bottom},
-                                                                                                   {5, 5, top}))});
+                    leaves.back() = operate(Operator::intersection,
+                                            {leaves.back(), placed.add(box({-5, -5, bottom}, {5, 5, top}))});
                 break;
             case 4:
                 leaves.push_back(placed.add(Part{{0, 0, bottom}, {0, 0, top - bottom}, 2, 2}));
-                if (random.coin()) leaves.push_back(placed.add(Tgc{{0, 0, bottom}, {0, 0, top - bottom}, 2 * x, 2 * y, 2 * x, 2 * y}));
+                if (random.coin())
+                    leaves.push_back(placed.add(Tgc{{0, 0, bottom}, {0, 0, top - bottom}, 2 * x, 2 * y, 2 * x, 2 * y}));
                 break;
             default: {  // pieces of one paraboloid, of radius 3 at 9 below its apex
                 const double down = random.whole(1, 3);

@@ -15,7 +15,7 @@ struct Slab {
 /// Cuts a ray along x through a column into stretches between ends of its slabs; `inside` tells by the middle.
 template <class Inside>
 std::vector<Stretch> stretches(const Ray& ray, const std::vector<Slab>& slabs, std::uint32_t column,
-                              const Inside& inside) {
+                               const Inside& inside) {
     std::vector<double> ends;
     for (const Slab& slab : slabs) {
         if (slab.column != column) continue;

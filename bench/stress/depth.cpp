@@ -10,8 +10,7 @@ namespace {
 Tree all_of(Operator op, const std::vector<std::string>& solids) {
     Tree tree;
     for (const std::string& solid : solids) tree.nodes.push_back({Operator::leaf, 0, solid, identity, {}});
-    if (solids.size() > 1)
-        tree.nodes.push_back({op, static_cast<std::uint32_t>(solids.size()), {}, identity, {}});
+    if (solids.size() > 1) tree.nodes.push_back({op, static_cast<std::uint32_t>(solids.size()), {}, identity, {}});
     return tree;
 }
 
@@ -62,8 +61,7 @@ StressScene depth(std::uint64_t seed) {
                 if (kind == 1) to.region(leaf(name));
             rays_along(to, 0.5 * size, 0.5 * size, rays, [&](const Ray& ray) {
                 std::vector<Stretch> known;
-                for (std::uint32_t k = 0; k < size; ++k)
-                    known.push_back(between(ray, k, k + 0.5, kind == 0 ? 0 : k));
+                for (std::uint32_t k = 0; k < size; ++k) known.push_back(between(ray, k, k + 0.5, kind == 0 ? 0 : k));
                 return known;
             });
             break;
@@ -85,8 +83,10 @@ StressScene depth(std::uint64_t seed) {
                 std::vector<Stretch> known;
                 for (std::uint32_t k = 1; k < balls; k += 2) {
                     const std::uint32_t region = kind == 2 ? 0 : (k - 1) / 2;
-                    known.push_back({static_cast<double>(t_0 + half(k - 1)), static_cast<double>(t_0 + half(k)), region});
-                    known.push_back({static_cast<double>(t_0 - half(k)), static_cast<double>(t_0 - half(k - 1)), region});
+                    known.push_back(
+                        {static_cast<double>(t_0 + half(k - 1)), static_cast<double>(t_0 + half(k)), region});
+                    known.push_back(
+                        {static_cast<double>(t_0 - half(k)), static_cast<double>(t_0 - half(k - 1)), region});
                 }
                 std::sort(known.begin(), known.end(), [&](const Stretch& a, const Stretch& b) {
                     return ray.direction.x > 0 ? a.in < b.in : a.in > b.in;

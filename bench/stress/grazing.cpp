@@ -158,8 +158,8 @@ StressScene edges(std::uint64_t seed) {
         case 1:  // a pyramid
             corners = {block[0], block[1], block[2], block[3], {0, 0, c}};
             lines = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
-            first = arb_of({corners[0], corners[1], corners[2], corners[3], corners[4], corners[4], corners[4],
-                            corners[4]});
+            first = arb_of(
+                {corners[0], corners[1], corners[2], corners[3], corners[4], corners[4], corners[4], corners[4]});
             break;
         case 2:  // a cone with a tip: corners are the tip and four points of the rim
             corners = {{0, 0, c}, {a, 0, -c}, {0, a, -c}, {-a, 0, -c}, {0, -a, -c}};
@@ -204,9 +204,9 @@ StressScene edges(std::uint64_t seed) {
                 to.ray_through(p + off, along, 3);
                 break;
             case 3:  // along a face or a rim: across an edge, in the plane of it and another corner
-                to.ray_through(p + off, moved_point(place, corners[random.below(static_cast<std::uint32_t>(
-                                                               corners.size()))]) +
-                                            0.25 * (q - p) - p,
+                to.ray_through(p + off,
+                               moved_point(place, corners[random.below(static_cast<std::uint32_t>(corners.size()))]) +
+                                   0.25 * (q - p) - p,
                                3);
                 break;
             default:  // from corner to corner

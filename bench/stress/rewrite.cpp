@@ -115,7 +115,8 @@ Scene moved(const Scene& scene, const std::vector<std::string>& objects, const M
     Combination group;
     group.name = "moved";
     for (const std::string& object : objects) group.tree.nodes.push_back({Operator::leaf, 0, object, matrix, {}});
-    if (objects.size() > 1) group.tree.nodes.push_back(node_of(Operator::union_, static_cast<std::uint32_t>(objects.size())));
+    if (objects.size() > 1)
+        group.tree.nodes.push_back(node_of(Operator::union_, static_cast<std::uint32_t>(objects.size())));
     result.objects.push_back(std::move(group));
     result.top = {"moved"};
     return result;

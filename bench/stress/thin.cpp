@@ -27,15 +27,14 @@ StressScene slivers(std::uint64_t seed) {
             break;
         case 1:
             to.region(less({leaf(to.solid(cylinder(d(0, 0, -size), d(0, 0, 2 * size), size))),
-                           leaf(to.solid(cylinder(d(0, 0, -2 * size), d(0, 0, 4 * size), size - thin)))}));
+                            leaf(to.solid(cylinder(d(0, 0, -2 * size), d(0, 0, 4 * size), size - thin)))}));
             break;
         case 2:  // layers, each a region
-            for (int i = 0; i < 4; ++i)
-                to.region(arb(box({-size, -size, i * thin}, {size, size, (i + 1) * thin})));
+            for (int i = 0; i < 4; ++i) to.region(arb(box({-size, -size, i * thin}, {size, size, (i + 1) * thin})));
             break;
         case 3:
             to.region(less({leaf(to.solid(Tor{{}, d(0, 0, 1), size, 0.25 * size})),
-                           leaf(to.solid(Tor{{}, d(0, 0, 1), size, 0.25 * size - 0.25 * thin}))}));
+                            leaf(to.solid(Tor{{}, d(0, 0, 1), size, 0.25 * size - 0.25 * thin}))}));
             break;
         case 4:  // a needle, and a ball that it sticks in
             to.region(arb(box({-thin, -0.5 * thin, -size}, {thin, 0.5 * thin, size})));
@@ -43,16 +42,18 @@ StressScene slivers(std::uint64_t seed) {
             break;
         case 5: {  // a block less one whose top leans against its own
             Arb leaning = box({-2 * size, -2 * size, -2 * size}, {2 * size, 2 * size, 0});
-            for (const std::size_t i : {4u, 5u, 6u, 7u}) leaning.vertices[i].z = leaning.vertices[i].x > 0 ? thin : -thin;
+            for (const std::size_t i : {4u, 5u, 6u, 7u})
+                leaning.vertices[i].z = leaning.vertices[i].x > 0 ? thin : -thin;
             to.region(less({arb(box({-size, -size, -size}, {size, size, 0})), arb(leaning)}));
             break;
         }
         default:  // an eggshell between two ellipsoids
-            to.region(less({leaf(to.solid(Ell{{}, size * d(1, 0, 0), 0.75 * size * d(0, 1, 0), 0.5 * size * d(0, 0, 1)})),
-                           leaf(to.solid(Ell{{},
-                                             (size - thin) * d(1, 0, 0),
-                                             (0.75 * size - thin) * d(0, 1, 0),
-                                             (0.5 * size - thin) * d(0, 0, 1)}))}));
+            to.region(
+                less({leaf(to.solid(Ell{{}, size * d(1, 0, 0), 0.75 * size * d(0, 1, 0), 0.5 * size * d(0, 0, 1)})),
+                      leaf(to.solid(Ell{{},
+                                        (size - thin) * d(1, 0, 0),
+                                        (0.75 * size - thin) * d(0, 1, 0),
+                                        (0.5 * size - thin) * d(0, 0, 1)}))}));
             break;
     }
     for (int i = 0; i < 60; ++i) {

@@ -35,8 +35,10 @@ struct Counts {
     }
 };
 
-inline Settings on_reference() {
+/// `tolerance` in millimetres; negative: the scene's.
+inline Settings on_reference(double tolerance = -1) {
     Settings settings;
+    settings.tolerance = tolerance;
     settings.reference = true;
     settings.threads = 1;
     return settings;
@@ -89,8 +91,7 @@ inline void renumber(std::vector<RayPartitions>& answers, const Renderer& render
     std::vector<std::uint32_t> number;
     for (const RegionInfo& region : renderer.regions()) {
         const std::string name = region.path.substr(region.path.rfind('/') + 1);
-        number.push_back(
-            static_cast<std::uint32_t>(std::find(objects.begin(), objects.end(), name) - objects.begin()));
+        number.push_back(static_cast<std::uint32_t>(std::find(objects.begin(), objects.end(), name) - objects.begin()));
     }
     for (RayPartitions& answer : answers) {
         for (Partition& p : answer.partitions) p.region = number[p.region];
@@ -110,7 +111,7 @@ inline std::vector<RayPartitions> shoot(const Scene& scene, const std::vector<st
     return found;
 }
 
-inline Counts check(const stress::StressScene& made, const Settings& settings = on_reference()) {
+inline Counts check(const stress::StressScene& made, const Settings& settings) {
     Counts counts;
     counts.scenes = 1;
     counts.rays = made.rays.size();
@@ -139,7 +140,8 @@ inline Counts check(const stress::StressScene& made, const Settings& settings = 
     for (std::size_t c = 0; c < changes.size(); ++c) {
         const Changed other = changed(made, c, size, base);
         double other_size = 0;
-        const std::vector<RayPartitions> again = shoot(other.scene, other.objects, made.objects, other.rays, settings, other_size);
+        const std::vector<RayPartitions> again =
+            shoot(other.scene, other.objects, made.objects, other.rays, settings, other_size);
         for (std::size_t i = 0; i < again.size(); ++i) {
             if (expected.ties[i]) continue;
             Sequence sequence = sequence_of(again[i]);

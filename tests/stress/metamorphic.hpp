@@ -15,7 +15,7 @@ struct Change {
     bool to_the_bit;  ///< not a bit may change. (Commuted, another of two equal surfaces may come first.)
 };
 inline constexpr std::array<Change, 10> changes{{
-    {"A-B", true},        // as A and not B
+    {"A-B", true},  // as A and not B
     {"De Morgan", true},
     {"not not", true},
     {"commuted", false},
@@ -56,8 +56,7 @@ inline Changed changed(const stress::StressScene& from, std::size_t change, doub
     const auto by = [&](const Matrix& m) {
         result.scene = stress::moved(from.scene, from.objects, m);
         result.objects = {"moved"};
-        for (Ray& ray : result.rays)
-            ray = {detail::point(m, ray.origin, false), detail::point(m, ray.direction, true)};
+        for (Ray& ray : result.rays) ray = {detail::point(m, ray.origin, false), detail::point(m, ray.direction, true)};
     };
     const double unit = std::ldexp(1.0, std::ilogb(size));
     switch (change) {
@@ -92,7 +91,8 @@ inline Changed changed(const stress::StressScene& from, std::size_t change, doub
             by({0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
             break;
         case 7:  // the quaternion (3, 1, 2, -1) / sqrt 15
-            by({1.0 / 3, 2.0 / 3, 2.0 / 3, 0, -2.0 / 15, 11.0 / 15, -2.0 / 3, 0, -14.0 / 15, 2.0 / 15, 1.0 / 3, 0, 0, 0, 0, 1});
+            by({1.0 / 3, 2.0 / 3, 2.0 / 3, 0, -2.0 / 15, 11.0 / 15, -2.0 / 3, 0, -14.0 / 15, 2.0 / 15, 1.0 / 3, 0, 0, 0,
+                0, 1});
             break;
         case 8:
             by({8, 0, 0, 0, 0, 8, 0, 0, 0, 0, 8, 0, 0, 0, 0, 1});
@@ -111,8 +111,8 @@ inline Sequence turned_around(const Sequence& back, double way) {
     Sequence sequence;
     for (auto item = back.rbegin(); item != back.rend(); ++item)
         sequence.push_back({item->region, way - item->out, way - item->in, item->out_tolerance, item->in_tolerance});
-    const auto ahead = std::find_if(sequence.begin(), sequence.end(),
-                                    [](const Item& i) { return i.out > 0 && i.region != nothing; });
+    const auto ahead =
+        std::find_if(sequence.begin(), sequence.end(), [](const Item& i) { return i.out > 0 && i.region != nothing; });
     sequence.erase(sequence.begin(), ahead);
     return sequence;
 }

@@ -53,8 +53,8 @@ inline Sequence sequence_of(const Truth& truth, bool& tie) {
         if (std::abs(s.in) <= s.in_tolerance || std::abs(s.out) <= s.out_tolerance) tie = true;
         append(sequence, {s.claims.front(), s.in, s.out, s.in_tolerance, s.out_tolerance});
     }
-    const auto ahead = std::find_if(sequence.begin(), sequence.end(),
-                                    [](const Item& i) { return i.out > 0 && i.region != nothing; });
+    const auto ahead =
+        std::find_if(sequence.begin(), sequence.end(), [](const Item& i) { return i.out > 0 && i.region != nothing; });
     sequence.erase(sequence.begin(), ahead);
     return sequence;
 }

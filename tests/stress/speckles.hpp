@@ -52,10 +52,10 @@ inline bool same_pictures(const Image& a, const Image& b) {
 
 /// Slanted, along an axis, and from below; all of what the scene's own box holds, since that of a tree in other words
 /// may be another.
-inline Speckles look(const stress::StressScene& made) {
+inline Speckles look(const stress::StressScene& made, const Settings& settings) {
     Speckles found;
     const TrueScene truth(made.scene, made.objects);
-    Box box = Renderer(made.scene, made.objects, on_reference()).bounds();
+    Box box = Renderer(made.scene, made.objects, settings).bounds();
     if (!std::isfinite(box.high.x - box.low.x)) box = {{-8, -8, -8}, {8, 8, 8}};  // half-spaces in every region
     const auto middle = [](double a, double b) { return 0.5 * (a + b); };
     for (const auto& [azimuth, elevation] : {std::array{35.0, 25.0}, std::array{0.0, 90.0}, std::array{215.0, -40.0}}) {
@@ -63,16 +63,18 @@ inline Speckles look(const stress::StressScene& made) {
         view.width = view.height = picture_size;
         view.camera.azimuth = azimuth;
         view.camera.elevation = elevation;
-        view.camera.center = {middle(box.low.x, box.high.x), middle(box.low.y, box.high.y), middle(box.low.z, box.high.z)};
+        view.camera.center = {middle(box.low.x, box.high.x), middle(box.low.y, box.high.y),
+                              middle(box.low.z, box.high.z)};
         view.camera.view_size = std::hypot(box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z);
-        const Image image = Renderer(made.scene, made.objects, on_reference()).render(view);
+        const Image image = Renderer(made.scene, made.objects, settings).render(view);
         ++found.pictures;
         found.pixels += image.channels.front().size();
 
         const CompiledScene compiled = compile(made.scene, made.objects, {});
         const PreparedFrame prepared = prepare_frame(compiled, view, -1);
         for (const std::size_t at : lone_pixels(image)) {
-            const auto x = static_cast<std::uint32_t>(at % picture_size), y = static_cast<std::uint32_t>(at / picture_size);
+            const auto x = static_cast<std::uint32_t>(at % picture_size),
+                       y = static_cast<std::uint32_t>(at / picture_size);
             const kernel::ray3 r = kernel::camera_ray(&prepared.frame, {x, y, 1});
             const Ray ray{{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
             const Truth one = truth.shoot(ray);
@@ -88,7 +90,7 @@ inline Speckles look(const stress::StressScene& made) {
         for (std::size_t c = 0; c < changes.size(); ++c) {
             if (!changes[c].to_the_bit) continue;
             const Changed other = changed(made, c, 1, {});
-            if (!same_pictures(image, Renderer(other.scene, other.objects, on_reference()).render(view))) ++found.others;
+            if (!same_pictures(image, Renderer(other.scene, other.objects, settings).render(view))) ++found.others;
         }
     }
     return found;
