@@ -8,16 +8,10 @@ __kernel void count_hits(__global const Frame* frame, __global const SolidRecord
                          __global const BvhNode* inner_nodes,
                          __global const BvhNode* nodes, __global const RayRecord* rays, __global RayCount* counts) {
     u32 id = (u32)get_global_id(0);
-    Geometry g;
+    Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
     RayCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
-    g.solids = solids;
-    g.reals = reals;
-    g.planes = planes;
-    g.plane_refs = plane_refs;
-    g.words = words;
-    g.inner_nodes = inner_nodes;
     count.segments = count.words = count.regions = 0;
     if (ray_of(frame, rays, frame->first_ray + id, &r)) {
         walk_state w = walk(frame, g, nodes, r, 0);

@@ -10,15 +10,9 @@ __kernel void store_segments(__global const Frame* frame, __global const SolidRe
                              __global const BvhNode* nodes, __global const RayRecord* rays,
                              __global const RayCount* offsets, __global End* ends) {
     u32 id = (u32)get_global_id(0);
-    Geometry g;
+    Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
     ray3 r;
     if (id >= frame->ray_count) return;
     if (offsets[id].segments == offsets[id + 1].segments) return;
-    g.solids = solids;
-    g.reals = reals;
-    g.planes = planes;
-    g.plane_refs = plane_refs;
-    g.words = words;
-    g.inner_nodes = inner_nodes;
     if (ray_of(frame, rays, frame->first_ray + id, &r)) walk(frame, g, nodes, r, ends + 2 * (size_t)offsets[id].segments);
 }

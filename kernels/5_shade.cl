@@ -25,14 +25,8 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         PartitionNode partition = all_nodes[base + result.first];
         End end = all_ends[base + partition.in_end];
         u32 region = partition.region & ~OVERLAP;
-        Geometry g;
+        Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
         vec3 n;
-        g.solids = solids;
-        g.reals = reals;
-        g.planes = planes;
-        g.plane_refs = plane_refs;
-        g.words = words;
-        g.inner_nodes = inner_nodes;
         n = normal_at(g, solids[end.solid], r, end.t, end.surface);
         if (partition.in_end & 1u) n = scale(n, REAL(-1));
         pixel = hit_pixel(frame, lights, materials[regions[region].material], r, end.t, n);

@@ -69,6 +69,13 @@ void describe_camera(const PreparedFrame& prepared, Image& image) {
     image.matrices["cameraToScreen"] = std::move(camera_to_screen);
 }
 
+/// The tolerance that the settings ask for, in millimetres.
+double tolerance_of(const CompiledScene& scene, const Settings& settings) {
+    if (settings.tolerance_rule == Tolerance::none) return 0;
+    if (settings.tolerance_rule == Tolerance::relative) return relative_tolerance * 2 * scene.radius;
+    return settings.tolerance < 0 ? scene.tolerance : settings.tolerance;
+}
+
 std::string hexadecimal(std::uint64_t value) {
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
@@ -91,6 +98,8 @@ struct Renderer::Impl {
         fresh.device = statistics.device;
         fresh.precision = statistics.precision;
         fresh.method = statistics.method;
+        fresh.quartic = statistics.quartic;
+        fresh.tolerance = statistics.tolerance;
         fresh.ms.compile = statistics.ms.compile;
         fresh.ms.build = statistics.ms.build;
         fresh.rays = rays;
@@ -133,15 +142,17 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
     impl.statistics.ms.compile = milliseconds_since(start);
     impl.statistics.precision = "double";
+    impl.statistics.quartic = name_of(quartic_names, settings.quartic);
+    impl.statistics.tolerance = tolerance_of(impl.scene, settings);
     if (settings.reference) {
         impl.statistics.device = "reference";
         impl.statistics.method = "every solid, unique lists";
-        impl.reference.emplace(impl.scene, settings.threads);
+        impl.reference.emplace(impl.scene, settings.threads, settings.quartic);
         return;
     }
     start = Clock::now();
     impl.device = std::make_unique<Device>(settings.device, settings.max_memory);
-    impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene);
+    impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene, settings);
     impl.statistics.ms.build = milliseconds_since(start);
     impl.statistics.device = impl.device->info().name;
     impl.statistics.method = "five kernels, exact counts";
@@ -154,7 +165,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Image Renderer::render(const View& view) {
     Impl& impl = *impl_;
     const auto start = Clock::now();
-    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.settings.tolerance);
+    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
     impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.width, view.height);
     std::vector<kernel::Pixel> pixels;
     if (impl.reference) {
@@ -177,6 +188,8 @@ Image Renderer::render(const View& view) {
     }
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
+    image.attributes["csgrt:precision"] = impl.statistics.precision;
+    image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " + impl.statistics.quartic;
     image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
     if (!impl.scene.skipped.empty()) {
         std::string& skipped = image.attributes["csgrt:skipped"];
@@ -200,7 +213,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
             throw Error(Status::usage, "ray " + std::to_string(i) + ": needs six finite numbers and a direction other than 0");
     }
     const PreparedFrame prepared =
-        prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.settings.tolerance);
+        prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.statistics.tolerance);
     impl.start_call(rays.size(), 0, 0);
     std::vector<RayPartitions> answers;
     if (impl.reference) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <csgrt/image.hpp>
+#include <csgrt/method.hpp>
 #include <csgrt/scene.hpp>
 
 namespace csgrt {
@@ -26,7 +27,9 @@ struct Settings {
     bool reference = false;       ///< the CPU reference in place of a device
     std::string device;           ///< "", "cpu", "gpu", a number, or part of a name
     std::uint64_t max_memory = 0; ///< bytes of device memory; 0: what the device can give
-    double tolerance = -1;        ///< millimetres; negative: the scene's
+    Quartic quartic = Quartic::bracketed;
+    Tolerance tolerance_rule = Tolerance::length;
+    double tolerance = -1;        ///< millimetres, for Tolerance::length; negative: the scene's
     bool air = false;             ///< keep air regions
     bool skip_unsupported = false;///< leave out solids of types that csgrt does not know; Renderer::skipped() names them
     unsigned threads = 0;         ///< of the reference; 0: all
@@ -77,6 +80,8 @@ struct SolidInfo {
 /// Figures of the last call. Times in milliseconds; those of the five kernels are the device's own.
 struct Statistics {
     std::string device, precision, method;
+    std::string quartic;   ///< as in quartic_names
+    double tolerance = 0;  ///< millimetres
     int width = 0, height = 0;
     std::uint64_t rays = 0, hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
     std::uint64_t device_bytes = 0, segment_bytes = 0, partition_bytes = 0;

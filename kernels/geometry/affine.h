@@ -43,6 +43,15 @@ FN local_ray to_local(GLOBAL const real* p, ray3 r) {
     return l;
 }
 
+// The same with the origin where it is: what the shift is good for shows in the difference.
+FN local_ray to_local_unmoved(GLOBAL const real* p, ray3 r) {
+    local_ray l;
+    l.o = affine_linear(p, make_vec3(r.o.x - p[0], r.o.y - p[1], r.o.z - p[2]));
+    l.d = affine_linear(p, r.d);
+    l.shift = 0;
+    return l;
+}
+
 FN vec3 local_point(local_ray l, real t) { return add_scaled(l.o, t - l.shift, l.d); }
 
 #endif

@@ -9,7 +9,7 @@
 #define CSGRT_ETO_H
 
 #include "affine.h"
-#include "polynomial.h"
+#include "quartic.h"
 
 #define ETO_MARGIN REAL(1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
 
@@ -47,13 +47,16 @@ FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
     return u;
 }
 
-FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
-    local_ray l = to_local(p, r);
+FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
+    GLOBAL const real* p = tables.reals + solid.first_real;
+    u32 method = QUARTIC_OF(tables);
+    local_ray l = quartic_ray(method, p, r);
     real alpha = p[12], beta = p[13], gamma = p[14];
     real height = p[15] * ETO_MARGIN, outer = p[16] * ETO_MARGIN;
     real length = real_sqrt(dot3(l.d, l.d));
     vec3 d = scale(l.d, REAL(1) / length);
-    real reach2 = real_fma(outer, outer, height * height) - dot3(l.o, l.o);
+    real middle = quartic_middle(method, l.o, d);
+    real reach2 = real_fma(outer, outer, height * height) - (dot3(l.o, l.o) - middle * middle);
     span s = whole_line();
     real low, high;
     quartic g;
@@ -61,7 +64,8 @@ FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
     int count, i;
     if (!(reach2 > 0)) return no_hits();
     high = real_sqrt(reach2) * ETO_MARGIN;
-    low = -high;
+    low = middle - high;
+    high = middle + high;
     if (d.z != 0) {
         real z0 = (-height - l.o.z) / d.z, z1 = (height - l.o.z) / d.z;
         low = real_max(low, real_min(z0, z1));
@@ -91,7 +95,7 @@ FN hits eto_intersect(GLOBAL const real* p, ray3 r) {
         g.c[3] = real_fma(a1, s2, a2 * s1) + real_fma(g1, g2, g2 * t1) - real_fma(q1, r2, q2 * r1);
         g.c[4] = real_fma(a2, s2, g2 * g2) - q2 * r2;
     }
-    count = sign_changes(g, low, high, roots);
+    count = quartic_roots(method, g, low, high, roots);
     for (i = 0; i < count; ++i) {
         roots[i] = l.shift + eto_polish(p, l.o, d, roots[i]) / length;
         if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order

@@ -29,7 +29,39 @@ typedef struct {
     GLOBAL const PlaneRef* plane_refs;
     GLOBAL const u32* words;
     GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many parts
+#ifndef __OPENCL_VERSION__
+    u32 quartic;  // the host chooses as it runs; a program for a device has one method, so that it holds no other
+#endif
 } Geometry;
+
+// How quartics are solved; quartic.h.
+#define QUARTIC_BRACKETED 0
+#define QUARTIC_UNSHIFTED 1
+#define QUARTIC_FERRARI 2
+#define QUARTIC_YUKSEL 3
+#ifndef CSGRT_QUARTIC
+#define CSGRT_QUARTIC QUARTIC_BRACKETED
+#endif
+#ifdef __OPENCL_VERSION__
+#define QUARTIC_OF(g) CSGRT_QUARTIC
+#else
+#define QUARTIC_OF(g) (g).quartic
+#endif
+
+FN Geometry make_geometry(GLOBAL const SolidRecord* solids, GLOBAL const real* reals, GLOBAL const PlaneRecord* planes,
+                          GLOBAL const PlaneRef* plane_refs, GLOBAL const u32* words, GLOBAL const BvhNode* inner_nodes) {
+    Geometry g;
+    g.solids = solids;
+    g.reals = reals;
+    g.planes = planes;
+    g.plane_refs = plane_refs;
+    g.words = words;
+    g.inner_nodes = inner_nodes;
+#ifndef __OPENCL_VERSION__
+    g.quartic = CSGRT_QUARTIC;
+#endif
+    return g;
+}
 
 FN hits no_hits(void) {
     hits h;

@@ -36,13 +36,6 @@ typedef struct {
     real b_slope, by_root2, by_root5;  // B', 1 / root^2, 1 / root^5
 } hrt_point;
 
-FN real cube_root(real x) {
-    real c;
-    if (!(x > 0)) return 0;
-    c = exp_2(log_2(x) / REAL(3));
-    return c - (c * c * c - x) / (REAL(3) * c * c);
-}
-
 FN hrt_point hrt_at(hrt_ray l, real u) {
     hrt_point p;
     real from_a = u - l.a_at, from_b = u - l.b_at;

@@ -59,4 +59,12 @@ FN real exp_2(real y) {
 // x^y for x >= 0 and y > 0.
 FN real real_power(real x, real y) { return x > 0 ? exp_2(y * log_2(x)) : REAL(0); }
 
+// 0 for x <= 0.
+FN real cube_root(real x) {
+    real c;
+    if (!(x > 0)) return 0;
+    c = exp_2(log_2(x) / REAL(3));
+    return c - (c * c * c - x) / (REAL(3) * c * c);
+}
+
 #endif

@@ -49,7 +49,7 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
     if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
 #endif
 #if HAS_SOLID(SOLID_ETO)
-    if (solid.type == SOLID_ETO) return eto_intersect(g.reals + solid.first_real, r);
+    if (solid.type == SOLID_ETO) return eto_intersect(g, solid, r);
 #endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) return part_intersect(g.reals + solid.first_real, r);

@@ -10,7 +10,7 @@
 
 #include "affine.h"
 #include "plane.h"
-#include "polynomial.h"
+#include "quartic.h"
 
 #define TGC_SIDE 0
 #define TGC_BASE 1
@@ -52,22 +52,22 @@ FN hits cone_inside(local_ray l, real m0, real m1, span s) {
 }
 
 // Everything lies within radius2, so the quartic is solved on a bounded piece, with u in units of the direction's length.
-FN hits tapered_inside(GLOBAL const real* p, local_ray l, span s) {
+FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     real a0 = real_fma(p[13], l.o.z, p[12]), a1 = p[13] * l.d.z;
     real b0 = real_fma(p[15], l.o.z, p[14]), b1 = p[15] * l.d.z;
     real dd = dot3(l.d, l.d);
-    real reach2 = p[17] - dot3(l.o, l.o);
-    real length, reach;
+    real length = real_sqrt(dd), reach;
+    real middle = quartic_middle(method, l.o, scale(l.d, REAL(1) / length));
+    real reach2 = p[17] - (dot3(l.o, l.o) - middle * middle);
     quartic g;
     real roots[4];
     int count, i, inside;
     if (!(reach2 > 0)) return no_hits();
-    length = real_sqrt(dd);
     reach = REAL(1.0001) * real_sqrt(reach2);
     s.low = (s.low - l.shift) * length;
     s.high = (s.high - l.shift) * length;
-    if (!(s.low > -reach)) s.low = -reach;
-    if (!(s.high < reach)) s.high = reach;
+    if (!(s.low > middle - reach)) s.low = middle - reach;
+    if (!(s.high < middle + reach)) s.high = middle + reach;
     if (!(s.low < s.high)) return no_hits();
     {
         real dx = l.d.x / length, dy = l.d.y / length;
@@ -91,7 +91,7 @@ FN hits tapered_inside(GLOBAL const real* p, local_ray l, span s) {
         g.c[4] = real_fma(x2, x2, y2 * y2) - z2 * z2;
     }
     inside = quartic_at(g, s.low) < 0;
-    count = sign_changes(g, s.low, s.high, roots);
+    count = quartic_roots(method, g, s.low, s.high, roots);
     for (i = 0; i < count; ++i) roots[i] = l.shift + roots[i] / length;
     s.low = l.shift + s.low / length;
     s.high = l.shift + s.high / length;
@@ -106,7 +106,7 @@ FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     if (!(s.low < s.high)) return no_hits();
     l = to_local(p, r);
     if (p[16] == 0) return cone_inside(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z, s);
-    return tapered_inside(p, l, s);
+    return tapered_inside(QUARTIC_OF(g), p, QUARTIC_OF(g) == QUARTIC_UNSHIFTED ? to_local_unmoved(p, r) : l, s);
 }
 
 FN vec3 tgc_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {

@@ -11,7 +11,7 @@
 
 #include "affine.h"
 #include "plane.h"
-#include "polynomial.h"
+#include "quartic.h"
 
 #define TOR_MARGIN REAL(1.000001)  // the piece is a little larger than the torus, so that its ends are outside
 
@@ -47,8 +47,8 @@ FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
     return u;
 }
 
-FN hits tor_pieces(GLOBAL const real* p, ray3 r) {
-    local_ray l = to_local(p, r);
+FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
+    local_ray l = quartic_ray(method, p, r);
     real ratio = p[12];
     real outer = (REAL(1) + ratio) * TOR_MARGIN;
     real tube = ratio * TOR_MARGIN;
@@ -56,7 +56,8 @@ FN hits tor_pieces(GLOBAL const real* p, ray3 r) {
     vec3 d = scale(l.d, REAL(1) / length);
     real beta = dot3(l.o, d);
     real omega = dot3(l.o, l.o);
-    real reach2 = outer * outer - omega;
+    real middle = quartic_middle(method, l.o, d);
+    real reach2 = outer * outer - (omega - middle * middle);
     span s = whole_line();
     real m, low, high;
     quartic g;
@@ -64,7 +65,8 @@ FN hits tor_pieces(GLOBAL const real* p, ray3 r) {
     int count, i;
     if (!(reach2 > 0)) return no_hits();
     high = real_sqrt(reach2) * TOR_MARGIN;
-    low = -high;
+    low = middle - high;
+    high = middle + high;
     if (d.z != 0) {
         real z0 = (-tube - l.o.z) / d.z, z1 = (tube - l.o.z) / d.z;
         low = real_max(low, real_min(z0, z1));
@@ -79,7 +81,7 @@ FN hits tor_pieces(GLOBAL const real* p, ray3 r) {
     g.c[2] = real_fma(REAL(4) * beta, beta, REAL(2) * m) + REAL(4) * d.z * d.z;
     g.c[1] = REAL(4) * real_fma(beta, m, REAL(2) * l.o.z * d.z);
     g.c[0] = real_fma(m, m, REAL(4) * (l.o.z - ratio) * (l.o.z + ratio));
-    count = sign_changes(g, low, high, roots);
+    count = quartic_roots(method, g, low, high, roots);
     for (i = 0; i < count; ++i) {
         roots[i] = l.shift + tor_polish(l.o, d, roots[i], ratio) / length;
         if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
@@ -105,7 +107,7 @@ FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     u32 i;
     for (i = 0; i < solid.plane_count; ++i) s = clip_to_face(s, g, solid.first_plane + i, r, 1 + i);
     if (!(s.low < s.high)) return h;
-    all = tor_pieces(g.reals + solid.first_real, r);
+    all = tor_pieces(QUARTIC_OF(g), g.reals + solid.first_real, r);
     if (solid.plane_count == 0) return all;
     if (all.count > 0) h = append_within(h, s, all.in0, all.in0_surface, all.out0, all.out0_surface);
     if (all.count > 1) h = append_within(h, s, all.in1, all.in1_surface, all.out1, all.out1_surface);

@@ -38,8 +38,22 @@ void define_settings(Options& options, Settings& settings) {
     options.value("--max-memory", "SIZE",
                   "device memory to use, such as 512M or 2G; a frame that needs more is split into tiles",
                   settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
-    options.number("--tolerance", "MM", "ends of segments closer than this are one; the scene's if not given",
-                   settings.tolerance, 0, unlimited, "a length in millimetres, 0 or more");
+    auto parse_tolerance = [&settings](const std::string& text) {
+        auto rule = find_name(tolerance_names, text);
+        auto length = parse_number(text);
+        if (length && *length >= 0) {
+            settings.tolerance = *length;
+            rule = Tolerance::length;
+        }
+        return rule;
+    };
+    options.value("--tolerance", "MM|relative|none",
+                  "ends of segments closer than this are one; relative: than 1e-9 of the scene's size; none: only equal "
+                  "ones; the scene's if not given",
+                  settings.tolerance_rule, parse_tolerance,
+                  "a length in millimetres, 0 or more, 'relative' or 'none'");
+    options.choice("--quartic", "how quartics (tori, ...) are solved; bracketed if not given", settings.quartic,
+                   quartic_names);
 }
 
 void define(Options& options, RenderArguments& arguments) {

@@ -66,6 +66,15 @@ public:
                      "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
     }
 
+    /// One of the names of a table, pairs of name and value.
+    template <class Target, class Names>
+    Option& choice(std::string name, std::string help, Target& target, const Names& names) {
+        std::string type;
+        for (const auto& entry : names) type.append(type.empty() ? "" : "|").append(entry.first);
+        auto read = [&names](const std::string& text) { return find_name(names, text); };
+        return value(std::move(name), type, std::move(help), target, read, "one of " + type);
+    }
+
     Option& text(std::string name, std::string type, std::string help, std::string& target);
 
     /// May be given several times; each value is appended.

@@ -72,7 +72,8 @@ Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
 
 #ifdef CSGRT_HAVE_IMAGE
 /// The command that makes this picture: only what decides its pixels, so that it is the same wherever it was made.
-std::string canonical_command(const Scene& scene, const RenderArguments& arguments, const Camera& camera) {
+std::string canonical_command(const Scene& scene, const RenderArguments& arguments, const Camera& camera,
+                              double tolerance) {
     std::string text = "csgrt " + model_text(scene, arguments) + " --size " + std::to_string(arguments.width) + "x" +
                        std::to_string(arguments.height);
     auto option = [&text](const char* name, double value) {
@@ -82,7 +83,9 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
     option("--azimuth", camera.azimuth);
     option("--elevation", camera.elevation);
     option("--perspective", camera.perspective);
-    option("--tolerance", arguments.settings.tolerance < 0 ? scene.tolerance : arguments.settings.tolerance);
+    option("--tolerance", tolerance);
+    if (arguments.settings.quartic != Quartic::bracketed)
+        text.append(" --quartic ").append(name_of(quartic_names, arguments.settings.quartic));
     if (arguments.settings.air) text += " --air";
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
     if (arguments.first_hit) text += " --first-hit";
@@ -127,7 +130,7 @@ Status run(const RenderArguments& arguments) {
     Statistics statistics = render_frames(scene, arguments, view, image);
     statistics.ms.load = load;
 #ifdef CSGRT_HAVE_IMAGE
-    image.attributes["csgrt:command"] = canonical_command(scene, arguments, view.camera);
+    image.attributes["csgrt:command"] = canonical_command(scene, arguments, view.camera, statistics.tolerance);
     begin = Clock::now();
     for (const std::string& path : arguments.outputs) {
         write_image(image, path, arguments.format.empty() ? "exr" : arguments.format);

@@ -22,7 +22,7 @@ std::string header(const ShootArguments& arguments, const Scene& scene, const Re
                        std::to_string(rays) + " solids " + std::to_string(renderer.solids().size()) + " regions " +
                        std::to_string(renderer.regions().size()) + " useair " + (arguments.settings.air ? "1" : "0") +
                        " tol.dist ";
-    append_shortest(text, arguments.settings.tolerance < 0 ? scene.tolerance : arguments.settings.tolerance);
+    append_shortest(text, renderer.statistics().tolerance);
     text += "\n# box";
     const Box& box = renderer.bounds();
     for (double value : {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z}) {

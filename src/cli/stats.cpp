@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "partition_text.hpp"
+
 namespace csgrt::cli {
 
 namespace {
@@ -44,6 +46,12 @@ std::string milliseconds(double value) {
     return text;
 }
 
+std::string shortest(double value) {
+    std::string text;
+    append_shortest(text, value);
+    return text;
+}
+
 }  // namespace
 
 std::string to_json(const Statistics& s) {
@@ -53,7 +61,8 @@ std::string to_json(const Statistics& s) {
     auto text = [](const char* name, const std::string& value) {
         return std::string("  \"") + name + "\": " + quoted(value) + ",\n";
     };
-    std::string out = "{\n" + text("device", s.device) + text("precision", s.precision) + text("method", s.method);
+    std::string out = "{\n" + text("device", s.device) + text("precision", s.precision) + text("method", s.method) +
+                      text("quartic", s.quartic) + "  \"tolerance\": " + shortest(s.tolerance) + ",\n";
     out += "  \"size\": [" + std::to_string(s.width) + ", " + std::to_string(s.height) + "],\n";
     out += count("rays", s.rays) + count("hits", s.hits) + count("segments", s.segments);
     out += "  \"partitions\": {\"used\": " + std::to_string(s.partitions_used) +

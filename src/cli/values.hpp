@@ -24,6 +24,14 @@ std::optional<std::pair<int, int>> parse_size(std::string_view text);
 /// Bytes: a whole number, with K, M, G or T for powers of 1024; at least 1.
 std::optional<std::uint64_t> parse_memory(std::string_view text);
 
+/// The value that `text` names in a table of pairs.
+template <class Value, std::size_t count>
+std::optional<Value> find_name(const std::pair<std::string_view, Value> (&names)[count], std::string_view text) {
+    for (const auto& [name, value] : names)
+        if (name == text) return value;
+    return std::nullopt;
+}
+
 /// "did you mean 'name'?" for the name that begins with `word` or is nearest to it; empty if none is.
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& names);
 

@@ -6,9 +6,14 @@
 
 namespace csgrt {
 
-inline kernel::Geometry tables(const CompiledScene& scene) {
-    return {scene.solids.data(),     scene.reals.data(), scene.planes.data(),
-            scene.plane_refs.data(), scene.words.data(), scene.inner_nodes.data()};
+inline kernel::Geometry tables(const CompiledScene& scene, Quartic quartic = Quartic::bracketed) {
+    return {scene.solids.data(),
+            scene.reals.data(),
+            scene.planes.data(),
+            scene.plane_refs.data(),
+            scene.words.data(),
+            scene.inner_nodes.data(),
+            static_cast<kernel::u32>(quartic)};
 }
 
 }  // namespace csgrt

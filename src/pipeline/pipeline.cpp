@@ -20,9 +20,10 @@ constexpr std::uint64_t ray_bytes =
     sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + std::max(sizeof(kernel::Pixel), sizeof(kernel::RayRecord)) + 4;
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
 
-std::vector<std::string> defines_of(const CompiledScene& scene) {
+std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
     return {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
-            "CSGRT_TREE_STACK=" + std::to_string(std::max(1u, scene.tree_stack))};
+            "CSGRT_TREE_STACK=" + std::to_string(std::max(1u, scene.tree_stack)),
+            "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
 }
 
 }  // namespace
@@ -45,13 +46,13 @@ struct Pipeline::Tile {
     kernel::RayCount total{};
 };
 
-Pipeline::Pipeline(Device& device, const CompiledScene& scene)
+Pipeline::Pipeline(Device& device, const CompiledScene& scene, const Settings& settings)
     : device_(device),
       scene_(scene),
       buffers_(device, scene),
       program_(device,
                assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
-               defines_of(scene)),
+               defines_of(scene, settings)),
       count_hits_(program_.kernel("count_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
       scan_add_(program_.kernel("scan_add")),

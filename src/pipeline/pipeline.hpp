@@ -33,7 +33,7 @@ struct PipelineCounts {
 class Pipeline {
 public:
     /// Compiles the kernels for what the scene holds, and uploads it. Both must outlive the pipeline.
-    Pipeline(Device& device, const CompiledScene& scene);
+    Pipeline(Device& device, const CompiledScene& scene, const Settings& settings = {});
 
     using Progress = std::function<bool(double)>;
     /// Pixels by row from the top left. Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).

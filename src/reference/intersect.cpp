@@ -12,10 +12,9 @@ kernel::ray3 to_kernel(const Ray& r) {
 }
 
 /// Appends the ends of one solid's segments.
-void append_ends(const CompiledScene& scene, std::uint32_t solid, const kernel::ray3& r, double t_min,
+void append_ends(const kernel::Geometry& g, std::uint32_t solid, const kernel::ray3& r, double t_min,
                  std::vector<kernel::End>& ends) {
-    const kernel::Geometry g = tables(scene);
-    const kernel::SolidRecord& record = scene.solids[solid];
+    const kernel::SolidRecord& record = g.solids[solid];
     const std::uint32_t segments = kernel::collect(g, record, solid, r, t_min, nullptr);
     if (segments == 0) return;
     const std::size_t first = ends.size();
@@ -25,10 +24,11 @@ void append_ends(const CompiledScene& scene, std::uint32_t solid, const kernel::
 
 }  // namespace
 
-std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray) {
+std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray,
+                                          Quartic quartic) {
     const kernel::ray3 r = to_kernel(ray);
     std::vector<kernel::End> ends;
-    append_ends(scene, solid, r, -std::numeric_limits<double>::infinity(), ends);
+    append_ends(tables(scene, quartic), solid, r, -std::numeric_limits<double>::infinity(), ends);
     const auto normal = [&](const kernel::End& end) {
         const kernel::vec3 n = kernel::normal_at(tables(scene), scene.solids[solid], r, end.t, end.surface);
         return Vec3{n.x, n.y, n.z};
@@ -39,10 +39,12 @@ std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint3
     return segments;
 }
 
-void collect_ends(const CompiledScene& scene, const Ray& ray, double t_min, std::vector<kernel::End>& ends) {
+void collect_ends(const CompiledScene& scene, Quartic quartic, const Ray& ray, double t_min,
+                  std::vector<kernel::End>& ends) {
+    const kernel::Geometry g = tables(scene, quartic);
     const kernel::ray3 r = to_kernel(ray);
     ends.clear();
-    for (std::uint32_t solid = 0; solid < scene.solids.size(); ++solid) append_ends(scene, solid, r, t_min, ends);
+    for (std::uint32_t solid = 0; solid < scene.solids.size(); ++solid) append_ends(g, solid, r, t_min, ends);
 }
 
 }  // namespace csgrt

@@ -14,9 +14,11 @@ struct SolidSegment {
 };
 
 /// All segments of one ray in one solid, in order.
-std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray);
+std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray,
+                                          Quartic quartic = Quartic::bracketed);
 
 /// The ends of all segments of one ray, two a segment, by ascending solid; segments that end before `t_min` are left out.
-void collect_ends(const CompiledScene& scene, const Ray& ray, double t_min, std::vector<kernel::End>& ends);
+void collect_ends(const CompiledScene& scene, Quartic quartic, const Ray& ray, double t_min,
+                  std::vector<kernel::End>& ends);
 
 }  // namespace csgrt

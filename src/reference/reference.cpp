@@ -19,8 +19,8 @@ struct Reference::Claims {
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };
 
-Reference::Reference(const CompiledScene& scene, unsigned threads)
-    : scene_(scene), threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())) {
+Reference::Reference(const CompiledScene& scene, unsigned threads, Quartic quartic)
+    : scene_(scene), threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())), quartic_(quartic) {
     regions_of_.resize(scene.solids.size());
     for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
         for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
@@ -58,7 +58,7 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
     claims.first_seen = SIZE_MAX;
-    collect_ends(scene_, ray, frame.t_min, claims.ends);
+    collect_ends(scene_, quartic_, ray, frame.t_min, claims.ends);
     if (claims.ends.empty()) return;
     const kernel::ray3 r{{ray.origin.x, ray.origin.y, ray.origin.z},
                          {ray.direction.x, ray.direction.y, ray.direction.z}};

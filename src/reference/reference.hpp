@@ -16,7 +16,7 @@ struct ReferenceCounts {
 
 class Reference {
 public:
-    Reference(const CompiledScene& scene, unsigned threads);
+    Reference(const CompiledScene& scene, unsigned threads, Quartic quartic = Quartic::bracketed);
 
     /// Pixels by row from the top left. Throws Error (interrupted) if `progress` returns false.
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
@@ -33,6 +33,7 @@ private:
 
     const CompiledScene& scene_;
     unsigned threads_;
+    Quartic quartic_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees here
 };
 

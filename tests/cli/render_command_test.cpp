@@ -38,7 +38,7 @@ TEST_CASE("--stats holds the promised keys in their order") {
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
     const std::vector<std::string> expected = {
-        "device",         "precision", "method",    "size",     "rays",         "hits",          "segments",
+        "device",         "precision", "method",    "quartic",  "tolerance",    "size",     "rays",         "hits",          "segments",
         "partitions",     "used",      "allocated", "overlaps", "device_bytes", "segment_bytes", "partition_bytes",
         "tiles",          "ms",        "load",      "compile",  "build",        "count_hits",    "scan",
         "store_segments", "weave",     "evaluate",  "shade",    "frame",        "write"};

@@ -31,6 +31,13 @@ public:
         moved_ = surface.condition *
                  (precision * surface.radius + margin * ulps * double_epsilon * numbers);  // as in intersect.hpp
         crossings_ = surface.cross_all(o_, d_, moved_);
+        // Through a vertex or an edge even these digits may disagree about one triangle's side: a hair beside they do
+        // not.
+        if (crossings_.all.size() % 2 != 0) {
+            const quad edge_distance = crossings_.edge_distance;
+            crossings_ = surface.cross_all(o_ + quad(1e-3 * moved_) * any_across(d_), d_, moved_);
+            crossings_.edge_distance = smaller(edge_distance, crossings_.edge_distance);
+        }
     }
 
     const MeshCrossings& crossings() const { return crossings_; }

@@ -19,6 +19,7 @@
 
 #include "judge.hpp"
 #include "print.hpp"
+#include "random.hpp"
 #include "solid.hpp"
 
 namespace csgrt::oracle {
@@ -72,6 +73,19 @@ inline ShakenAnswer shake(const ExactSolid& solid, const Ray& ray) {
                     answer.tie || leaps(answer.exact, answer.shaken.back(), quad(1e-3 * solid.radius) / length(d));
             }
     return answer;
+}
+
+/// Fourteen rays may all miss a tip that is sharper than their directions are apart. Where a verdict is in doubt many
+/// more are tried, in random directions, as far as the corners.
+inline void look_again(const ExactSolid& solid, const Ray& ray, Random& random, ShakenAnswer& answer) {
+    const QVec o = ray.origin, d = ray.direction;
+    const double rounding = answer.delta / solid.condition;
+    const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
+    for (int i = 0; i < 400; ++i) {
+        const QVec c = quad(i % 2 == 0 ? 1 : random.unit()) * random.in_cube();
+        answer.shaken.push_back(solid.along(o + solid.frame.direction({c.x * most.x, c.y * most.y, c.z * most.z}), d));
+        answer.tie = answer.tie || leaps(answer.exact, answer.shaken.back(), quad(1e-3 * solid.radius) / length(d));
+    }
 }
 
 namespace detail {

@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "oracle/rays.hpp"
 #include "oracle/shapes.hpp"
+#include "pipeline/scene_of_kind.hpp"
 
 using namespace csgrt;
 
@@ -15,35 +16,6 @@ namespace {
 
 bool same(const Vec3 &a, const Vec3 &b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
-/// One region a solid: every form of the kind, as it is and under a few
-/// matrices.
-Scene scene_of(oracle::Kind kind, std::vector<Ray> &rays) {
-  Scene scene;
-  oracle::Random random(5);
-  Combination all;
-  all.name = "all";
-  for (std::size_t i = 0; i < 30; ++i) {
-    const oracle::Case one = oracle::make_case(kind, i, random);
-    const std::string number = std::to_string(i);
-    scene.objects.push_back(Solid{"s" + number, one.shape, {}});
-    Combination region;
-    region.name = "r" + number;
-    region.region = true;
-    region.tree.nodes.push_back(
-        {Operator::leaf, 0, "s" + number, one.matrix, {}});
-    scene.objects.push_back(region);
-    all.tree.nodes.push_back({Operator::leaf, 0, "r" + number, identity, {}});
-    const oracle::ImplicitSolid solid = oracle::implicit(one.shape, one.matrix);
-    oracle::RayMaker maker(one.shape, solid, random);
-    for (std::size_t k = 0; k < 21; ++k)
-      rays.push_back(
-          maker.make(static_cast<oracle::RayFamily>(k % oracle::ray_families)));
-  }
-  all.tree.nodes.push_back({Operator::union_, 30, "", identity, {}});
-  scene.objects.push_back(all);
-  return scene;
 }
 
 } // namespace
@@ -56,7 +28,7 @@ TEST_CASE("device and reference agree on solids of a closed form",
         Kind::superell, Kind::hrt, Kind::metaball}) {
     INFO(static_cast<int>(kind));
     std::vector<Ray> rays;
-    const Scene scene = scene_of(kind, rays);
+    const Scene scene = test::scene_of(kind, rays);
     Settings settings;
     if (const char *choice = std::getenv("CSGRT_DEVICE"))
       settings.device = choice;

@@ -212,11 +212,8 @@ void check_set(const Set& set, const std::string& rays_name, const Scene& scene,
         const double difference = largest_difference(a, b) / view_size;
         worst = std::max(worst, difference);
         if (difference <= demand.distance) ++nearer;
-        if (difference <= distance) {
-            ++near;
-        } else {
-            asked.insert(i);
-        }
+        if (difference <= distance) ++near;
+        if (difference > demand.distance) asked.insert(i);
     }
     const auto share = [](std::size_t part, std::size_t of) { return of == 0 ? 1.0 : double(part) / double(of); };
     std::string verdict;

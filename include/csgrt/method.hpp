@@ -1,0 +1,47 @@
+// How a scene is computed: choices to be compared with each other. The default of each is the one to use.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+namespace csgrt {
+
+/// How quartics (tor, eto, cones with two tapers) are solved.
+enum class Quartic {
+    bracketed,            ///< origin at the closest approach, roots between those of the derivative
+    bracketed_unshifted,  ///< the same with the origin where the ray's is
+    ferrari,              ///< closed form
+    yuksel,               ///< Yuksel 2022: brackets and Newton, to a stated error
+};
+
+/// Which ends of segments along a ray are one.
+enum class Tolerance {
+    length,    ///< those closer than Settings::tolerance
+    relative,  ///< those closer than relative_tolerance of the scene's size
+    none,      ///< only those that are equal
+};
+/// Of the diameter of a sphere around the scene's bounded solids.
+inline constexpr double relative_tolerance = 1e-9;
+
+/// What the command line and the figures call them.
+inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
+    {"bracketed", Quartic::bracketed},
+    {"bracketed-unshifted", Quartic::bracketed_unshifted},
+    {"ferrari", Quartic::ferrari},
+    {"yuksel", Quartic::yuksel},
+};
+inline constexpr std::pair<std::string_view, Tolerance> tolerance_names[] = {
+    {"relative", Tolerance::relative},
+    {"none", Tolerance::none},
+};
+
+/// "" for what has no name.
+template <class Value, std::size_t count>
+constexpr std::string_view name_of(const std::pair<std::string_view, Value> (&names)[count], Value value) {
+    for (const auto& [name, named] : names)
+        if (named == value) return name;
+    return "";
+}
+
+}  // namespace csgrt

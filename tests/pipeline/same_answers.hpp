@@ -1,0 +1,79 @@
+// Two answers, bit by bit; and what to ask.
+#pragma once
+
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include <csgrt/csgrt.hpp>
+
+#include "catch.hpp"
+
+namespace csgrt::test {
+
+inline void require_same(const Image& a, const Image& b) {
+    REQUIRE(a.names == b.names);
+    for (std::size_t c = 0; c < a.names.size(); ++c) {
+        REQUIRE(a.channels[c].size() == b.channels[c].size());
+        std::size_t different = 0, where = 0;
+        for (std::size_t i = 0; i < a.channels[c].size(); ++i) {
+            if (std::memcmp(&a.channels[c][i], &b.channels[c][i], sizeof(float)) == 0) continue;
+            if (different++ == 0) where = i;
+        }
+        INFO("channel " << a.names[c] << ": first difference at (" << where % static_cast<std::size_t>(a.width) << ", "
+                        << where / static_cast<std::size_t>(a.width) << "): " << a.channels[c][where] << " and "
+                        << b.channels[c][where]);
+        REQUIRE(different == 0);
+    }
+}
+
+inline bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+inline bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
+
+inline void require_same(const std::vector<RayPartitions>& a, const std::vector<RayPartitions>& b) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        INFO("ray " << i);
+        REQUIRE(a[i].partitions.size() == b[i].partitions.size());
+        for (std::size_t k = 0; k < a[i].partitions.size(); ++k) {
+            const Partition &p = a[i].partitions[k], &q = b[i].partitions[k];
+            const bool equal = same(p.in, q.in) && same(p.out, q.out) && same(p.in_normal, q.in_normal) &&
+                               same(p.out_normal, q.out_normal) && p.region == q.region && p.in_solid == q.in_solid &&
+                               p.out_solid == q.out_solid;
+            REQUIRE(equal);
+        }
+        REQUIRE(a[i].overlaps.size() == b[i].overlaps.size());
+        for (std::size_t k = 0; k < a[i].overlaps.size(); ++k) {
+            const Overlap &p = a[i].overlaps[k], &q = b[i].overlaps[k];
+            REQUIRE((same(p.in, q.in) && same(p.out, q.out) && p.regions == q.regions));
+        }
+    }
+}
+
+// Rays from a sphere around the model to points within it, and some from within.
+inline std::vector<Ray> random_rays(const Box& box, int count) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto inside = [&] {
+        return Vec3{box.low.x + unit(random) * (box.high.x - box.low.x), box.low.y + unit(random) * (box.high.y - box.low.y),
+                    box.low.z + unit(random) * (box.high.z - box.low.z)};
+    };
+    std::vector<Ray> rays;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = inside(), b = inside();
+        const Vec3 d{b.x - a.x, b.y - a.y, b.z - a.z};
+        const double back = i % 4 == 0 ? 0 : 10;
+        rays.push_back({{a.x - back * d.x, a.y - back * d.y, a.z - back * d.z}, d});
+    }
+    return rays;
+}
+
+/// The device that CSGRT_DEVICE chooses (as --device does), or the default one.
+inline Settings on_device() {
+    Settings settings;
+    if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
+    return settings;
+}
+
+}  // namespace csgrt::test
