@@ -4,6 +4,7 @@
 #include <set>
 
 #include "catch.hpp"
+#include "pipeline/same_answers.hpp"
 #include "stress/known_failures.hpp"
 
 using namespace csgrt;
@@ -163,6 +164,17 @@ TEST_CASE("a tree of 100,000 nodes, and 10,000 segments on a ray", "[stress]") {
     require_right(stress::make("deep_trees", 27), 99'999, 1);  // combinations in combinations
     require_right(stress::make("depth", 25), 0, 10'000);       // sheets, each its own region
     require_right(stress::make("depth", 28), 0, 10'000);       // a comb, one solid
+}
+
+TEST_CASE("the device and the reference agree on stress scenes", "[.long]") {
+    for (const std::string& family : stress::families())
+        for (const std::uint64_t seed : {1u, 8u, 24u}) {
+            INFO(family << " " << seed);
+            const stress::StressScene made = stress::make(family, seed);
+            Renderer device(made.scene, made.objects, on_device());
+            Renderer reference(made.scene, made.objects, on_reference());
+            require_same(device.shoot(made.rays), reference.shoot(made.rays));
+        }
 }
 
 TEST_CASE("stress scenes are the same everywhere, and differ by family and seed", "[stress]") {
