@@ -17,12 +17,16 @@ enum class Quartic {
 
 /// Which ends of segments along a ray are one.
 enum class Tolerance {
-    length,    ///< those closer than Settings::tolerance
+    length,    ///< those closer than Settings::tolerance; the scene's, by default
+    surfaces,  ///< those on one surface, as found when the scene is compiled, and those that rounding alone sets apart
     relative,  ///< those closer than relative_tolerance of the scene's size
     none,      ///< only those that are equal
 };
 /// Of the diameter of a sphere around the scene's bounded solids.
 inline constexpr double relative_tolerance = 1e-9;
+/// What rounding may set apart where one surface is computed in two ways (a ball and the end of a part), of the same
+/// diameter.
+inline constexpr double rounding_tolerance = 1e-12;
 
 /// What the command line and the figures call them.
 inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
@@ -32,6 +36,7 @@ inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
     {"yuksel", Quartic::yuksel},
 };
 inline constexpr std::pair<std::string_view, Tolerance> tolerance_names[] = {
+    {"surfaces", Tolerance::surfaces},
     {"relative", Tolerance::relative},
     {"none", Tolerance::none},
 };
