@@ -14,13 +14,18 @@
 namespace csgrt::bench {
 namespace {
 
+/// The truth tries every solid on every ray: of a scene with more solids than this the fewer rays are judged.
+constexpr std::size_t plenty = 1000;
+
 /// At least `count` rays: a square grid of pixels' centres of the scene's own view, as `render` shoots it.
 std::vector<Ray> grid(const Scene& scene, const std::vector<std::string>& objects, std::size_t count) {
     View view;
     view.camera = scene.camera;
     view.camera.perspective = 0;
-    view.width = view.height = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
-    const PreparedFrame prepared = prepare_frame(compile(scene, objects), view);
+    const CompiledScene compiled = compile(scene, objects);
+    const double solids = static_cast<double>(std::max(compiled.solids.size(), plenty));
+    view.width = view.height = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count * plenty) / solids)));
+    const PreparedFrame prepared = prepare_frame(compiled, view);
     const kernel::Frame& f = prepared.frame;
     std::vector<Ray> rays;
     for (int y = 0; y < view.height; ++y)
@@ -41,14 +46,23 @@ ChartWorkload from_file(const std::string& name, const std::string& family, cons
     return workload;
 }
 
-/// Scenes of the family from its first seed on until there are enough rays.
+/// Of each scene at most so many rays, spread over its own; of each family at least so many scenes.
+constexpr std::size_t rays_a_scene = 60, least_scenes = 13;
+/// From one seed to the next: families go through their cases by the seed's remainders by 2, 3, 13 and others like
+/// them.
+constexpr std::uint64_t stride = 5;
+
 ChartWorkload from_family(const std::string& family, std::size_t count) {
     ChartWorkload workload{family, "stress", {}};
-    std::size_t rays = 0;
-    for (std::uint64_t seed = 0; rays < count; ++seed) {
-        stress::StressScene made = stress::make(family, seed);
-        rays += made.rays.size();
-        workload.tasks.push_back({std::move(made.scene), std::move(made.objects), std::move(made.rays)});
+    const bool large = family == "deep_trees" || family == "depth";  // 10^5 nodes, 10^4 segments: fewer of them
+    const std::size_t scenes = large ? 4 : std::max(least_scenes, (count + rays_a_scene - 1) / rays_a_scene);
+    const std::size_t each = (count + scenes - 1) / scenes;
+    for (std::size_t i = 0; i < scenes; ++i) {
+        stress::StressScene made = stress::make(family, i * stride);
+        Task task{std::move(made.scene), std::move(made.objects), {}};
+        const std::size_t taken = std::min(each, made.rays.size());
+        for (std::size_t k = 0; k < taken; ++k) task.rays.push_back(made.rays[k * made.rays.size() / taken]);
+        workload.tasks.push_back(std::move(task));
     }
     return workload;
 }
