@@ -35,10 +35,8 @@ struct Counts {
     }
 };
 
-/// `tolerance` in millimetres; negative: the scene's.
-inline Settings on_reference(double tolerance = -1) {
+inline Settings on_reference() {
     Settings settings;
-    settings.tolerance = tolerance;
     settings.reference = true;
     settings.threads = 1;
     return settings;
