@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what csgrt_chart measured: an SVG and a PNG a device, and one HTML page that says what to choose when.
+"""Draws what csgrt_chart measured: an SVG and a PNG a file, named like it, and one HTML page that says what to choose when.
 
     bench/draw_chart.py [-o FOLDER] MEASURED.json...
 
@@ -11,7 +11,6 @@ import html
 import json
 import math
 import os
-import re
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "chart"))
@@ -34,8 +33,8 @@ USE = {
     "single": "pictures, and devices without fast double precision; not for measuring, nor for thin or touching parts",
     "single-world": "nothing: it is here to show what single precision does if coordinates are not taken relative to the eye",
     "bracketed-unshifted": "nothing: without the shift, tori far from the ray's origin lose roots",
-    "ferrari": "nothing that measures: closed form, errors near tangency",
-    "yuksel": "an alternative for tori",
+    "ferrari": "nothing that measures: closed form, roots lost near tangency",
+    "yuksel": "many tori and tapered cones, where the last digit does not matter",
     "tolerance 0.0005 mm": "comparing with BRL-CAD; parts thinner than this vanish",
     "tolerance surfaces": "the default's own rule, also where a file brings a tolerance",
     "tolerance relative": "models with sloppy coincidences; corners closer than 1e-9 of the scene are lost",
@@ -52,7 +51,7 @@ class Measured:
     def __init__(self, path):
         with open(path, encoding="utf-8") as file:
             data = json.load(file)
-        self.path, self.data = path, data
+        self.name, self.data = os.path.splitext(os.path.basename(path))[0], data
         self.device = data["device"]
         self.totals = {t["variant"]: t for t in data["totals"] if t.get("decided")}
         self.variants = list(self.totals)
@@ -64,9 +63,6 @@ class Measured:
         self.front_ulp = front({n: (t["ns_per_ray"], ulps(t)) for n, t in competing.items()})
         self.front = front({n: (t["ns_per_ray"], t["wrong_ppm"], ulps(t)) for n, t in competing.items()})
         self.decided = max(t["decided"] for t in self.totals.values())
-
-    def file_name(self):
-        return re.sub(r"[^A-Za-z0-9.]+", "-", self.device).strip("-").lower() or "device"
 
     def anchors(self):
         """BRL-CAD's times in nanoseconds a ray, over the same models; none if those were not measured."""
@@ -101,9 +97,10 @@ def scatter(axes, measured, value, floor, floor_label, on_front, label):
             continue
         y = max(y, floor)
         drawn.append((x, y, name))
-        axes.scatter(x, y, s=52, zorder=3, label=name, **style(index), edgecolors="white", linewidths=0.6)
+        # The default is drawn larger, below the others: those of the same figures do not hide it.
+        axes.scatter(x, y, s=130 if name == "default" else 46, zorder=3 if name == "default" else 4, label=name, **style(index), edgecolors="white", linewidths=0.6)
         if name in on_front:
-            axes.scatter(x, y, s=170, zorder=2, facecolors="none", edgecolors="black", linewidths=1.1)
+            axes.scatter(x, y, s=260, zorder=2, facecolors="none", edgecolors="black", linewidths=1.1)
     steps = sorted((x, y) for x, y, name in drawn if name in on_front)
     if steps:
         axes.step([x for x, _ in steps], [y for _, y in steps], where="post", color="black", linewidth=0.8, zorder=1)
@@ -152,8 +149,9 @@ def heat_map(axes, measured):
 
 def draw(measured, folder):
     figure = pyplot.figure(figsize=(11, 9.2), layout="constrained")
-    grid = figure.add_gridspec(2, 2, height_ratios=[1.15, 1])
-    left, right, below = (figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, :]))
+    grid = figure.add_gridspec(3, 2, height_ratios=[1.15, 0.1, 1])
+    left, right, names, below = (figure.add_subplot(grid[place]) for place in
+                                 ((0, 0), (0, 1), (1, slice(None)), (2, slice(None))))
     # One wrong ray among all stands at 1e6 / decided; the floor is below it.
     floor = 10 ** math.floor(math.log10(1e6 / measured.decided) - 0.3)
     left_out = scatter(left, measured, lambda t: t["wrong_ppm"], floor, f"none wrong of {measured.decided:,}",
@@ -161,20 +159,21 @@ def draw(measured, folder):
     scatter(right, measured, ulps, 0.01, "0.01 or less", measured.front_ulp,
             "distance error, condition-scaled ulp (99.9 % of ends)")
     heat_map(below, measured)
-    left.legend(fontsize=7, loc="upper left", framealpha=0.9, ncols=2)
+    names.axis("off")
+    names.legend(*left.get_legend_handles_labels(), fontsize=7.5, loc="center", ncol=6, frameon=False, markerscale=0.8)
     words = "; ".join(f"{n}: {measured.timed[n]['ns_per_ray']:,.0f} ns" for n in left_out)
     data = measured.data
     figure.suptitle(
         f"csgrt {data['csgrt']} on {measured.device}: kernels' time over {', '.join(data['timed_workloads'])}\n"
-        f"(geometric mean, {data['size']} x {data['size']}, every partition). Ringed: the Pareto front, "
-        f"times within {100 * NOISE:.0f} % taken as equal." + (f" Off the chart: {words}." if words else ""), fontsize=9)
+        f"(geometric mean, {data['size']} x {data['size']}, every partition). Ringed: each picture's Pareto front, "
+        f"times within {100 * NOISE:.0f} % taken as equal." + (f"\nOff the chart: {words}." if words else ""), fontsize=9)
     for kind in ("svg", "png"):
-        path = os.path.join(folder, f"{measured.file_name()}.{kind}")
+        path = os.path.join(folder, f"{measured.name}.{kind}")
         figure.savefig(path + ".part", format=kind, dpi=100, metadata={"Date": None} if kind == "svg" else None)
         os.replace(path + ".part", path)
         print(path)
     pyplot.close(figure)
-    return os.path.join(folder, measured.file_name() + ".svg")
+    return os.path.join(folder, measured.name + ".svg")
 
 
 def figure_of(value, digits=3):
@@ -212,6 +211,10 @@ def verdict(measured):
     text = (f"The default {said} the Pareto front of time, wrong regions and distance error: {t['wrong']:,} of {t['decided']:,} "
             f"decided rays wrong, {figure_of(ulps(t))} ulp for 99.9 % of the ends.")
     anchors = [f"{html.escape(name)} needs {ns:,.0f} ns a ray" for name, ns in measured.anchors()]
+    def names(chosen):
+        return ", ".join(n for n in measured.variants if n in chosen)
+    text += (f" On the front: {names(measured.front)}; of time and wrong regions alone: {names(measured.front_wrong)}; "
+             f"of time and distance error alone: {names(measured.front_ulp)}.")
     if anchors:
         text += " For first hits alone, over the same models, " + "; ".join(anchors) + "; its accuracy was not measured in this run."
     return text

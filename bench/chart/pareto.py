@@ -7,12 +7,13 @@ NOISE = 0.1
 def dominates(a, b, noise=NOISE):
     """Whether `a` makes `b` pointless. Each is (time, error, error, ...), less is better.
 
-    Nowhere more wrong than b, and faster by more than the noise; or less wrong somewhere, and not slower.
+    Nowhere more wrong than b, and either somewhere less wrong and not slower but by noise, or faster by more than noise.
     """
     if any(x > y for x, y in zip(a[1:], b[1:])):
         return False
-    faster = a[0] < b[0] * (1 - noise)
-    return faster or (a[1:] != b[1:] and a[0] <= b[0])
+    if a[1:] != b[1:]:
+        return a[0] <= b[0] * (1 + noise)
+    return a[0] * (1 + noise) < b[0]
 
 
 def front(points, noise=NOISE):
