@@ -1,7 +1,7 @@
 // csgrt_chart: every variant on every workload, how fast and how exact; one JSON file.
 //
 //   csgrt_chart [--device CHOICE] [--json FILE] [--rays N] [--size N] [--frames N] [--models FOLDER] [--scenes FOLDER]
-//               [--workloads A,B] [--variants A,B]
+//               [--workloads A,B] [--variants A,B] [--device-scenes N]
 //
 // --rays: judged of each workload, about (300). --size, --frames: of the timed pictures (512, 5).
 //
@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -33,6 +34,7 @@ struct Options {
     Sample sample{"../shared/brlcad", "scenes", 300, {}};
     std::vector<std::string> variants;
     int size = 512, frames = 5;
+    std::size_t device_scenes = std::numeric_limits<std::size_t>::max();
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -54,7 +56,9 @@ public:
         settings_ = variant.settings;
         settings_.device = options.device;
         settings_.reference = settings_.reference || (!workload.timed() && variant.on_reference());
-        guard([&] { answer(truth); });
+        const std::size_t all = workload.tasks.size();
+        const bool few = !workload.timed() && !settings_.reference;
+        guard([&] { answer(truth, few ? std::min(all, options.device_scenes) : all); });
     }
 
     /// The next frame, if there are any: kernels and all of it. The first one takes memory and does not count.
@@ -95,8 +99,8 @@ private:
         }
     }
 
-    void answer(const std::vector<std::vector<TrueRay>>& truth) {
-        for (std::size_t i = 0; i < workload_.tasks.size(); ++i) {
+    void answer(const std::vector<std::vector<TrueRay>>& truth, std::size_t tasks) {
+        for (std::size_t i = 0; i < tasks; ++i) {
             const Task& task = workload_.tasks[i];
             auto renderer = std::make_unique<Renderer>(task.scene, task.objects, settings_);
             const std::vector<RayPartitions> found = renderer->shoot(task.rays);
@@ -173,6 +177,8 @@ Options parse(int argc, char** argv) {
             options.size = whole(name, value);
         } else if (name == "--frames") {
             options.frames = whole(name, value);
+        } else if (name == "--device-scenes") {
+            options.device_scenes = static_cast<std::size_t>(whole(name, value));
         } else if (name == "--models") {
             options.sample.models = value;
         } else if (name == "--scenes") {
@@ -186,6 +192,20 @@ Options parse(int argc, char** argv) {
         }
     }
     return options;
+}
+
+/// Those of the names; all if there are none.
+std::vector<Variant> choose(const std::vector<std::string>& names) {
+    if (names.empty()) return variants();
+    std::vector<Variant> chosen;
+    for (const std::string& name : names) {
+        const std::vector<Variant> all = variants();
+        const auto at = std::find_if(all.begin(), all.end(), [&](const Variant& v) { return v.name == name; });
+        if (at == all.end())
+            throw Error(Status::usage, "--variants: there is no " + name + " (bench/chart/variants.hpp)");
+        chosen.push_back(*at);
+    }
+    return chosen;
 }
 
 DeviceInfo device_of(const Options& options) {
@@ -206,12 +226,7 @@ int main(int argc, char** argv) {
     try {
         const auto start = std::chrono::steady_clock::now();
         const Options options = parse(argc, argv);
-        std::vector<Variant> chosen;
-        for (const Variant& variant : variants())
-            if (options.variants.empty() ||
-                std::find(options.variants.begin(), options.variants.end(), variant.name) != options.variants.end())
-                chosen.push_back(variant);
-        if (chosen.empty()) throw Error(Status::usage, "--variants: none of them is known");
+        const std::vector<Variant> chosen = choose(options.variants);
         const DeviceInfo device = device_of(options);
         Report report{device.name,         device.type, version(), options.size, options.frames,
                       options.sample.rays, 0,           {},        anchors()};
