@@ -132,7 +132,7 @@ std::string to_text(const Verification& result, const Renderer& judged) {
     std::stable_sort(ties.begin(), ties.end(), [](const Tie& a, const Tie& b) { return a.rays > b.rays; });
     for (std::size_t i = 0; i < std::min(ties.size(), most_printed); ++i)
         text += "\na tie, as " + counted(ties[i].rays, "ray") + " in all\n" + line_of(ties[i]) +
-                lines_of(ties[i].difference, "moved", judged);
+                lines_of(ties[i].difference, "varied", judged);
     return text;
 }
 
