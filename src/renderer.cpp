@@ -73,7 +73,11 @@ void describe_camera(const PreparedFrame& prepared, Image& image) {
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     if (settings.tolerance_rule == Tolerance::none) return 0;
     if (settings.tolerance_rule == Tolerance::relative) return relative_tolerance(settings.precision) * 2 * scene.radius;
-    return settings.tolerance < 0 ? scene.tolerance : settings.tolerance;
+    if (settings.tolerance_rule == Tolerance::length) {
+        if (settings.tolerance >= 0) return settings.tolerance;
+        if (scene.tolerance > 0) return scene.tolerance;
+    }
+    return rounding_tolerance(settings.precision) * 2 * scene.radius;
 }
 
 std::string hexadecimal(std::uint64_t value) {

@@ -49,11 +49,11 @@ Option& define_settings(Options& options, Settings& settings) {
         }
         return rule;
     };
-    options.value("--tolerance", "MM|relative|none",
-                  "ends of segments closer than this are one; relative: than 1e-9 of the scene's size (1e-6 in "
-                  "single precision); none: only equal ones; the scene's if not given",
+    options.value("--tolerance", "MM|surfaces|relative|none",
+                  "ends of segments closer than this are one; surfaces: those on one surface; relative: closer than 1e-9 of the "
+                  "scene's size (1e-6 in single precision); none: only equal ones; not given: the scene's, or surfaces",
                   settings.tolerance_rule, parse_tolerance,
-                  "a length in millimetres, 0 or more, 'relative' or 'none'");
+                  "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
     options.choice("--precision",
                    "of the geometry; single: relative to the eye; single-world: in the world's coordinates; double if "
                    "not given",

@@ -68,6 +68,7 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
                  const std::vector<Box>& boxes, CompiledScene& compiled) {
     const Box common = common_box(scene, flat, compiled);
     PlaneTable planes(compiled.center, 0.5 * diagonal(common));
+    SurfaceTable surfaces(compiled.center, compiled.radius);
     SharedParts shared;
     for (const std::uint32_t i : order) {
         const Instance& instance = flat.instances[i];
@@ -75,7 +76,7 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
         const Shape& shape = shape_of(scene, flat, instance);
         const bool bounded = is_finite(boxes[i]);
         pack_solid(shape, cuts_of(flat, instance), instance.matrix, bounded ? boxes[i] : common, compiled, planes,
-                   shared);
+                   surfaces, shared);
         compiled.solid_info.push_back({solid.name, type_name(solid.shape), instance.piece});
         compiled.solid_boxes.push_back(boxes[i]);
         compiled.solid_types |= 1u << compiled.solids.back().type;
@@ -165,8 +166,8 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     if (std::vector<Diagnostic> findings = validate(scene, objects, options.skip_unsupported); !findings.empty())
         throw Error(Status::scene, std::move(findings));
 
-    FlatScene flat = flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air,
-                             options.skip_unsupported);
+    FlatScene flat =
+        flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air, options.skip_unsupported);
     CompiledScene compiled;
     compiled.notes = std::move(flat.notes);
     compiled.skipped = std::move(flat.skipped);

@@ -238,7 +238,7 @@ private:
         if (skip_unsupported_ && std::holds_alternative<Unsupported>(solid.shape)) return {};
         if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
         if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
-        const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 1e-9;
+        const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 0.001;
         solids_.push_back(scene_solid(solid.shape, place, skin));
         return {Operator::leaf, {}, solids_.size() - 1};
     }
