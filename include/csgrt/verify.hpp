@@ -58,13 +58,13 @@ struct EndError : NumberedRay {
 
 struct Verification {
     std::uint64_t rays = 0;
-    std::uint64_t hits = 0;             ///< rays that meet a region
+    std::uint64_t hits = 0;  ///< rays that meet a region
     std::uint64_t decided = 0, ties = 0;
     std::uint64_t wrong = 0;            ///< of the decided: other regions on the device or on the reference
     std::uint64_t bit_differences = 0;  ///< rays on which device and reference differ in any bit of their partitions
     std::uint64_t ends = 0;             ///< ends of partitions whose distances were measured
-    /// Ends that were not: they leap by more than 4 shift / cos when the ray moves, where ends closer than the tolerance
-    /// become one, or at an edge.
+    /// Ends that were not: they leap by more than 4 shift / cos when the ray moves, where ends closer than the
+    /// tolerance become one, or at an edge.
     std::uint64_t leaping_ends = 0;
     EndError farthest, worst;  ///< most millimetres, most ulps
 
@@ -80,8 +80,8 @@ struct Verification {
 /// Judges a scene on one device. Not copyable; one thread at a time.
 class CSGRT_API Verifier {
 public:
-    /// As Renderer's. With `settings.reference` the reference alone is judged. Throws what Renderer throws; Error (usage)
-    /// for contraction, which changes bits by intent, and for 113 bits, which would judge themselves.
+    /// As Renderer's. With `settings.reference` the reference alone is judged. Throws what Renderer throws; Error
+    /// (usage) for contraction, which changes bits by intent, and for 113 bits, which would judge themselves.
     explicit Verifier(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
     ~Verifier();
     Verifier(Verifier&&) noexcept;

@@ -65,9 +65,9 @@ std::string lines_of(const RegionDifference& difference, const char* found, cons
 
 std::string error_row(const char* name, const EndError& error, const Renderer& judged) {
     if (!(error.millimetres > 0)) return row(name, "0");
-    std::string text = row(name, brief(error.millimetres) + " mm, " + brief(error.ulps) + " ulp, " +
-                                     brief(error.distance) + " mm along ray " + std::to_string(error.index) + " at " +
-                                     path(judged, error.region));
+    std::string text =
+        row(name, brief(error.millimetres) + " mm, " + brief(error.ulps) + " ulp, " + brief(error.distance) +
+                      " mm along ray " + std::to_string(error.index) + " at " + path(judged, error.region));
     return text + line_of(error);
 }
 
@@ -113,14 +113,13 @@ std::string json_error(const char* name, const EndError& error, const Renderer& 
 }  // namespace
 
 std::string to_text(const Verification& result, const Renderer& judged) {
-    std::string text = row("rays", std::to_string(result.rays)) + row("hits", std::to_string(result.hits)) +
-                       row("decided", std::to_string(result.decided)) + row("ties", std::to_string(result.ties)) +
-                       row("wrong regions", std::to_string(result.wrong)) +
-                       row("bit differences", std::to_string(result.bit_differences)) +
-                       row("distances", std::to_string(result.ends) + ", and " +
-                                            std::to_string(result.leaping_ends) + " that leap") +
-                       error_row("most millimetres", result.farthest, judged) +
-                       error_row("most ulps", result.worst, judged);
+    std::string text =
+        row("rays", std::to_string(result.rays)) + row("hits", std::to_string(result.hits)) +
+        row("decided", std::to_string(result.decided)) + row("ties", std::to_string(result.ties)) +
+        row("wrong regions", std::to_string(result.wrong)) +
+        row("bit differences", std::to_string(result.bit_differences)) +
+        row("distances", std::to_string(result.ends) + ", and " + std::to_string(result.leaping_ends) + " that leap") +
+        error_row("most millimetres", result.farthest, judged) + error_row("most ulps", result.worst, judged);
     for (std::size_t i = 0; i < std::min(result.wrong_rays.size(), most_printed); ++i) {
         const WrongRay& ray = result.wrong_rays[i];
         text += "\nwrong on the " + std::string(where_wrong(ray)) + "\n" + line_of(ray) +
@@ -142,14 +141,10 @@ std::string to_json(const Verification& result, const Renderer& judged) {
                        ",\n  \"quartic\": " + json_text(how.quartic) +
                        ",\n  \"tolerance\": " + json_number(how.tolerance);
     const std::pair<const char*, std::uint64_t> counts[] = {
-        {"rays", result.rays},
-        {"hits", result.hits},
-        {"decided", result.decided},
-        {"ties", result.ties},
-        {"wrong", result.wrong},
-        {"bit_differences", result.bit_differences},
-        {"ends", result.ends},
-        {"leaping_ends", result.leaping_ends},
+        {"rays", result.rays},       {"hits", result.hits},
+        {"decided", result.decided}, {"ties", result.ties},
+        {"wrong", result.wrong},     {"bit_differences", result.bit_differences},
+        {"ends", result.ends},       {"leaping_ends", result.leaping_ends},
     };
     for (const auto& [name, count] : counts) text += std::string(",\n  \"") + name + "\": " + std::to_string(count);
     text += json_error("most_millimetres", result.farthest, judged) + json_error("most_ulps", result.worst, judged);

@@ -25,9 +25,7 @@ double cosine(Vec3 direction, Vec3 normal) {
     return std::abs(product) / length(direction);
 }
 
-double Blur::of(Vec3 normal) const {
-    return std::min(shift / cosine(direction, normal), 2 * std::sqrt(size * shift));
-}
+double Blur::of(Vec3 normal) const { return std::min(shift / cosine(direction, normal), 2 * std::sqrt(size * shift)); }
 
 std::vector<Partition> that_count(const std::vector<Partition>& partitions, const Blur& blur) {
     const double speed = length(blur.direction);

@@ -129,7 +129,8 @@ void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& 
         error.distance = t * speed;
         error.millimetres = off * speed;
         error.region = region;
-        if (off > 0) error.ulps = error.millimetres * slope / (unit_roundoff * (origin + std::abs(error.distance) + size));
+        if (off > 0)
+            error.ulps = error.millimetres * slope / (unit_roundoff * (origin + std::abs(error.distance) + size));
         if (error.millimetres > result.farthest.millimetres) result.farthest = error;
         if (error.ulps > result.worst.ulps) result.worst = error;
     };
@@ -142,8 +143,7 @@ void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& 
 
 Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
     : impl_(std::make_unique<Impl>()) {
-    if (settings.contraction)
-        throw Error(Status::usage, "contraction changes the bits that a verification compares");
+    if (settings.contraction) throw Error(Status::usage, "contraction changes the bits that a verification compares");
     if (settings.precision == Precision::quad)
         throw Error(Status::usage, "113-bit precision is what the others are judged by");
     Impl& impl = *impl_;

@@ -128,7 +128,7 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--quartic bracketed|bracketed-unshifted|ferrari|yuksel", "--contraction on|off", "--air", "--skip-unsupported", "--threads N", "-h, --help"}},
         {"verify",
          {"--rays N|FILE", "--seed N", "--json FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM|relative|none", "--precision double|single|single-world",
+          "--tolerance MM|surfaces|relative|none", "--precision double|single|single-world",
           "--quartic bracketed|bracketed-unshifted|ferrari|yuksel", "--air", "--skip-unsupported", "--threads N",
           "-h, --help"}},
         {"compare", {"--tolerance X", "-h, --help"}},

@@ -105,8 +105,8 @@ TEST_CASE("the same sample gives the same result, as a table and as JSON") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("far.asc", far_ball), json = folder / "result.json";
-    const std::vector<std::string> words = {"verify", scene,         "--reference", "--precision", "single-world",
-                                            "--rays", "100",         "--threads",   "2"};
+    const std::vector<std::string> words = {
+        "verify", scene, "--reference", "--precision", "single-world", "--rays", "100", "--threads", "2"};
     const auto with = [&](std::vector<std::string> more) {
         more.insert(more.begin(), words.begin(), words.end());
         return run(more);

@@ -1,6 +1,7 @@
 // What counts as the same answer, and what as the same bits.
 #include "verify/answers.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "catch.hpp"
@@ -13,9 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 const csgrt::Vec3 along{2, 0, 0}, against{-1, 0, 0}, out{1, 0, 0}, grazing{0, 1, 0};
 const csgrt::Blur blur{along, 0.5, 1e-3, 100};
 
-Partition partition(std::uint32_t region, double from, double to) {
-    return {from, to, against, out, region, 0, 0};
-}
+Partition partition(std::uint32_t region, double from, double to) { return {from, to, against, out, region, 0, 0}; }
 
 }  // namespace
 

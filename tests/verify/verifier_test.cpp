@@ -1,7 +1,10 @@
 // The verifier through the library.
 #include <csgrt/verify.hpp>
 
+#include <cmath>
+
 #include "catch.hpp"
+#include "compile/model.hpp"
 
 using namespace csgrt;
 
@@ -9,7 +12,7 @@ namespace {
 
 Scene ball(Vec3 center) {
     Scene scene;
-    scene.objects.push_back(Solid{"ball.s", Ell{center, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}}, {}});
+    scene.objects.push_back(test::ball("ball.s", center, 10));
     return scene;
 }
 
