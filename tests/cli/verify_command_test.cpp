@@ -10,7 +10,7 @@ namespace {
 constexpr const char* far_ball =
     "title {a ball far away}\n"
     "units mm\n"
-    "put ball.s ell V {10000000 0 0} A {10 0 0} B {0 10 0} C {0 0 10}\n"
+    "put ball.s ell V {70000000.3 -70000000.7 10000000.1} A {10 0 0} B {0 10 0} C {0 0 10}\n"
     "put ball.r comb region yes id 1001 tree {l ball.s}\n";
 
 constexpr const char* ring =

@@ -10,7 +10,7 @@ using csgrt::Partition;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 const csgrt::Vec3 along{2, 0, 0}, against{-1, 0, 0}, out{1, 0, 0}, grazing{0, 1, 0};
 const csgrt::Blur blur{along, 0.5, 1e-3, 100};
 
@@ -37,7 +37,7 @@ TEST_CASE("the flatter a ray meets a surface the farther an end may move, up to 
     CHECK(that_count({sliver}, blur).size() == 1);
     sliver.out_normal = grazing;
     CHECK(that_count({sliver}, blur).empty());
-    sliver.out_normal = {nan, nan, nan};
+    sliver.out_normal = {undefined, undefined, undefined};
     CHECK(that_count({sliver}, blur).size() == 1);
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("every bit of a ray's answer is compared") {
     CHECK(differs([](auto& b) { b.partitions[0].in = -0.0; }));
     CHECK(differs([](auto& b) { b.partitions[0].out = std::nextafter(1.0, 2.0); }));
     CHECK(differs([](auto& b) { b.partitions[0].in_normal.y = -0.0; }));
-    CHECK(differs([](auto& b) { b.partitions[0].out_normal.z = nan; }));
+    CHECK(differs([](auto& b) { b.partitions[0].out_normal.z = undefined; }));
     CHECK(differs([](auto& b) { b.partitions[0].region = 2; }));
     CHECK(differs([](auto& b) { b.partitions[0].in_solid = 2; }));
     CHECK(differs([](auto& b) { b.partitions[0].out_solid = 2; }));
@@ -89,6 +89,6 @@ TEST_CASE("every bit of a ray's answer is compared") {
     CHECK(differs([](auto& b) { b.overlaps[0].in = -0.0; }));
     CHECK(differs([](auto& b) { b.overlaps[0].out = 2; }));
     CHECK(differs([](auto& b) { b.overlaps[0].regions = {1, 3}; }));
-    a.partitions[0].in_normal.x = nan;
+    a.partitions[0].in_normal.x = undefined;
     CHECK(identical(a, a));
 }

@@ -43,7 +43,7 @@ TEST_CASE("a sample is half a view and half random, and the seed decides it") {
 }
 
 TEST_CASE("what is shot in parts adds up") {
-    const Scene scene = ball({1e6, 0, 0});
+    const Scene scene = ball({7e7 + 0.3, -7e7 - 0.7, 1e7});
     Settings settings = on_reference();
     settings.precision = Precision::single_world;
     Verifier whole(scene, {}, settings), parts(scene, {}, settings);
