@@ -57,6 +57,7 @@ struct EndError : NumberedRay {
 };
 
 struct Verification {
+    std::string device;  ///< its name; empty: the reference alone
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;  ///< rays that meet a region
     std::uint64_t decided = 0, ties = 0;

@@ -113,11 +113,12 @@ std::string json_error(const char* name, const EndError& error, const Renderer& 
 }  // namespace
 
 std::string to_text(const Verification& result, const Renderer& judged) {
+    const bool alone = result.device.empty();
     std::string text =
-        row("rays", std::to_string(result.rays)) + row("hits", std::to_string(result.hits)) +
-        row("decided", std::to_string(result.decided)) + row("ties", std::to_string(result.ties)) +
-        row("wrong regions", std::to_string(result.wrong)) +
-        row("bit differences", std::to_string(result.bit_differences)) +
+        row("device", alone ? "none, the reference alone" : result.device) + row("rays", std::to_string(result.rays)) +
+        row("hits", std::to_string(result.hits)) + row("decided", std::to_string(result.decided)) +
+        row("ties", std::to_string(result.ties)) + row("wrong regions", std::to_string(result.wrong)) +
+        row("bit differences", alone ? "not compared" : std::to_string(result.bit_differences)) +
         row("distances", std::to_string(result.ends) + ", and " + std::to_string(result.leaping_ends) + " that leap") +
         error_row("most millimetres", result.farthest, judged) + error_row("most ulps", result.worst, judged);
     for (std::size_t i = 0; i < std::min(result.wrong_rays.size(), most_printed); ++i) {
@@ -137,7 +138,8 @@ std::string to_text(const Verification& result, const Renderer& judged) {
 
 std::string to_json(const Verification& result, const Renderer& judged) {
     const Statistics& how = judged.statistics();
-    std::string text = "{\n  \"precision\": " + json_text(how.precision) +
+    std::string text = "{\n  \"device\": " + (result.device.empty() ? "null" : json_text(result.device)) +
+                       ",\n  \"precision\": " + json_text(how.precision) +
                        ",\n  \"quartic\": " + json_text(how.quartic) +
                        ",\n  \"tolerance\": " + json_number(how.tolerance);
     const std::pair<const char*, std::uint64_t> counts[] = {

@@ -150,7 +150,10 @@ Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, 
     impl.settings = settings;
     Settings own = settings;
     own.progress = [&impl](double fraction) { return impl.report(fraction); };
-    if (!settings.reference) impl.device.emplace(scene, objects, own);
+    if (!settings.reference) {
+        impl.device.emplace(scene, objects, own);
+        impl.result.device = impl.device->statistics().device;
+    }
     impl.reference.emplace(scene, objects, on_reference(own));
     const double tolerance = impl.reference->statistics().tolerance;
     impl.judge.emplace(scene, objects, exact(own, tolerance));
