@@ -244,6 +244,16 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     return answers;
 }
 
+std::vector<Ray> Renderer::rays_of(const View& view) const {
+    const PreparedFrame prepared = prepare_frame(impl_->scene, view, impl_->statistics.tolerance);
+    std::vector<Ray> rays;
+    rays.reserve(std::size_t{prepared.frame.width} * prepared.frame.height);
+    for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
+        for (std::uint32_t x = 0; x < prepared.frame.width; ++x)
+            rays.push_back(impl_->kernels->camera_ray(prepared.frame, x, y));
+    return rays;
+}
+
 const Box& Renderer::bounds() const { return impl_->scene.bounds; }
 const std::vector<RegionInfo>& Renderer::regions() const { return impl_->scene.region_info; }
 const std::vector<SolidInfo>& Renderer::solids() const { return impl_->scene.solid_info; }

@@ -68,7 +68,9 @@ TEST_CASE("tori of one centre, plane and radii are one", "[compile]") {
 TEST_CASE("what shares a side leaves no skin, with no tolerance at all", "[compile]") {
     const Vec3 p{3, -1, 2}, d{1, 2, 2};
     Scene scene = scene_of({frustum(p, d, 0, 10, 2, 2), frustum(p, d, -1, 11, 2, 2), frustum(p, d, 2, 3, 2, 2)});
-    Combination nothing{.name = "nothing"}, ring{.name = "ring"};
+    Combination nothing, ring;
+    nothing.name = "nothing";
+    ring.name = "ring";
     const auto leaf = [](const char* name) { return TreeNode{Operator::leaf, 0, name, identity, {}}; };
     nothing.region = ring.region = true;
     nothing.tree.nodes = {leaf("s0"), leaf("s1"), {Operator::difference, 2, {}, identity, {}}};
