@@ -242,7 +242,8 @@ the 113-bit build of the reference. A ray is decided if its regions stay the sam
 to four sides, and when the tolerance for rounding is four times as large; the others are ties. Rays where a file's own tolerance
 makes other regions than its numbers do are counted apart (<code>rule</code>). Wrong: another sequence of regions and gaps. A
 distance's error is given in units of how far that end moves when the ray moves by one unit in the last place: about 1 or less cannot be
-done better in double precision. Formulas and compiled scenes are shared with what is judged; that they are right is the oracle's to say
+done better in double precision. Formulas and compiled scenes are shared with what is judged, so what compiling a scene loses (some very thin plates) does not show; that
+they are right is the oracle's to say
 (<code>tests/oracle</code>, <code>tests/stress</code>). Times are the kernels' own (device events), medians of warm frames, the methods in
 turn; of the two that run on the CPU, the clock's. Methods that do the same work differ by the machine's noise.</p>
 """
