@@ -75,7 +75,7 @@ inline Speckles look(const stress::StressScene& made, const Settings& settings) 
         for (const std::size_t at : lone_pixels(image)) {
             const auto x = static_cast<std::uint32_t>(at % picture_size),
                        y = static_cast<std::uint32_t>(at / picture_size);
-            const kernel::ray3 r = kernel::camera_ray(&prepared.frame, {x, y, 1});
+            const kernel::world_ray r = kernel::camera_ray(&prepared.frame, {x, y, 1});
             const Ray ray{{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
             const Truth one = truth.shoot(ray);
             bool tie = one.tie;
