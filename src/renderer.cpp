@@ -73,7 +73,11 @@ void describe_camera(const PreparedFrame& prepared, Image& image) {
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     if (settings.tolerance_rule == Tolerance::none) return 0;
     if (settings.tolerance_rule == Tolerance::relative) return relative_tolerance(settings.precision) * 2 * scene.radius;
-    return settings.tolerance < 0 ? scene.tolerance : settings.tolerance;
+    if (settings.tolerance_rule == Tolerance::length) {
+        if (settings.tolerance >= 0) return settings.tolerance;
+        if (scene.tolerance > 0) return scene.tolerance;
+    }
+    return rounding_tolerance(settings.precision) * 2 * scene.radius;
 }
 
 std::string hexadecimal(std::uint64_t value) {
@@ -238,6 +242,16 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     }
     impl.statistics.ms.frame = milliseconds_since(start);
     return answers;
+}
+
+std::vector<Ray> Renderer::rays_of(const View& view) const {
+    const PreparedFrame prepared = prepare_frame(impl_->scene, view, impl_->statistics.tolerance);
+    std::vector<Ray> rays;
+    rays.reserve(std::size_t{prepared.frame.width} * prepared.frame.height);
+    for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
+        for (std::uint32_t x = 0; x < prepared.frame.width; ++x)
+            rays.push_back(impl_->kernels->camera_ray(prepared.frame, x, y));
+    return rays;
 }
 
 const Box& Renderer::bounds() const { return impl_->scene.bounds; }

@@ -14,6 +14,7 @@ set(may_compile ${below_compile})
 set(may_device ${below_compile})
 set(may_scene formats)  # one floor with formats: a finding quotes the line of the file
 set(may_formats scene)
+set(may_verify "")  # all it needs is public
 set(may_image "")
 
 set(where_CL device pipeline)

@@ -17,3 +17,4 @@
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>
 #include <csgrt/scene_io.hpp>
+#include <csgrt/verify.hpp>

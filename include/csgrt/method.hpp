@@ -25,13 +25,19 @@ enum class Quartic {
 
 /// Which ends of segments along a ray are one.
 enum class Tolerance {
-    length,    ///< those closer than Settings::tolerance
+    length,    ///< those closer than Settings::tolerance; the scene's, by default
+    surfaces,  ///< those on one surface, as found when the scene is compiled, and those that rounding alone sets apart
     relative,  ///< those closer than a share of the scene's size
     none,      ///< only those that are equal
 };
 /// For Tolerance::relative: of the diameter of a sphere around the scene's bounded solids.
 constexpr double relative_tolerance(Precision precision) {
     return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-9;
+}
+/// What rounding may set apart where one surface is computed in two ways (a ball and the end of a part), of the same
+/// diameter.
+constexpr double rounding_tolerance(Precision precision) {
+    return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-12;
 }
 
 /// What the command line and the figures call them.
@@ -47,6 +53,7 @@ inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
     {"yuksel", Quartic::yuksel},
 };
 inline constexpr std::pair<std::string_view, Tolerance> tolerance_names[] = {
+    {"surfaces", Tolerance::surfaces},
     {"relative", Tolerance::relative},
     {"none", Tolerance::none},
 };

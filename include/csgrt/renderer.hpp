@@ -108,7 +108,10 @@ public:
     Image render(const View& view);
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
-    const Box& bounds() const;  ///< of the model: its regions' boxes
+    /// The rays of a picture, by row from the top left.
+    std::vector<Ray> rays_of(const View& view) const;
+
+    const Box& bounds() const;  ///< of the model: its regions' boxes; low > high if none is bounded
     const std::vector<RegionInfo>& regions() const;
     const std::vector<SolidInfo>& solids() const;
     const Statistics& statistics() const;

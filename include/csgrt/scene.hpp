@@ -93,7 +93,9 @@ struct Scene {
     std::vector<Light> lights;    ///< empty: one light by the eye
     double ambient = 0.4;         ///< intensity of the ambient light from the eye
     Vec3 background{0, 0, 0};
-    double tolerance = 0.0005;    ///< ends of segments closer than this along a ray are one, millimetres
+    /// Ends of segments closer than this along a ray are one, millimetres. 0: those of one surface, see Tolerance::surfaces;
+    /// BRL-CAD's files have its 0.0005.
+    double tolerance = 0;
     std::vector<Object> objects;  ///< in the order of the file
     std::vector<std::string> top; ///< what to render when nothing is named; empty: every object that no other uses
     std::vector<RegionColor> region_colors;

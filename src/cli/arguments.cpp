@@ -13,6 +13,7 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", false}};
+constexpr std::uint64_t most_sampled = 10'000'000;  ///< rays are kept in memory; a file may hold more
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail(std::string message, std::string suggestion) {
@@ -27,7 +28,8 @@ void define_scene(Options& options, SceneArguments& arguments) {
                  arguments.settings.skip_unsupported);
 }
 
-void define_settings(Options& options, Settings& settings) {
+/// Returns the option of the reference's threads.
+Option& define_settings(Options& options, Settings& settings) {
     auto& device =
         options.text("--device", "NAME|cpu|gpu|N",
                      "OpenCL device: part of its name, its type, or its number in 'csgrt devices'", settings.device);
@@ -35,7 +37,6 @@ void define_settings(Options& options, Settings& settings) {
     options.flag("--reference", "compute with the CPU reference in place of an OpenCL device", settings.reference);
     auto& threads =
         options.count("--threads", "threads of the reference; all cores if not given", settings.threads, 1, 4096);
-    threads.needs = "--reference";
     options.value("--max-memory", "SIZE",
                   "device memory to use, such as 512M or 2G; a frame that needs more is split into tiles",
                   settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
@@ -48,17 +49,23 @@ void define_settings(Options& options, Settings& settings) {
         }
         return rule;
     };
-    options.value("--tolerance", "MM|relative|none",
-                  "ends of segments closer than this are one; relative: than 1e-9 of the scene's size (1e-6 in "
-                  "single precision); none: only equal ones; the scene's if not given",
+    options.value("--tolerance", "MM|surfaces|relative|none",
+                  "ends of segments closer than this are one; surfaces: those on one surface; relative: closer than 1e-9 of the "
+                  "scene's size (1e-6 in single precision); none: only equal ones; not given: the scene's, or surfaces",
                   settings.tolerance_rule, parse_tolerance,
-                  "a length in millimetres, 0 or more, 'relative' or 'none'");
+                  "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
     options.choice("--precision",
                    "of the geometry; single: relative to the eye; single-world: in the world's coordinates; double if "
                    "not given",
                    settings.precision, precision_names);
     options.choice("--quartic", "how quartics (tori, ...) are solved; bracketed if not given", settings.quartic,
                    quartic_names);
+    return threads;
+}
+
+/// Of commands that compute either on a device or on the reference.
+void define_either(Options& options, Settings& settings) {
+    define_settings(options, settings).needs = "--reference";
     auto& contraction = options.choice(
         "--contraction", "whether the device may round a product and a sum as one; results then differ; off if not given",
         settings.contraction, on_off);
@@ -93,7 +100,7 @@ void define(Options& options, RenderArguments& arguments) {
                    arguments.perspective, 0, 180, "an angle in degrees, from 0 to less than 180");
     options.flag("--first-hit", "stop each ray at its first hit; overlaps behind it are not counted",
                  arguments.first_hit);
-    define_settings(options, arguments.settings);
+    define_either(options, arguments.settings);
     options.text("--stats", "FILE", "write the figures of the frame as JSON; - is standard output", arguments.stats);
     options.count("--repeat", "render N frames; the figures are medians without the first", arguments.repeat, 1,
                   1'000'000);
@@ -108,6 +115,26 @@ void define(Options& options, ShootArguments& arguments) {
     auto& output = options.text("--output", "FILE", "where to write the partitions; standard output if not given",
                                 arguments.output);
     output.letter = 'o';
+    define_either(options, arguments.settings);
+}
+
+void define(Options& options, VerifyArguments& arguments) {
+    define_scene(options, arguments);
+    auto parse_rays = [&arguments](const std::string& text) {
+        auto number = parse_count(text);
+        if (!number) return text.empty() ? std::nullopt : std::optional(text);
+        arguments.count = static_cast<std::size_t>(*number);
+        return *number >= 1 && *number <= most_sampled ? std::optional(std::string()) : std::nullopt;
+    };
+    options.value("--rays", "N|FILE",
+                  "how many rays to sample, half of them a view's, half random ones; or rays as 'csgrt shoot' reads "
+                  "them; 10000 if not given",
+                  arguments.rays, parse_rays,
+                  "a number of rays from 1 to " + std::to_string(most_sampled) + ", or a file");
+    options.count("--seed", "of the random rays; 1 if not given", arguments.seed, 0,
+                  std::numeric_limits<std::uint64_t>::max());
+    options.text("--json", "FILE", "write the result as JSON; - is standard output, in place of the table",
+                 arguments.json);
     define_settings(options, arguments.settings);
 }
 
@@ -171,6 +198,7 @@ constexpr Entry entry(const char* name, const char* synopsis, const char* purpos
 constexpr Entry entries[] = {
     entry<RenderArguments>("", "SCENE [OBJECT...] -o FILE.exr|FILE.png", "render a scene"),
     entry<ShootArguments>("shoot", "SCENE [OBJECT...] --rays FILE", "the partitions along given rays"),
+    entry<VerifyArguments>("verify", "SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones"),
     entry<CompareArguments>("compare", "A B", "compare two pictures, or two files of partitions"),
     entry<DevicesArguments>("devices", "", "list the OpenCL devices"),
     entry<InfoArguments>("info", "SCENE [OBJECT...]", "what a scene holds"),
@@ -210,7 +238,7 @@ std::string overview() {
 
 constexpr const char* exit_status =
     "\nExit status: 0 done, 2 usage, 3 scene, 4 no device, 5 out of memory, 6 file, 7 device fault,\n"
-    "8 a comparison differs, 130 interrupted.\n";
+    "8 a comparison or verification differs, 130 interrupted.\n";
 
 }  // namespace
 

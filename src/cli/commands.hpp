@@ -35,6 +35,13 @@ struct ShootArguments : SceneArguments {
     std::string output = "-";  ///< file or "-"
 };
 
+struct VerifyArguments : SceneArguments {
+    std::size_t count = 10'000;  ///< rays to sample
+    std::string rays;            ///< file or "-"; empty: a sample
+    std::uint64_t seed = 1;
+    std::string json;  ///< file, "-" or empty
+};
+
 struct CompareArguments {
     std::string first, second;
     std::optional<double> tolerance;  ///< absent: bit by bit
@@ -55,12 +62,13 @@ struct TextArguments {
     std::string text;
 };
 
-using Command = std::variant<RenderArguments, ShootArguments, CompareArguments, DevicesArguments, InfoArguments,
-                             ConvertArguments, TextArguments>;
+using Command = std::variant<RenderArguments, ShootArguments, VerifyArguments, CompareArguments, DevicesArguments,
+                             InfoArguments, ConvertArguments, TextArguments>;
 
-// Each returns Status::ok, or Status::differs where it compares; everything else that goes wrong is thrown as Error.
+// Each returns Status::ok, or Status::differs where it compares or judges; everything else that goes wrong is thrown as Error.
 Status run(const RenderArguments& arguments);
 Status run(const ShootArguments& arguments);
+Status run(const VerifyArguments& arguments);
 Status run(const CompareArguments& arguments);
 Status run(const DevicesArguments& arguments);
 Status run(const InfoArguments& arguments);

@@ -23,7 +23,21 @@ constexpr std::pair<const char*, double Times::*> times[] = {
     {"write", &Times::write},
 };
 
-std::string quoted(const std::string& text) {
+std::string milliseconds(double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.4f", std::isfinite(value) ? value : 0.0);  // JSON has no infinity
+    return text;
+}
+
+std::string shortest(double value) {
+    std::string text;
+    append_shortest(text, value);
+    return text;
+}
+
+}  // namespace
+
+std::string json_text(std::string_view text) {
     std::string out = "\"";
     for (char c : text) {
         if (c == '"' || c == '\\') {
@@ -40,26 +54,12 @@ std::string quoted(const std::string& text) {
     return out + '"';
 }
 
-std::string milliseconds(double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.4f", std::isfinite(value) ? value : 0.0);  // JSON has no infinity
-    return text;
-}
-
-std::string shortest(double value) {
-    std::string text;
-    append_shortest(text, value);
-    return text;
-}
-
-}  // namespace
-
 std::string to_json(const Statistics& s) {
     auto count = [](const char* name, std::uint64_t value) {
         return std::string("  \"") + name + "\": " + std::to_string(value) + ",\n";
     };
     auto text = [](const char* name, const std::string& value) {
-        return std::string("  \"") + name + "\": " + quoted(value) + ",\n";
+        return std::string("  \"") + name + "\": " + json_text(value) + ",\n";
     };
     std::string out = "{\n" + text("device", s.device) + text("precision", s.precision) + text("method", s.method) +
                       text("quartic", s.quartic) + "  \"tolerance\": " + shortest(s.tolerance) +

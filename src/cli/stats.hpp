@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <csgrt/renderer.hpp>
 
 namespace csgrt::cli {
+
+/// Text between quotes, as JSON has it.
+std::string json_text(std::string_view text);
 
 /// One JSON object, with a line break after it.
 std::string to_json(const Statistics& statistics);

@@ -153,24 +153,40 @@ Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane
 }
 
 Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {
-    std::vector<Box> stack;
+    // Of the set and of its complement, so that a set has one box however its tree is written.
+    struct Both {
+        Box inside, outside;
+    };
+    const auto both_in = [](const Box& a, const Box& b) {
+        const Box box = intersected(a, b);
+        return is_empty(box) ? empty_box : box;
+    };
+    std::vector<Both> stack;
     for (const FlatTree::Node& node : tree.nodes) {
         if (node.op == Operator::leaf) {
-            stack.push_back(boxes[node.solid]);
+            stack.push_back({boxes[node.solid], whole_space});
             continue;
         }
         const std::size_t first = stack.size() - node.arity;
-        Box box = stack[first];
+        Both box = stack[first];
         for (std::size_t i = first + 1; i < stack.size(); ++i) {
-            if (node.op == Operator::union_ || node.op == Operator::xor_) box = united(box, stack[i]);
-            if (node.op == Operator::intersection) box = intersected(box, stack[i]);
+            const Both& next = stack[i];
+            if (node.op == Operator::union_) {
+                box = {united(box.inside, next.inside), both_in(box.outside, next.outside)};
+            } else if (node.op == Operator::intersection) {
+                box = {both_in(box.inside, next.inside), united(box.outside, next.outside)};
+            } else if (node.op == Operator::difference) {
+                box = {both_in(box.inside, next.outside), united(box.outside, next.inside)};
+            } else if (node.op == Operator::xor_) {
+                box = {united(both_in(box.inside, next.outside), both_in(box.outside, next.inside)),
+                       united(both_in(box.inside, next.inside), both_in(box.outside, next.outside))};
+            }
         }
-        if (is_empty(box)) box = empty_box;
-        if (node.op == Operator::not_) box = whole_space;
+        if (node.op == Operator::not_) std::swap(box.inside, box.outside);
         stack.resize(first);
         stack.push_back(box);
     }
-    return stack.empty() ? empty_box : stack.back();
+    return stack.empty() ? empty_box : stack.back().inside;
 }
 
 }  // namespace csgrt

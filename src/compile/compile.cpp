@@ -68,6 +68,7 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
                  const std::vector<Box>& boxes, CompiledScene& compiled) {
     const Box common = common_box(scene, flat, compiled);
     PlaneTable planes(compiled.center, 0.5 * diagonal(common));
+    SurfaceTable surfaces(compiled.center, compiled.radius);
     SharedParts shared;
     for (const std::uint32_t i : order) {
         const Instance& instance = flat.instances[i];
@@ -75,7 +76,7 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
         const Shape& shape = shape_of(scene, flat, instance);
         const bool bounded = is_finite(boxes[i]);
         pack_solid(shape, cuts_of(flat, instance), instance.matrix, bounded ? boxes[i] : common, compiled, planes,
-                   shared);
+                   surfaces, shared);
         compiled.solid_info.push_back({solid.name, type_name(solid.shape), instance.piece});
         compiled.solid_boxes.push_back(boxes[i]);
         compiled.solid_types |= 1u << compiled.solids.back().type;

@@ -53,7 +53,7 @@ struct CompiledScene {
     std::uint32_t instances = 0;    ///< leaves over all trees
     std::uint32_t tree_stack = 0;   ///< the deepest stack that any walk needs, <= TREE_STACK
     std::vector<double> background{0, 0, 0};
-    double ambient = 0.4, tolerance = 0.0005;
+    double ambient = 0.4, tolerance = 0;
     std::uint64_t hash = 0;          ///< FNV-1a over everything that crosses the bus: the same scene, the same number
     std::vector<std::string> skipped;       ///< solids of unknown types: name, type, user
     std::vector<std::string> notes;  ///< worth telling: objects without solids, air regions left out, ...

@@ -79,7 +79,7 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
 
 /// How thick a surface without thickness is seen, millimetres: a weaver that takes ends within the tolerance for one
 /// still keeps it.
-double skin_of(double tolerance) { return tolerance > 0 ? 2 * tolerance : 1e-9; }
+double skin_of(double tolerance) { return tolerance > 0 ? 2 * tolerance : 0.001; }
 
 /// Where the words of a solid are; `add` makes them if it has none yet.
 template <class Add>

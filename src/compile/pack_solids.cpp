@@ -37,7 +37,8 @@ Taper taper(const Vec3& base, const Vec3& top) {
 
 void Packer::frame(const Wide& center, const WideMatrix& axes) {
     const Wide c = transform_point(matrix, center);
-    const WideMatrix inverse = glm::inverse(linear_part(matrix) * axes);
+    axes_in_world = linear_part(matrix) * axes;
+    const WideMatrix inverse = glm::inverse(axes_in_world);
     for (int i = 0; i < 3; ++i) real(c[i]);
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column) real(inverse[column][row]);
@@ -135,11 +136,13 @@ void Packer::operator()(const Unsupported& s) {
 }
 
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
-                CompiledScene& scene, PlaneTable& planes, SharedParts& shared) {
-    Packer packer{matrix, box, scene, planes, shared};
+                CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared) {
+    Packer packer{matrix, box, scene, planes, surfaces, shared};
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
     packer.record.first_plane = static_cast<std::uint32_t>(scene.plane_refs.size());
     std::visit(packer, shape);
+    if (packer.record.type == SOLID_ELL || packer.record.type == SOLID_TGC || packer.record.type == SOLID_TOR)
+        surfaces.share(packer.record, packer.axes_in_world, box, scene);
     for (const Plane& cut : cuts) packer.face(transform_plane(matrix, cut));
     if (scene.reals.size() > 0xffffffffu || scene.plane_refs.size() > 0xffffffffu || scene.words.size() > 0xffffffffu)
         throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");

@@ -7,6 +7,7 @@
 
 #include "compile/compiled_scene.hpp"
 #include "compile/planes.hpp"
+#include "compile/surfaces.hpp"
 
 namespace csgrt {
 
@@ -18,6 +19,6 @@ using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 /// solid's own, or the scene's if it is not bounded. Its regions are not filled in.
 /// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
-                CompiledScene& scene, PlaneTable& planes, SharedParts& shared);
+                CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared);
 
 }  // namespace csgrt

@@ -10,6 +10,7 @@
 #include "compile/linear.hpp"
 #include "compile/pack_solids.hpp"
 #include "compile/planes.hpp"
+#include "compile/surfaces.hpp"
 
 namespace csgrt {
 
@@ -20,8 +21,10 @@ struct Packer {
     const Box& box;
     CompiledScene& scene;
     PlaneTable& planes;
+    SurfaceTable& surfaces;
     SharedParts& shared;
     kernel::SolidRecord record{};
+    WideMatrix axes_in_world{};  ///< of the last frame
 
     void real(long double value) { scene.reals.push_back(static_cast<double>(value)); }
     /// center and L, the inverse of the matrix whose columns are the local axes in the world.

@@ -1,9 +1,9 @@
 #include "compile/planes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "compile/cells.hpp"
 #include "compile/linear.hpp"
 
 namespace csgrt {
@@ -12,28 +12,9 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-// Cells are much larger than what is looked for, so that one cell is enough, nearly always. Their centres are at 0 and
-// +-1, where most normals of models lie.
+// Cells have their centres at 0 and +-1, where most normals of models lie.
 constexpr double normal_cell = 1e-7;
 constexpr double offset_cell = 1e-7;  // of the scene's radius
-
-struct Range {
-    std::int64_t first, last;
-};
-Range cells_of(double value, double tolerance, double cell) {
-    constexpr double most = 9e18;  // half-spaces may lie anywhere: those beyond share a cell
-    return {std::llround(std::clamp((value - tolerance) / cell, -most, most)),
-            std::llround(std::clamp((value + tolerance) / cell, -most, most))};
-}
-
-std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t offset) {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const std::int64_t value : {x, y, z, offset}) {
-        hash = (hash ^ static_cast<std::uint64_t>(value)) * 1099511628211u;
-        hash ^= hash >> 32;
-    }
-    return hash;
-}
 
 Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 
@@ -69,15 +50,15 @@ bool PlaneTable::same(std::uint32_t record, const Plane& plane, const Box& box) 
 std::uint32_t PlaneTable::find(const Plane& plane, const Box& box) const {
     // Both boxes lie in the scene, where a tilt moves a plane by tilt x radius at most.
     const double reach = (3 * tilt + gap) * radius_;
-    const Range x = cells_of(plane.normal.x, tilt, normal_cell), y = cells_of(plane.normal.y, tilt, normal_cell);
-    const Range z = cells_of(plane.normal.z, tilt, normal_cell);
-    const Range d = cells_of(offset(plane), reach, offset_cell * radius_);
+    const CellRange x = cells_of(plane.normal.x, tilt, normal_cell), y = cells_of(plane.normal.y, tilt, normal_cell);
+    const CellRange z = cells_of(plane.normal.z, tilt, normal_cell);
+    const CellRange d = cells_of(offset(plane), reach, offset_cell * radius_);
     std::uint32_t found = none;
     for (std::int64_t i = x.first; i <= x.last; ++i)
         for (std::int64_t j = y.first; j <= y.last; ++j)
             for (std::int64_t k = z.first; k <= z.last; ++k)
                 for (std::int64_t l = d.first; l <= d.last; ++l) {
-                    const auto cell = cells_.find(hash_of(i, j, k, l));
+                    const auto cell = cells_.find(cell_hash({i, j, k, l}));
                     if (cell == cells_.end()) continue;
                     for (std::uint32_t record = cell->second; record != none; record = entries_[record].next)
                         if (same(record, plane, box)) found = std::min(found, record);
@@ -92,9 +73,9 @@ kernel::PlaneRef PlaneTable::add(const Plane& plane, const Box& box) {
     const auto record = static_cast<std::uint32_t>(records_.size());
     if (record > 0x7fffffffu) throw Error(Status::scene, "the scene has more than 2147483647 different planes");
     records_.push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
-    const std::uint64_t cell = hash_of(
-        cells_of(plane.normal.x, 0, normal_cell).first, cells_of(plane.normal.y, 0, normal_cell).first,
-        cells_of(plane.normal.z, 0, normal_cell).first, cells_of(offset(plane), 0, offset_cell * radius_).first);
+    const std::uint64_t cell = cell_hash(
+        {cells_of(plane.normal.x, 0, normal_cell).first, cells_of(plane.normal.y, 0, normal_cell).first,
+         cells_of(plane.normal.z, 0, normal_cell).first, cells_of(offset(plane), 0, offset_cell * radius_).first});
     const auto [entry, added] = cells_.emplace(cell, record);
     entries_.push_back({box, added ? none : entry->second});
     entry->second = record;

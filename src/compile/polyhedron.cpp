@@ -7,12 +7,15 @@ namespace csgrt {
 
 namespace {
 
-// Corners closer than this are one. BRL-CAD merges at 0.0005 mm, whatever the size; a small arb needs a finer measure.
+// Corners closer than this are one, where an arb is not convex as its numbers say. BRL-CAD merges at 0.0005 mm,
+// whatever the size; a small arb needs a finer measure.
 constexpr long double same_corner = 0.0005L;         // millimetres
 constexpr long double same_corner_relative = 1e-6L;  // of the arb's diagonal, if that is less
+// What rounding leaves between corners that are one.
+constexpr long double equal_corner_relative = 1e-15L;
 // A third corner closer to the line through the first two than this, relative to their distance, says nothing of the
-// plane.
-constexpr long double in_line = 1e-6L;
+// plane; `equal_corner_relative` where thin arbs are taken at their word.
+constexpr long double in_line_relative = 1e-6L;
 // Corners may leave their plane by this, relative to the arb's diagonal, without being seen as a twisted face.
 constexpr long double flat = 1e-12L;
 
@@ -51,22 +54,13 @@ void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& p
         planes.push_back(transform_plane(matrix, side));
 }
 
-}  // namespace
-
-ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
+/// The faces through the corners, of which those closer than `same` are one and those as good as in line span none.
+ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, long double in_line, long double size) {
     static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
         {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
 
-    std::array<Wide, 8> corners;
-    Wide mean(0), low(infinity), high(-infinity);
-    for (std::size_t i = 0; i < 8; ++i) {
-        corners[i] = transform_point(matrix, wide(arb.vertices[i]));
-        mean += corners[i] / 8.0L;
-        low = glm::min(low, corners[i]);
-        high = glm::max(high, corners[i]);
-    }
-    const long double size = glm::length(high - low);
-    const long double same = std::min(same_corner, same_corner_relative * size);
+    Wide mean(0);
+    for (const Wide& corner : corners) mean += corner / 8.0L;
 
     // Equal corners become one, the first of them, in every face.
     std::array<std::size_t, 8> first_of{};
@@ -108,6 +102,25 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
         }
     }
     if (result.planes.size() < 4) result.is_hull = false;
+    return result;
+}
+
+}  // namespace
+
+ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
+    std::array<Wide, 8> corners;
+    Wide low(infinity), high(-infinity);
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = transform_point(matrix, wide(arb.vertices[i]));
+        low = glm::min(low, corners[i]);
+        high = glm::max(high, corners[i]);
+    }
+    const long double size = glm::length(high - low);
+    // However thin, a convex arb is what its numbers say. Else corners that are nearly one may span a face that is
+    // rounding.
+    ArbFaces result = faces_through(corners, equal_corner_relative * size, equal_corner_relative, size);
+    if (result.is_hull) return result;
+    result = faces_through(corners, std::min(same_corner, same_corner_relative * size), in_line_relative, size);
     if (!result.is_hull) clip_to_corners(arb, matrix, result.planes);
     return result;
 }

@@ -234,7 +234,7 @@ private:
     Findings findings_;
     LineReader lines_;
     BrlcadObjects objects_;
-    Scene scene_;
+    Scene scene_ = brlcad_scene();
     std::string object_;  ///< the name of what is being read, as far as it is known
 };
 

@@ -160,7 +160,7 @@ private:
     std::vector<TclWord> words_;
     BrlcadObjects objects_;
     std::unordered_set<std::string> broken_;  ///< objects whose put had a finding; their attributes are not another
-    Scene scene_;
+    Scene scene_ = brlcad_scene();
     std::string object_;  ///< the name of what is being read, as far as it is known
 };
 

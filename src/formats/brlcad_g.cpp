@@ -108,7 +108,7 @@ private:
     const ByteSource& source_;
     Findings findings_;
     BrlcadObjects objects_;
-    Scene scene_;
+    Scene scene_ = brlcad_scene();
 };
 
 }  // namespace

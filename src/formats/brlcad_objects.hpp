@@ -14,6 +14,14 @@
 
 namespace csgrt {
 
+/// An empty scene with BRL-CAD's tolerance, which its files do not state.
+inline Scene brlcad_scene() {
+    Scene scene;
+    scene.tolerance = 0.0005;
+    return scene;
+}
+
+
 /// Numbers under a name (BRL-CAD's binunif), as they stand in a binary database: highest byte first.
 struct BrlcadNumbers {
     static constexpr int bytes = 4, words = 5;  ///< types: unsigned, of 8 and of 16 bits

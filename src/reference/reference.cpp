@@ -83,9 +83,9 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
         for (const std::uint32_t segment : partition.segments) solids.push_back(claims.ends[2 * segment].solid);
         std::sort(solids.begin(), solids.end());
         for (const std::uint32_t solid : solids)
-            for (const std::uint32_t region : regions_of_[solid])
-                if (std::find(table.begin(), table.end(), region) == table.end()) table.push_back(region);
+            table.insert(table.end(), regions_of_[solid].begin(), regions_of_[solid].end());
         std::sort(table.begin(), table.end());
+        table.erase(std::unique(table.begin(), table.end()), table.end());
         for (const std::uint32_t region : table)
             if (inside(region, solids)) claimants.push_back(region);
 

@@ -14,7 +14,8 @@ class ReferenceKernels : public HostKernels {
 public:
     /// In 113 bits it is the one in double: so that the two see the same rays.
     virtual Ray camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const;
-    /// The ends of all segments along a ray, every solid tried, no hierarchy: two a segment, by ascending solid.
+    /// The ends of all segments along a ray, every solid tried, no hierarchy (in 113 bits those
+    /// whose boxes are met): two a segment, by ascending solid.
     /// Segments that end before the frame's t_min are left out. Then what they weave.
     virtual std::vector<WovenPartition> trace(const kernel::Frame& frame, const Ray& ray,
                                               std::vector<kernel::End>& ends) const = 0;

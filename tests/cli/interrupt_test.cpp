@@ -115,7 +115,7 @@ TEST_CASE("no picture is written to a terminal") {
 }
 #endif
 
-TEST_CASE("SIGINT and SIGTERM end a render, a shot and a wait for rays with 130, and leave no file") {
+TEST_CASE("SIGINT and SIGTERM end a render, a wait for rays and a verification with 130, and leave no file") {
     NEEDS_COMMAND();
     for (const int signal : {SIGINT, SIGTERM}) {
         const Folder folder;
@@ -126,7 +126,9 @@ TEST_CASE("SIGINT and SIGTERM end a render, a shot and a wait for rays with 130,
         auto render = endless(scene);
         render.insert(render.end(), {"--stats", folder / "stats.json"});
         const std::vector<std::string> shoot = {"shoot", scene, "--rays", folder / "pipe", "-o", folder / "out.txt"};
-        for (const auto& words : {render, shoot}) {
+        const std::vector<std::string> verify = {"verify", scene,     "--reference", "--rays",
+                                                 "1000000", "--json", folder / "result.json"};
+        for (const auto& words : {render, shoot, verify}) {
             const pid_t child = start(words, "/dev/null", "/dev/null", folder / "err");
             REQUIRE(catches(child, signal));
             std::this_thread::sleep_for(std::chrono::milliseconds(300));  // to get to work

@@ -18,13 +18,14 @@ struct Packed {
 
     Packed(const Shape& shape, const Matrix& matrix) {
         PlaneTable planes({}, 100);
+        SurfaceTable surfaces({}, 100);
         SharedParts shared;
         Box box = solid_box(shape, matrix);
         if (!is_finite(box)) box = {{-100, -100, -100}, {100, 100, 100}};
         // Not the first of its scene: offsets count.
-        pack_solid(Ell{{9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, identity, box, scene, planes, shared);
-        pack_solid(block_shape({50, 50, 50}, {51, 51, 51}), {}, identity, box, scene, planes, shared);
-        pack_solid(shape, {}, matrix, box, scene, planes, shared);
+        pack_solid(Ell{{9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, identity, box, scene, planes, surfaces, shared);
+        pack_solid(block_shape({50, 50, 50}, {51, 51, 51}), {}, identity, box, scene, planes, surfaces, shared);
+        pack_solid(shape, {}, matrix, box, scene, planes, surfaces, shared);
         scene.planes = planes.take();
     }
 

@@ -97,7 +97,9 @@ struct Piece {
 /// An end of a solid's interval.
 struct Event {
     double t = 0, tolerance = 0;
-    Vec3 normal;  ///< outward from the solid; 0: more than one would do
+    Vec3 normal;          ///< outward from the solid; 0: more than one would do
+    double rounding = 0;  ///< of the tolerance: what rounding the ray's and the solid's numbers can cause
+    std::size_t solid = 0;
 };
 
 struct SceneAnswer {
@@ -105,6 +107,7 @@ struct SceneAnswer {
     std::vector<Piece> pieces;   ///< the whole line, in order
     std::vector<Event> events;   ///< of all solids, in no order
     bool tie = false;            ///< rounding, or the slack, decides how many spans some region has
+    bool solid_tie = false;      ///< rounding decides how many intervals some solid has
 };
 
 class SceneOracle {
@@ -131,12 +134,14 @@ public:
         std::vector<quad> bounds;
         for (std::size_t i = 0; i < solids_.size(); ++i) {
             const Answer one = solids_[i](ray);
+            answer.solid_tie = answer.solid_tie || one.tie;
             double widest = 0;
             for (const Interval& interval : one.intervals) {
                 sets[i].exact.push_back({{interval.in.t, 0}, {interval.out.t, 0}});
                 for (const End& e : {interval.in, interval.out}) {
                     if (!std::isfinite(e.t)) continue;
-                    answer.events.push_back({e.t, e.tolerance, e.normal});
+                    const double rounding = margin * one.delta / (e.cosine * speed) + 4 * double_epsilon * std::abs(e.t);
+                    answer.events.push_back({e.t, e.tolerance, e.normal, std::min(rounding, e.tolerance), i});
                     widest = std::max(widest, e.tolerance);
                 }
             }
@@ -238,7 +243,7 @@ private:
         if (skip_unsupported_ && std::holds_alternative<Unsupported>(solid.shape)) return {};
         if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
         if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
-        const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 1e-9;
+        const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 0.001;
         solids_.push_back(scene_solid(solid.shape, place, skin));
         return {Operator::leaf, {}, solids_.size() - 1};
     }

@@ -53,7 +53,7 @@ Score score(const Scene& scene, Precision precision, double away) {
     const std::vector<RayPartitions> found = renderer.shoot(rays);
     Score score;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const oracle::SceneAnswer answer = judge.shoot(rays[i], scene.tolerance);
+        const oracle::SceneAnswer answer = judge.shoot(rays[i], 0.0005);
         std::vector<std::string> expected, seen;
         bool decided = !answer.tie;
         double end = 0;

@@ -123,7 +123,7 @@ std::size_t faults(const Scene& scene, const std::vector<std::string>& objects, 
                    const std::vector<Ray>& rays, const std::vector<RayPartitions>& answers,
                    const std::set<std::size_t>& which) {
     const oracle::SceneOracle geometry(scene, objects, true);
-    const oracle::SceneJudge judge(geometry, renderer.regions(), scene.tolerance);
+    const oracle::SceneJudge judge(geometry, renderer.regions(), renderer.statistics().tolerance);
     std::size_t wrong = 0, ties = 0;
     for (const std::size_t i : which) {
         const std::string fault = judge.judge(rays[i], answers[i], ties);

@@ -2,6 +2,7 @@
 // body of the one file that includes this.
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -232,12 +233,17 @@ public:
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const real t_min = k::t_min_along(&frame, r);
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
-        for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) {
+        const auto meet = [&](std::uint32_t solid) {
             const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
-            if (segments == 0) continue;
+            if (segments == 0) return;
             const std::size_t first = own.size();
             own.resize(first + 2 * std::size_t{segments});
             k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
+        };
+        if constexpr (sizeof(real) <= sizeof(double)) {
+            for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) meet(solid);
+        } else {
+            meet_boxes(frame, r, t_min, meet);
         }
         std::vector<WovenPartition> woven = weave(own, k::tolerance_along(&frame, r));
         ends = ends_of(std::move(own));
@@ -263,6 +269,22 @@ public:
     }
 
 private:
+    /// 113 bits are slow: solids whose boxes the ray misses are passed over. That a box holds its solid is seen by the
+    /// reference in double.
+    template <class Meet>
+    void meet_boxes(const k::Frame& frame, const k::ray3& r, real t_min, const Meet& meet) const {
+        for (std::uint32_t solid = 0; solid < frame.unbounded_count; ++solid) meet(solid);
+        const k::slab_ray slab =
+            k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius), t_min);
+        if (!slab.hits_sphere) return;
+        for (std::size_t i = 0; i < nodes_.size();) {
+            const k::BvhNode& node = nodes_[i];
+            const bool met = k::box_is_hit(slab, node);
+            const std::uint32_t first = node.leaf >> BVH_LEAF_SHIFT;
+            for (std::uint32_t n = 0; met && n < (node.leaf & BVH_LEAF_MASK); ++n) meet(first + n);
+            i = met && !node.leaf ? i + 1 : node.skip;
+        }
+    }
     k::vec3 normal_at(const k::ray3& r, const kernel::End& end) const {
         return k::normal_at(g_, solids_[end.solid], r, static_cast<real>(end.t), end.surface);
     }

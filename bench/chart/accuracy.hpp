@@ -1,0 +1,56 @@
+// A ray's answer held against the truth: the regions it meets, and where.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+namespace csgrt::bench {
+
+/// One stretch of a ray from its first region on: a region, or the gap between two.
+struct Stretch {
+    static constexpr std::uint32_t gap = 0xffffffff;
+    std::uint32_t region = gap;
+    double in = 0, out = 0;  ///< along the ray, in units of its direction
+    bool operator==(const Stretch&) const = default;
+};
+using Sequence = std::vector<Stretch>;
+
+/// Without the part behind the ray's start.
+Sequence sequence_of(const RayPartitions& found);
+/// The same regions and gaps in the same order, wherever they begin.
+bool same_regions(const Sequence& a, const Sequence& b);
+
+/// What a ray must meet.
+struct TrueRay {
+    enum class Verdict {
+        decided,
+        tie,   ///< rounding the ray's own numbers changes the regions
+        rule,  ///< the file's own tolerance makes it other regions than its numbers say
+    };
+    Verdict verdict = Verdict::decided;
+    Sequence sequence;
+    double speed = 1;  ///< length of the direction
+    /// By stretch, millimetres: how far its ends move when the ray is moved by one unit in the last place. 0: the
+    /// file's own tolerance puts the end elsewhere, so it is not judged.
+    std::vector<double> in_unit, out_unit;
+};
+
+/// Of one variant on one workload, or summed over a family's scenes.
+struct Accuracy {
+    std::size_t rays = 0, decided = 0, ties = 0, rule = 0;
+    std::size_t wrong = 0;      ///< decided rays with another sequence of regions
+    std::size_t rule_ends = 0;  ///< on the right ones, but not judged: the file's own tolerance moves them
+    std::vector<double> error_mm, error_ulp;  ///< of every other finite end on the right ones
+
+    void operator+=(const Accuracy& other);
+
+    void add(const TrueRay& truth, const RayPartitions& found);
+};
+
+/// The smallest value that at least this share of them does not exceed; 0 of none.
+double quantile(std::vector<double> values, double share);
+
+}  // namespace csgrt::bench

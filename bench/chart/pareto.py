@@ -1,0 +1,22 @@
+"""Which methods are worth choosing: those that no other one beats."""
+
+# Times are medians on a machine that may have other work; differences below this share are not told apart.
+NOISE = 0.1
+
+
+def dominates(a, b, noise=NOISE):
+    """Whether `a` makes `b` pointless. Each is (time, error, error, ...), less is better.
+
+    Nowhere more wrong than b, and either somewhere less wrong and not slower but by noise, or faster by more than noise.
+    """
+    if any(x > y for x, y in zip(a[1:], b[1:])):
+        return False
+    if a[1:] != b[1:]:
+        return a[0] <= b[0] * (1 + noise)
+    return a[0] * (1 + noise) < b[0]
+
+
+def front(points, noise=NOISE):
+    """The names of those of `points`, {name: (time, error, ...)}, that none of the others dominates."""
+    return {name for name, point in points.items()
+            if not any(dominates(other, point, noise) for key, other in points.items() if key != name)}

@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+"""Draws what csgrt_chart measured: an SVG and a PNG a file, named like it, and one HTML page that says what to choose when.
+
+    bench/draw_chart.py [-o FOLDER] MEASURED.json...
+
+Needs matplotlib (Debian, Ubuntu: python3-matplotlib).
+"""
+import argparse
+import base64
+import html
+import json
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "chart"))
+from pareto import NOISE, front  # noqa: E402
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot, ticker
+except ImportError:
+    sys.exit("draw_chart.py: matplotlib is not there (Debian, Ubuntu: apt-get install python3-matplotlib)")
+
+# The judge itself: it has no errors by definition, so it is drawn but does not compete.
+JUDGE = "113 bits"
+# So much slower than the default that drawing it would squeeze everything else: told in words.
+OFF_THE_CHART = 20
+
+USE = {
+    "default": "the one to use",
+    "single": "pictures, and devices without fast double precision; not for measuring, nor for thin or touching parts",
+    "single-world": "nothing: it is here to show what single precision does if coordinates are not taken relative to the eye",
+    "bracketed-unshifted": "nothing: without the shift, tori far from the ray's origin lose roots",
+    "ferrari": "nothing that measures: closed form, roots lost near tangency",
+    "yuksel": "many tori and tapered cones, where the last digit does not matter",
+    "tolerance 0.0005 mm": "comparing with BRL-CAD; parts thinner than this vanish",
+    "tolerance surfaces": "the default's own rule, also where a file brings a tolerance",
+    "tolerance relative": "models with sloppy coincidences; corners closer than 1e-9 of the scene are lost",
+    "tolerance none": "seeing which skins rounding leaves where surfaces coincide",
+    "contraction": "devices whose kernels get faster by it; the last bits then differ from device to device",
+    "reference": "checking a device: the same bits from the CPU, every solid tried",
+    JUDGE: "the judge: it measures the others' rounding",
+}
+
+
+class Measured:
+    """One device's file."""
+
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            data = json.load(file)
+        self.name, self.data = os.path.splitext(os.path.basename(path))[0], data
+        self.device = data["device"]
+        self.totals = {t["variant"]: t for t in data["totals"] if t.get("decided")}
+        self.variants = list(self.totals)
+        self.workloads = list(dict.fromkeys(r["workload"] for r in data["results"]))
+        self.cells = {(r["variant"], r["workload"]): r for r in data["results"]}
+        self.timed = {n: t for n, t in self.totals.items() if t.get("ns_per_ray")}
+        competing = {n: t for n, t in self.timed.items() if n != JUDGE}
+        self.front_wrong = front({n: (t["ns_per_ray"], t["wrong_ppm"]) for n, t in competing.items()})
+        self.front_ulp = front({n: (t["ns_per_ray"], ulps(t)) for n, t in competing.items()})
+        self.front = front({n: (t["ns_per_ray"], t["wrong_ppm"], ulps(t)) for n, t in competing.items()})
+        self.decided = max(t["decided"] for t in self.totals.values())
+
+    def anchors(self):
+        """BRL-CAD's times in nanoseconds a ray, over the same models; none if those were not measured."""
+        over = self.data["timed_workloads"]
+        for anchor in self.data["anchors"]:
+            if anchor["device_type"] == self.data["device_type"] and over and all(w in anchor["ms"] for w in over):
+                logs = [math.log(anchor["ms"][w] * 1e6 / 1024 ** 2) for w in over]
+                yield anchor["name"], math.exp(sum(logs) / len(logs))
+
+
+def ulps(total):
+    value = total["error_ulp"]["p999"]
+    return math.inf if value is None else value
+
+
+def style(index):
+    colors = matplotlib.colormaps["tab20"].colors
+    return {"color": colors[(2 * index) % 20 + (2 * index) // 20], "marker": "osD^v<>Pp*hX8"[index % 13]}
+
+
+def scatter(axes, measured, value, floor, floor_label, on_front, label):
+    default = measured.timed.get("default", next(iter(measured.timed.values())))["ns_per_ray"]
+    drawn, left_out = [], []
+    for index, name in enumerate(measured.variants):
+        if name not in measured.timed:
+            continue
+        x, y = measured.timed[name]["ns_per_ray"], value(measured.timed[name])
+        if x > OFF_THE_CHART * default:
+            left_out.append(name)
+            continue
+        if not math.isfinite(y):
+            continue
+        y = max(y, floor)
+        drawn.append((x, y, name))
+        # The default is drawn larger, below the others: those of the same figures do not hide it.
+        axes.scatter(x, y, s=130 if name == "default" else 46, zorder=3 if name == "default" else 4, label=name, **style(index), edgecolors="white", linewidths=0.6)
+        if name in on_front:
+            axes.scatter(x, y, s=260, zorder=2, facecolors="none", edgecolors="black", linewidths=1.1)
+    steps = sorted((x, y) for x, y, name in drawn if name in on_front)
+    if steps:
+        axes.step([x for x, _ in steps], [y for _, y in steps], where="post", color="black", linewidth=0.8, zorder=1)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    top = max([y for _, y, _ in drawn] + [floor * 10]) * 30
+    axes.set_ylim(floor / 3, top)
+    for number, (name, x) in enumerate(measured.anchors()):
+        axes.axvline(x, color="0.55", linestyle=("--", ":")[number % 2], linewidth=1)
+        axes.text(x, top / 1.5, " " + name, rotation=90, va="top", ha="right", fontsize=7, color="0.35")
+    axes.axhline(floor, color="0.8", linewidth=0.8, zorder=0)
+    axes.text(0.01, floor, floor_label, transform=axes.get_yaxis_transform(), ha="left", va="top", fontsize=7,
+              color="0.4")
+    axes.set_xlabel("nanoseconds a ray")
+    axes.set_ylabel(label)
+    xs = [x for x, _, _ in drawn] + [x for _, x in measured.anchors()]
+    if xs:
+        axes.set_xlim(0.6 * min(xs), 1.7 * max(xs))
+    axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7)))
+    axes.xaxis.set_minor_locator(ticker.NullLocator())
+    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
+    axes.tick_params(labelsize=8)
+    return left_out
+
+
+def heat_map(axes, measured):
+    """Wrong regions, variant by workload: where each method fails."""
+    shades = [[math.log10(max(cell.get("wrong_ppm") or 0, 1)) if (cell := measured.cells.get((v, w), {})) else 0
+               for w in measured.workloads] for v in measured.variants]
+    axes.imshow(shades, cmap="OrRd", vmin=0, vmax=6, aspect="auto")
+    for y, variant in enumerate(measured.variants):
+        for x, workload in enumerate(measured.workloads):
+            cell = measured.cells.get((variant, workload), {})
+            if "error" in cell:
+                text = "none"
+            elif cell.get("wrong_ppm") is None:
+                text = "-"
+            else:
+                text = f"{cell['wrong_ppm']:,.0f}"
+            axes.text(x, y, text, ha="center", va="center", fontsize=6.5, color="0.75" if text == "0" else
+                      "white" if shades[y][x] > 4.6 else "black")
+    axes.set_xticks(range(len(measured.workloads)), measured.workloads, rotation=40, ha="right", fontsize=7.5)
+    axes.set_yticks(range(len(measured.variants)), measured.variants, fontsize=7.5)
+    axes.set_title("wrong regions by workload, parts per million of decided rays", fontsize=9)
+
+
+def draw(measured, folder):
+    figure = pyplot.figure(figsize=(11, 9.2), layout="constrained")
+    grid = figure.add_gridspec(3, 2, height_ratios=[1.15, 0.1, 1])
+    left, right, names, below = (figure.add_subplot(grid[place]) for place in
+                                 ((0, 0), (0, 1), (1, slice(None)), (2, slice(None))))
+    # One wrong ray among all stands at 1e6 / decided; the floor is below it.
+    floor = 10 ** math.floor(math.log10(1e6 / measured.decided) - 0.3)
+    left_out = scatter(left, measured, lambda t: t["wrong_ppm"], floor, f"none wrong of {measured.decided:,}",
+                       measured.front_wrong, "decided rays with wrong regions, parts per million")
+    scatter(right, measured, ulps, 0.01, "0.01 or less", measured.front_ulp,
+            "distance error, condition-scaled ulp (99.9 % of ends)")
+    heat_map(below, measured)
+    names.axis("off")
+    names.legend(*left.get_legend_handles_labels(), fontsize=7.5, loc="center", ncol=6, frameon=False, markerscale=0.8)
+    words = "; ".join(f"{n}: {measured.timed[n]['ns_per_ray']:,.0f} ns" for n in left_out)
+    data = measured.data
+    figure.suptitle(
+        f"csgrt {data['csgrt']} on {measured.device}: kernels' time over {', '.join(data['timed_workloads'])}\n"
+        f"(geometric mean, {data['size']} x {data['size']}, every partition). Ringed: each picture's Pareto front, "
+        f"times within {100 * NOISE:.0f} % taken as equal." + (f"\nOff the chart: {words}." if words else ""), fontsize=9)
+    for kind in ("svg", "png"):
+        path = os.path.join(folder, f"{measured.name}.{kind}")
+        figure.savefig(path + ".part", format=kind, dpi=100, metadata={"Date": None} if kind == "svg" else None)
+        os.replace(path + ".part", path)
+        print(path)
+    pyplot.close(figure)
+    return os.path.join(folder, measured.name + ".svg")
+
+
+def figure_of(value, digits=3):
+    if value is None:
+        return "-"
+    return "0" if value == 0 else f"{value:,.0f}" if 100 <= abs(value) < 1e7 else f"{value:.{digits}g}"
+
+
+def worst_places(measured, variant):
+    rows = [measured.cells.get((variant, w), {}) for w in measured.workloads]
+    rows = sorted((r for r in rows if r.get("wrong")), key=lambda r: -r["wrong_ppm"])
+    return ", ".join(f"{r['workload']} {figure_of(r['wrong_ppm'])}" for r in rows[:3]) or "none"
+
+
+def table(measured):
+    default = measured.timed.get("default", {}).get("ns_per_ray")
+    lines = ["<table><tr><th>method<th>ns a ray<th>of the default<th>wrong, ppm<th>wrong / decided"
+             "<th>99.9 % of ends, ulp<th>worst, ulp<th>worst, mm<th>fails most at (ppm)<th>front<th>for"]
+    for name in measured.variants:
+        t = measured.totals[name]
+        ns = t.get("ns_per_ray")
+        lines.append("<tr><td>" + "<td>".join([
+            html.escape(name), figure_of(ns), f"{ns / default:.2f}" if ns and default else "-",
+            figure_of(t["wrong_ppm"]), f"{t['wrong']:,} / {t['decided']:,}", figure_of(t["error_ulp"]["p999"]),
+            figure_of(t["error_ulp"]["worst"]), figure_of(t["error_mm"]["worst"]), html.escape(worst_places(measured, name)),
+            "yes" if name in measured.front else "judge" if name == JUDGE else "", html.escape(USE.get(name, ""))]))
+    return "\n".join(lines) + "</table>"
+
+
+def verdict(measured):
+    if "default" not in measured.totals:
+        return "The default was not measured."
+    t = measured.totals["default"]
+    said = "is on" if "default" in measured.front else "is <b>not</b> on"
+    text = (f"The default {said} the Pareto front of time, wrong regions and distance error: {t['wrong']:,} of {t['decided']:,} "
+            f"decided rays wrong, {figure_of(ulps(t))} ulp for 99.9 % of the ends.")
+    anchors = [f"{html.escape(name)} needs {ns:,.0f} ns a ray" for name, ns in measured.anchors()]
+    def names(chosen):
+        return ", ".join(n for n in measured.variants if n in chosen)
+    text += (f" On the front: {names(measured.front)}; of time and wrong regions alone: {names(measured.front_wrong)}; "
+             f"of time and distance error alone: {names(measured.front_ulp)}.")
+    if anchors:
+        text += " For first hits alone, over the same models, " + "; ".join(anchors) + "; its accuracy was not measured in this run."
+    return text
+
+
+PAGE = """<!doctype html><meta charset="utf-8"><title>csgrt: how fast, how exact</title>
+<style>body{{font:16px/1.5 sans-serif;max-width:1150px;margin:2em auto;padding:0 1em}}img{{width:100%}}
+table{{border-collapse:collapse;font-size:13px}}td,th{{border-bottom:1px solid #ddd;padding:.2em .6em;text-align:right}}
+td:first-child,th:first-child,td:last-child,th:last-child,td:nth-child(9){{text-align:left}}</style>
+<h1>csgrt: how fast, how exact</h1>
+<h2>What to choose when</h2>
+<ul>
+<li><b>Anything that is measured, cut or checked: the default.</b> Double precision, bracketed quartics, ends on one surface are one.
+<li><b>Pictures on a device whose double precision is slow: <code>--precision single</code>.</b> Relative to the eye; look at the heat
+map for where it errs, and at the distances' errors, which are some 10<sup>8</sup> times as large.
+<li><b>Agreement with BRL-CAD: <code>--tolerance 0.0005</code></b>, which its files bring with them. What is thinner vanishes.
+<li><b>A file that brings a tolerance, but whose numbers are to be taken as they are: <code>--tolerance surfaces</code>.</b>
+<li><b>Not at all: <code>single-world</code>, <code>ferrari</code>, <code>bracketed-unshifted</code>, <code>--tolerance none</code>.</b>
+They are here so that their failures can be seen. <code>--contraction on</code> only where bits need not agree between devices.
+</ul>
+{devices}
+<h2>How it is measured</h2>
+<p>Every method shoots the same rays: a grid of each model's and scene's default view, and the stress families' own. The truth is
+the 113-bit build of the reference. A ray is decided if its regions stay the same when its origin moves by some units in the last place
+to four sides, and when the tolerance for rounding is four times as large; the others are ties. Rays where a file's own tolerance
+makes other regions than its numbers do are counted apart (<code>rule</code>). Wrong: another sequence of regions and gaps. A
+distance's error is given in units of how far that end moves when the ray moves by one unit in the last place: about 1 or less cannot be
+done better in double precision. Formulas and compiled scenes are shared with what is judged, so what compiling a scene loses (some very thin plates) does not show; that
+they are right is the oracle's to say
+(<code>tests/oracle</code>, <code>tests/stress</code>). Times are the kernels' own (device events), medians of warm frames, the methods in
+turn; of the two that run on the CPU, the clock's. Methods that do the same work differ by the machine's noise.</p>
+"""
+
+
+def page(measured, pictures, folder):
+    parts = []
+    for m, picture in zip(measured, pictures):
+        with open(picture, "rb") as file:
+            inline = base64.b64encode(file.read()).decode("ascii")
+        parts.append(f"<h2>{html.escape(m.device)}</h2><p>{verdict(m)}</p>"
+                     f'<img alt="time against wrong regions and distance error" src="data:image/svg+xml;base64,{inline}">{table(m)}')
+    path = os.path.join(folder, "index.html")
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(PAGE.format(devices="\n".join(parts)))
+    os.replace(path + ".part", path)
+    print(path)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("measured", nargs="+", help="what csgrt_chart wrote, a file a device")
+    arguments.add_argument("-o", "--output", default=".", help="folder for the pictures and the page")
+    options = arguments.parse_args()
+    matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "csgrt", "font.size": 8.5})
+    os.makedirs(options.output, exist_ok=True)
+    try:
+        measured = [Measured(path) for path in options.measured]
+    except (OSError, ValueError, KeyError) as error:
+        sys.exit(f"draw_chart.py: not a file that csgrt_chart wrote: {error}")
+    page(measured, [draw(m, options.output) for m in measured], options.output)
+    for m in measured:
+        print(f"{m.device}: the Pareto front is {', '.join(n for n in m.variants if n in m.front)}")
+
+
+if __name__ == "__main__":
+    main()

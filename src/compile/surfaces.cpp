@@ -1,0 +1,153 @@
+#include "compile/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/cells.hpp"
+
+namespace csgrt {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+constexpr double point_cell = 1e-7;  // of the scene's radius
+constexpr double size_cell = 1e-7;   // of the size itself: its logarithm is looked up
+constexpr double reach = 1e-9;       // far above `gap`, far below a cell
+
+// Parameters as geometry/{affine,ell,tgc,tor}.h have them.
+constexpr std::size_t taper0 = 12, taper1 = 13, tapers_differ = 16, tube = 12;
+
+bool has_apex_origin(std::uint32_t type, const double* reals) {
+    return type == SOLID_TGC && reals[taper1] != 0 && reals[taper0] == 0;
+}
+
+Wide local_of(const double* reals, const Wide& p) {
+    const Wide o = p - Wide(reals[0], reals[1], reals[2]);
+    Wide q(0);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            q[row] += static_cast<long double>(reals[3 + 3 * row + column]) * o[column];
+    return q;
+}
+
+/// How far, about, a point of the world lies from the surface: f / |gradient of f|.
+long double distance(std::uint32_t type, const double* reals, const Wide& p) {
+    const Wide q = local_of(reals, p);
+    long double f = 0;
+    Wide gradient(0);
+    if (type == SOLID_ELL) {
+        const long double r = glm::length(q);
+        f = r - 1;
+        gradient = q / r;
+    } else {
+        const long double r = std::hypot(q.x, q.y);
+        if (type == SOLID_TGC) {
+            const long double m = reals[taper0] + reals[taper1] * q.z;
+            f = r - m;  // beyond the apex there is another cone
+            gradient = r > 0 ? Wide(q.x / r, q.y / r, -reals[taper1]) : Wide(0, 0, 1);
+        } else {
+            const long double out = r - 1, around = std::hypot(out, q.z);
+            f = around - reals[tube];
+            gradient = around > 0 && r > 0 ? Wide(out * q.x / r, out * q.y / r, q.z) / around : Wide(0, 0, 1);
+        }
+    }
+    Wide in_world(0);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            in_world[column] += static_cast<long double>(reals[3 + 3 * row + column]) * gradient[row];
+    return std::fabs(f) / glm::length(in_world);
+}
+
+/// Points of a surface, all over it: more than a quadric or a torus has freedoms.
+std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideMatrix& axes) {
+    constexpr int around = 8;
+    const long double pi = std::acos(-1.0L);
+    const Wide center(reals[0], reals[1], reals[2]);
+    std::vector<Wide> points;
+    const auto add = [&](long double x, long double y, long double z) {
+        points.push_back(center + x * axes[0] + y * axes[1] + z * axes[2]);
+    };
+    for (int i = 0; i < around; ++i) {
+        const long double turn = 2 * pi * i / around, c = std::cos(turn), s = std::sin(turn);
+        if (type == SOLID_ELL) {
+            add(c, s, 0), add(0.6L * c, 0.6L * s, 0.8L), add(0.8L * c, 0.8L * s, -0.6L);
+        } else if (type == SOLID_TGC) {
+            for (const long double at : {-1.0L, 0.25L, 1.0L}) {
+                const long double z = has_apex_origin(type, reals) ? (reals[taper1] > 0 ? 1 + at : -1 - at) : at;
+                const long double m = reals[taper0] + reals[taper1] * z;
+                add(m * c, m * s, z);
+            }
+        } else {
+            for (const long double at : {0.3L, 2.4L, 4.5L}) {
+                const long double r = 1 + reals[tube] * std::cos(at);
+                add(r * c, r * s, reals[tube] * std::sin(at));
+            }
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+SurfaceTable::Key SurfaceTable::key_of(std::uint32_t type, const double* reals, const WideMatrix& axes,
+                                       const Vec3& scene_center) {
+    const Wide center(reals[0], reals[1], reals[2]);
+    if (type == SOLID_ELL) return {center, std::fabs(glm::determinant(axes))};
+    if (type == SOLID_TOR) return {center, glm::length(axes[0])};
+    const long double p0 = reals[taper0], p1 = reals[taper1];
+    const long double across = glm::length(glm::cross(axes[0], axes[1])), height = glm::length(axes[2]);
+    if (p1 != 0) return {center - (p0 / p1) * axes[2], across * p1 * p1 / (height * height)};  // its apex and how wide
+    const Wide u = axes[2] / height;  // a cylinder: where its axis passes the middle of the scene
+    return {center + glm::dot(wide(scene_center) - center, u) * u, across * p0 * p0};
+}
+
+void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene) {
+    if (record.type == SOLID_TGC && scene.reals[record.first_real + tapers_differ] != 0) return;
+    const auto reals_at = [&](std::uint32_t first) { return scene.reals.data() + first; };
+    const double* mine = reals_at(record.first_real);
+    const Key key = key_of(record.type, mine, axes, center_);
+    if (!(key.size > 0) || !(radius_ > 0)) return;
+    const double limit = gap * diagonal(box), cell = point_cell * radius_;
+    CellRange ranges[4];
+    for (int i = 0; i < 3; ++i)
+        ranges[i] = cells_of(static_cast<double>(key.point[i] - wide(center_)[i]), reach * radius_, cell);
+    ranges[3] = cells_of(static_cast<double>(std::log(key.size)), reach, size_cell);
+
+    std::uint32_t found = none;
+    std::vector<Wide> points;
+    for (std::int64_t x = ranges[0].first; x <= ranges[0].last; ++x)
+        for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
+            for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z)
+                for (std::int64_t size = ranges[3].first; size <= ranges[3].last; ++size) {
+                    const auto known = cells_.find(cell_hash({record.type, x, y, z, size}));
+                    if (known == cells_.end()) continue;
+                    if (points.empty()) points = points_on(record.type, mine, axes);
+                    for (std::uint32_t i = known->second; i != none; i = entries_[i].next) {
+                        const double* other = reals_at(entries_[i].first_real);
+                        const bool same = std::all_of(points.begin(), points.end(), [&](const Wide& p) {
+                            return distance(record.type, other, p) <= limit;
+                        });
+                        if (same) found = std::min(found, i);
+                    }
+                }
+    if (found != none) {
+        const std::uint32_t first = entries_[found].first_real;
+        // A cone with its apex for origin keeps its digits there; one that was cut off has none to lose.
+        if (has_apex_origin(record.type, mine) && !has_apex_origin(record.type, reals_at(first)))
+            std::copy(scene.reals.begin() + record.first_real, scene.reals.end(), scene.reals.begin() + first);
+        scene.reals.resize(record.first_real);
+        record.first_real = first;
+        return;
+    }
+    const auto own = [&](int i) {
+        return cells_of(static_cast<double>(key.point[i] - wide(center_)[i]), 0, cell).first;
+    };
+    const std::uint64_t hash = cell_hash(
+        {record.type, own(0), own(1), own(2), cells_of(static_cast<double>(std::log(key.size)), 0, size_cell).first});
+    const auto next = static_cast<std::uint32_t>(entries_.size());
+    const auto [entry, added] = cells_.emplace(hash, next);
+    entries_.push_back({record.first_real, added ? none : entry->second});
+    entry->second = next;
+}
+
+}  // namespace csgrt

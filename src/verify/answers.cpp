@@ -1,0 +1,82 @@
+#include "verify/answers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace csgrt {
+namespace {
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same_bits(Vec3 a, Vec3 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z); }
+
+bool same_regions(const std::vector<Partition>& a, const std::vector<Partition>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Partition& p, const Partition& q) { return p.region == q.region; });
+}
+
+}  // namespace
+
+double length(Vec3 v) { return std::hypot(v.x, v.y, v.z); }
+
+double cosine(Vec3 direction, Vec3 normal) {
+    const double product = direction.x * normal.x + direction.y * normal.y + direction.z * normal.z;
+    return std::abs(product) / length(direction);
+}
+
+double Blur::of(Vec3 normal) const { return std::min(shift / cosine(direction, normal), 2 * std::sqrt(size * shift)); }
+
+std::vector<Partition> that_count(const std::vector<Partition>& partitions, const Blur& blur) {
+    const double speed = length(blur.direction);
+    std::vector<Partition> kept;
+    for (const Partition& p : partitions) {
+        if ((p.out - p.in) * speed <= blur.tolerance + blur.of(p.in_normal) + blur.of(p.out_normal)) continue;
+        if (!kept.empty() && kept.back().region == p.region) {
+            Partition& last = kept.back();
+            const double gap = (p.in - last.out) * speed;
+            if (gap <= blur.tolerance + blur.of(last.out_normal) + blur.of(p.in_normal)) {
+                last.out = p.out;
+                last.out_normal = p.out_normal;
+                last.out_solid = p.out_solid;
+                continue;
+            }
+        }
+        kept.push_back(p);
+    }
+    return kept;
+}
+
+Pairing pair(const std::vector<Partition>& a, const std::vector<Partition>& b, const Blur& blur) {
+    if (same_regions(a, b)) return {true, true};
+    return {same_regions(that_count(a, blur), that_count(b, blur)), false};
+}
+
+RegionDifference difference_of(const std::vector<Partition>& exact, const std::vector<Partition>& found,
+                               const Blur& blur) {
+    const std::vector<Partition> a = that_count(exact, blur), b = that_count(found, blur);
+    const std::size_t shorter = std::min(a.size(), b.size());
+    std::size_t before = 0, behind = 0;
+    while (before < shorter && a[before].region == b[before].region) ++before;
+    while (behind < shorter - before && a[a.size() - 1 - behind].region == b[b.size() - 1 - behind].region) ++behind;
+    RegionDifference difference;
+    for (std::size_t i = before; i < a.size() - behind; ++i) difference.exact.push_back(a[i].region);
+    for (std::size_t i = before; i < b.size() - behind; ++i) difference.found.push_back(b[i].region);
+    return difference;
+}
+
+bool identical(const RayPartitions& a, const RayPartitions& b) {
+    const auto same_partition = [](const Partition& p, const Partition& q) {
+        return same_bits(p.in, q.in) && same_bits(p.out, q.out) && same_bits(p.in_normal, q.in_normal) &&
+               same_bits(p.out_normal, q.out_normal) && p.region == q.region && p.in_solid == q.in_solid &&
+               p.out_solid == q.out_solid;
+    };
+    const auto same_overlap = [](const Overlap& p, const Overlap& q) {
+        return same_bits(p.in, q.in) && same_bits(p.out, q.out) && p.regions == q.regions;
+    };
+    return std::equal(a.partitions.begin(), a.partitions.end(), b.partitions.begin(), b.partitions.end(),
+                      same_partition) &&
+           std::equal(a.overlaps.begin(), a.overlaps.end(), b.overlaps.begin(), b.overlaps.end(), same_overlap);
+}
+
+}  // namespace csgrt

@@ -1,0 +1,43 @@
+// Two answers for one ray: have they the same regions, and which of their ends belong to each other?
+#pragma once
+
+#include <vector>
+
+#include <csgrt/verify.hpp>
+
+namespace csgrt {
+
+double length(Vec3 v);
+/// |cos| between a ray and a surface's unit normal.
+double cosine(Vec3 direction, Vec3 normal);
+
+/// What does not count on one ray.
+struct Blur {
+    Vec3 direction;
+    double tolerance = 0;  ///< millimetres, as are the others
+    double shift = 0;      ///< see verify.hpp
+    double size = 0;       ///< of the model
+
+    /// By how much an end may move along the ray when the ray moves by `shift`, in millimetres. Where the ray grazes a
+    /// surface that is at most as much as between a ball of the model's size and its tangent.
+    double of(Vec3 normal) const;
+};
+
+/// Partitions without those that are too short to count, and without such gaps between two of one region.
+std::vector<Partition> that_count(const std::vector<Partition>& partitions, const Blur& blur);
+
+/// How one answer compares with another.
+struct Pairing {
+    bool same_regions = false;
+    bool as_they_are = false;  ///< partition by partition, without leaving any out
+};
+Pairing pair(const std::vector<Partition>& a, const std::vector<Partition>& b, const Blur& blur);
+
+/// Where they differ, by the partitions that count.
+RegionDifference difference_of(const std::vector<Partition>& exact, const std::vector<Partition>& found,
+                               const Blur& blur);
+
+/// To the last bit, overlaps included.
+bool identical(const RayPartitions& a, const RayPartitions& b);
+
+}  // namespace csgrt

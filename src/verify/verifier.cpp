@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+
+#include "verify/answers.hpp"
+
+namespace csgrt {
+namespace {
+
+constexpr double roundings = 64, unit_roundoff = 0x1p-53;
+constexpr double most_leap = 4;  ///< of shift / cos; where a ray grazes a surface, a decided end may move by twice that
+constexpr int corners = 8;
+
+Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec3 operator*(double s, Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
+
+/// The model's box; one of two millimetres about the origin if nothing in it is bounded.
+Box box_of(const Renderer& renderer) {
+    const Box& box = renderer.bounds();
+    return box.low.x <= box.high.x ? box : Box{{-1, -1, -1}, {1, 1, 1}};
+}
+
+Settings on_reference(Settings settings) {
+    settings.reference = true;
+    settings.device.clear();
+    return settings;
+}
+
+/// 113 bits with `tolerance`, and with the default for everything else: this is what the others are held against.
+Settings exact(const Settings& settings, double tolerance) {
+    Settings result = on_reference(settings);
+    result.precision = Precision::quad;
+    result.quartic = Quartic::bracketed;
+    result.tolerance_rule = Tolerance::length;
+    result.tolerance = tolerance;
+    return result;
+}
+
+/// The 113-bit answer of one ray, and what has become of it when the ray moved.
+struct Judged {
+    RayPartitions answer;
+    bool tie = false, all_as_they_are = true;
+    std::vector<std::array<double, 2>> moved;  ///< by how much each partition's ends did, in units of the direction
+};
+
+// Of infinite ends too: 0 where both are the same.
+double apart(double a, double b) { return a == b ? 0 : std::abs(a - b); }
+
+}  // namespace
+
+struct Verifier::Impl {
+    Settings settings;
+    double done = 0, part = 0;  ///< of the present call: before the present shot, and the shot itself
+    std::optional<Renderer> device, reference, judge;
+    std::vector<Renderer> other_tolerances;
+    Box box;
+    double size = 0;
+    Verification result;
+
+    bool report(double fraction) const { return !settings.progress || settings.progress(done + part * fraction); }
+
+    std::vector<RayPartitions> shoot(Renderer& renderer, const std::vector<Ray>& rays, double share) {
+        part = share;
+        std::vector<RayPartitions> answers = renderer.shoot(rays);
+        done += share;
+        return answers;
+    }
+
+    Blur blur_of(const Ray& ray) const {
+        const double to_middle = length(ray.origin - 0.5 * (box.low + box.high));
+        const double shift = roundings * unit_roundoff * (length(ray.origin) + to_middle + size);
+        return {ray.direction, judge->statistics().tolerance, shift, size};
+    }
+
+    void compare(Judged& judged, const RayPartitions& other, const NumberedRay& ray);
+    void measure(const std::vector<Partition>& found, const Judged& judged, const NumberedRay& ray);
+    void add_tie(const NumberedRay& ray, RegionDifference difference);
+};
+
+/// With the answer of the ray moved, or with another tolerance.
+void Verifier::Impl::compare(Judged& judged, const RayPartitions& other, const NumberedRay& ray) {
+    if (judged.tie) return;
+    const std::vector<Partition>&a = judged.answer.partitions, &b = other.partitions;
+    const Blur blur = blur_of(ray.ray);
+    const Pairing paired = pair(a, b, blur);
+    if (!paired.same_regions) {
+        judged.tie = true;
+        add_tie(ray, difference_of(a, b, blur));
+    }
+    judged.all_as_they_are = judged.all_as_they_are && paired.as_they_are;
+    if (!judged.all_as_they_are) return;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        judged.moved[i][0] = std::max(judged.moved[i][0], apart(a[i].in, b[i].in));
+        judged.moved[i][1] = std::max(judged.moved[i][1], apart(a[i].out, b[i].out));
+    }
+}
+
+void Verifier::Impl::add_tie(const NumberedRay& ray, RegionDifference difference) {
+    auto kind = std::find_if(result.tie_kinds.begin(), result.tie_kinds.end(),
+                             [&](const Tie& tie) { return tie.difference == difference; });
+    if (kind == result.tie_kinds.end()) {
+        if (result.tie_kinds.size() == Verification::kept) return;
+        kind = result.tie_kinds.insert(kind, {{ray}, std::move(difference), 0});
+    }
+    ++kind->rays;
+}
+
+/// The distances of a decided ray whose regions are right.
+void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& judged, const NumberedRay& ray) {
+    const std::vector<Partition>& exact = judged.answer.partitions;
+    const Blur blur = blur_of(ray.ray);
+    if (!judged.all_as_they_are || !pair(exact, found, blur).as_they_are) {
+        result.leaping_ends += 2 * exact.size();
+        return;
+    }
+    const double speed = length(ray.ray.direction), origin = length(ray.ray.origin);
+    const auto measure_end = [&](double t, double off, double moved, Vec3 normal, std::uint32_t region) {
+        const double slope = std::max(cosine(ray.ray.direction, normal), std::numeric_limits<double>::min());
+        if (!(moved * speed <= most_leap * blur.shift / slope)) {
+            ++result.leaping_ends;
+            return;
+        }
+        ++result.ends;
+        EndError error{ray};
+        error.distance = t * speed;
+        error.millimetres = off * speed;
+        error.region = region;
+        if (off > 0)
+            error.ulps = error.millimetres * slope / (unit_roundoff * (origin + std::abs(error.distance) + size));
+        if (error.millimetres > result.farthest.millimetres) result.farthest = error;
+        if (error.ulps > result.worst.ulps) result.worst = error;
+    };
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        const Partition &e = exact[i], &f = found[i];
+        measure_end(e.in, apart(e.in, f.in), judged.moved[i][0], e.in_normal, e.region);
+        measure_end(e.out, apart(e.out, f.out), judged.moved[i][1], e.out_normal, e.region);
+    }
+}
+
+Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
+    : impl_(std::make_unique<Impl>()) {
+    if (settings.contraction) throw Error(Status::usage, "contraction changes the bits that a verification compares");
+    if (settings.precision == Precision::quad)
+        throw Error(Status::usage, "113-bit precision is what the others are judged by");
+    Impl& impl = *impl_;
+    impl.settings = settings;
+    Settings own = settings;
+    own.progress = [&impl](double fraction) { return impl.report(fraction); };
+    if (!settings.reference) {
+        impl.device.emplace(scene, objects, own);
+        impl.result.device = impl.device->statistics().device;
+    }
+    impl.reference.emplace(scene, objects, on_reference(own));
+    const double tolerance = impl.reference->statistics().tolerance;
+    impl.judge.emplace(scene, objects, exact(own, tolerance));
+    if (tolerance > 0)
+        for (const double factor : {0.5, 2.0})
+            impl.other_tolerances.emplace_back(scene, objects, exact(own, factor * tolerance));
+    impl.box = box_of(*impl.judge);
+    impl.size = length(impl.box.high - impl.box.low);
+}
+
+Verifier::~Verifier() = default;
+Verifier::Verifier(Verifier&&) noexcept = default;
+Verifier& Verifier::operator=(Verifier&&) noexcept = default;
+
+std::vector<Ray> Verifier::sample(const Camera& camera, std::size_t count, std::uint64_t seed) const {
+    const int side = static_cast<int>(std::sqrt(static_cast<double>(count / 2)));
+    std::vector<Ray> rays;
+    if (side > 0) rays = impl_->judge->rays_of({.width = side, .height = side, .camera = camera});
+    std::mt19937_64 random(seed);
+    const Box& box = impl_->box;
+    const auto point = [&] {
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * (static_cast<double>(random() >> 11) * unit_roundoff);
+        };
+        const double x = between(box.low.x, box.high.x), y = between(box.low.y, box.high.y);
+        return Vec3{x, y, between(box.low.z, box.high.z)};
+    };
+    while (rays.size() < count) {
+        const Vec3 from = point(), way = point() - from;
+        const double distance = length(way);
+        if (!(distance > 0)) continue;
+        const Vec3 direction = 1 / distance * way;
+        rays.push_back({from - impl_->size * direction, direction});
+    }
+    return rays;
+}
+
+void Verifier::shoot(const std::vector<Ray>& rays) {
+    Impl& impl = *impl_;
+    const double share = 1.0 / static_cast<double>(1 + corners + impl.other_tolerances.size() + 1);
+    impl.done = 0;
+    // Those in 113 bits take nearly all of the time.
+    const std::vector<RayPartitions> on_reference = impl.shoot(*impl.reference, rays, share / 2);
+    std::vector<RayPartitions> on_device;
+    if (impl.device) on_device = impl.shoot(*impl.device, rays, share / 2);
+    std::vector<RayPartitions> answers = impl.shoot(*impl.judge, rays, share);
+
+    const std::uint64_t first = impl.result.rays;
+    std::vector<Judged> judged(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        judged[i].answer = std::move(answers[i]);
+        judged[i].moved.resize(judged[i].answer.partitions.size());
+    }
+    const auto compare = [&](const std::vector<RayPartitions>& others) {
+        for (std::size_t i = 0; i < rays.size(); ++i) impl.compare(judged[i], others[i], {first + i, rays[i]});
+    };
+    std::vector<Ray> moved = rays;
+    for (int corner = 0; corner < corners; ++corner) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const double step = impl.blur_of(rays[i]).shift / std::sqrt(3.0);
+            const auto side = [&](int bit) { return corner >> bit & 1 ? step : -step; };
+            moved[i].origin = rays[i].origin + Vec3{side(0), side(1), side(2)};
+        }
+        compare(impl.shoot(*impl.judge, moved, share));
+    }
+    for (Renderer& other : impl.other_tolerances) compare(impl.shoot(other, rays, share));
+
+    Verification& result = impl.result;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const NumberedRay ray{first + i, rays[i]};
+        ++result.rays;
+        result.hits += !judged[i].answer.partitions.empty();
+        const bool differs = impl.device && !identical(on_device[i], on_reference[i]);
+        if (differs && ++result.bit_differences <= Verification::kept) result.different_rays.push_back(ray);
+        if (judged[i].tie) {
+            ++result.ties;
+            continue;
+        }
+        ++result.decided;
+        const std::vector<Partition>& exact = judged[i].answer.partitions;
+        const std::vector<Partition>* wrong = nullptr;
+        WrongRay entry{ray, false, false, {}};
+        const auto judge = [&](const std::vector<Partition>& found, bool& fault) {
+            fault = !pair(exact, found, impl.blur_of(ray.ray)).same_regions;
+            if (!fault) impl.measure(found, judged[i], ray);
+            if (fault && !wrong) wrong = &found;
+        };
+        if (impl.device) judge(on_device[i].partitions, entry.on_device);
+        if (!impl.device || differs)
+            judge(on_reference[i].partitions, entry.on_reference);
+        else
+            entry.on_reference = entry.on_device;
+        if (!wrong || ++result.wrong > Verification::kept) continue;
+        entry.difference = difference_of(exact, *wrong, impl.blur_of(ray.ray));
+        result.wrong_rays.push_back(std::move(entry));
+    }
+}
+
+const Verification& Verifier::result() const { return impl_->result; }
+const Renderer& Verifier::renderer() const { return *impl_->reference; }
+
+}  // namespace csgrt

@@ -1,0 +1,32 @@
+"""The Pareto front of the chart (bench/chart/pareto.py)."""
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "chart"))
+from pareto import front  # noqa: E402
+
+
+class Front(unittest.TestCase):
+    def test_slower_and_no_better_is_not_on_it(self):
+        self.assertEqual(front({"a": (1, 5), "b": (2, 5), "c": (3, 1), "d": (4, 2)}), {"a", "c"})
+
+    def test_every_measure_counts(self):
+        points = {"fast": (1, 9, 9), "right": (2, 0, 5), "near": (2, 5, 0), "neither": (2.5, 6, 6)}
+        self.assertEqual(front(points), {"fast", "right", "near"})
+
+    def test_times_within_the_noise_are_equal(self):
+        self.assertEqual(front({"a": (1, 0), "b": (1.05, 0)}, noise=0.1), {"a", "b"})
+        self.assertEqual(front({"a": (1, 0), "b": (1.05, 0)}, noise=0.01), {"a"})
+
+    def test_noise_is_no_excuse_for_errors(self):
+        self.assertEqual(front({"a": (1, 0), "b": (1.05, 1)}, noise=0.1), {"a"})
+        self.assertEqual(front({"a": (1, 0), "b": (0.95, 1)}, noise=0.1), {"a"})
+        self.assertEqual(front({"a": (1, 0), "b": (0.8, 1)}, noise=0.1), {"a", "b"})
+
+    def test_equals_stay_both(self):
+        self.assertEqual(front({"a": (1, 1), "b": (1, 1)}), {"a", "b"})
+
+
+if __name__ == "__main__":
+    unittest.main()
