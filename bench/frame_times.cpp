@@ -62,13 +62,13 @@ Result measure(const bench::Workload& workload, const std::string& path, const O
     };
     using Times = decltype(Statistics::ms);
     for (double Times::*member : {&Times::count_hits, &Times::scan, &Times::store_segments, &Times::weave, &Times::evaluate,
-                                  &Times::shade, &Times::frame})
+                                  &Times::shade, &Times::cull_blocks, &Times::first_hits, &Times::frame})
         take(member);
     return result;
 }
 
 double device_time(const Statistics& s) {
-    return s.ms.count_hits + s.ms.scan + s.ms.store_segments + s.ms.weave + s.ms.evaluate + s.ms.shade;
+    return s.ms.device();
 }
 double bytes_each(const Statistics& s) {
     return s.segments ? static_cast<double>(s.segment_bytes + s.partition_bytes) / static_cast<double>(s.segments) : 0;

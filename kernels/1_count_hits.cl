@@ -13,7 +13,7 @@ __kernel void count_hits(__global const Frame* frame, __global const SolidRecord
     ray3 r;
     if (id >= frame->ray_count) return;
     count.segments = count.words = 0;
-    if (ray_of(frame, rays, frame->first_ray + id, &r)) {
+    if (ray_of(frame, rays, number_of(frame, rays, id), &r)) {
         walk_state w = walk(frame, g, nodes, r, 0);
         count.segments = w.segments;
         // 2 n x n / 32 passes 2^32 from n = 2^18 on.

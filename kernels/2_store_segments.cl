@@ -14,5 +14,5 @@ __kernel void store_segments(__global const Frame* frame, __global const SolidRe
     ray3 r;
     if (id >= frame->ray_count) return;
     if (offsets[id].segments == offsets[id + 1].segments) return;
-    if (ray_of(frame, rays, frame->first_ray + id, &r)) walk(frame, g, nodes, r, ends + 2 * (size_t)offsets[id].segments);
+    if (ray_of(frame, rays, number_of(frame, rays, id), &r)) walk(frame, g, nodes, r, ends + 2 * (size_t)offsets[id].segments);
 }

@@ -57,7 +57,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     result.partitions = result.overlaps = 0;
     offset = offsets[id];
     segments = offsets[id + 1].segments - offset.segments;
-    if (segments == 0 || !ray_of(frame, rays, frame->first_ray + id, &r)) {
+    if (segments == 0 || !ray_of(frame, rays, number_of(frame, rays, id), &r)) {
         results[id] = result;
         return;
     }

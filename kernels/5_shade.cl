@@ -10,13 +10,16 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
                     __global const RegionRecord* regions, __global const MaterialRecord* materials,
                     __global const LightRecord* lights, __global const RayCount* offsets,
                     __global const End* all_ends, __global const PartitionNode* all_nodes,
-                    __global const RayResult* results, __global Pixel* pixels) {
+                    __global const RayResult* results, __global const RayRecord* rays, __global float* picture) {
     u32 id = (u32)get_global_id(0);
     RayResult result;
     Pixel pixel;
+    pixel_position at;
     ray3 r;
     if (id >= frame->ray_count) return;
-    if (!ray_of(frame, 0, frame->first_ray + id, &r)) return;
+    at = pixel_of(number_of(frame, rays, id), frame->width, frame->height);
+    if (!at.inside) return;
+    r = geometry_ray(frame, camera_ray(frame, at));
     result = results[id];
     if (result.first == NONE) {
         pixel = background_pixel(frame);
@@ -36,5 +39,5 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = result.partitions;
     pixel.overlap = result.overlaps;
-    pixels[id] = pixel;
+    put_pixel(frame, picture, at, pixel);
 }

@@ -11,8 +11,8 @@
 
 // A ray's segments, and the bits that say which of them cover the partition. Ends are sorted by solid.
 typedef struct {
-    GLOBAL const End* ends;
-    GLOBAL const u32* bits;
+    ENDS const End* ends;
+    ENDS const u32* bits;
     u32 segments;
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;

@@ -26,6 +26,12 @@ typedef real wide;
 #endif
 typedef uint u32;
 #define GLOBAL __global
+// Where a ray's ends are: in global memory, unless a program keeps them to the work-item.
+#ifdef CSGRT_PRIVATE_ENDS
+#define ENDS __private
+#else
+#define ENDS __global
+#endif
 #define FN static
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
@@ -38,6 +44,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 // The host includes kernels/ inside a namespace that has defined `real`, `wide`, `u32` and REAL_INFINITY
 // (src/kernel_host.hpp); src/host_math.hpp has the functions for each kind of number.
 #define GLOBAL
+#define ENDS
 #define FN [[maybe_unused]] static inline
 FN real real_sqrt(real x) { return host::root(x); }
 FN real real_fma(real a, real b, real c) { return host::fma(a, b, c); }

@@ -135,6 +135,9 @@ typedef struct {
     u32 first_ray, ray_count;  // this tile
     u32 solid_count, unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: evaluation stops at the first claimed partition
+    u32 picked;            // 1: the tile's rays are those whose numbers are listed
+    u32 channels;          // of the picture: CHANNEL_x bits
+    u32 first_row, rows, first_column, columns;  // of the pixels that the tile's rays lie in
 } Frame;
 
 // Rays are numbered in blocks of 8 x 8 pixels, so that the work-items of a group look at neighbours.
@@ -176,7 +179,7 @@ typedef struct {
     u32 overlaps;    // partitions that more than one region wanted
 } RayResult;
 
-// 5 shade -> host
+// What is seen at one pixel; what of it the host gets is in Frame.channels.
 typedef struct {
     float rgba[4];
     float z;
@@ -184,6 +187,13 @@ typedef struct {
     u32 region, solid;  // + 1; 0: nothing
     u32 depth, partitions, overlap;
 } Pixel;
+
+// The picture: a plane of columns x rows floats for each channel, in this order.
+#define CHANNEL_COLOR 1u     // R G B A
+#define CHANNEL_DISTANCE 2u  // Z
+#define CHANNEL_NORMAL 4u    // N.X N.Y N.Z
+#define CHANNEL_IDS 8u       // region, solid
+#define CHANNEL_COUNTS 16u   // depth, partitions, overlap
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }

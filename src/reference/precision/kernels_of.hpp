@@ -133,6 +133,12 @@ k::Frame convert_frame(const kernel::Frame& f) {
     frame.node_count = f.node_count;
     frame.light_count = f.light_count;
     frame.every_partition = f.every_partition;
+    frame.picked = f.picked;
+    frame.channels = f.channels;
+    frame.first_row = f.first_row;
+    frame.rows = f.rows;
+    frame.first_column = f.first_column;
+    frame.columns = f.columns;
     return frame;
 }
 

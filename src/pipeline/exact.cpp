@@ -1,0 +1,179 @@
+#include "pipeline/exact.hpp"
+
+#include <algorithm>
+
+#include "kernel_geometry.hpp"
+
+namespace csgrt {
+namespace kernel {
+#define CSGRT_TREE_STACK TREE_STACK
+#include "../../kernels/boolean.h"
+}  // namespace kernel
+
+namespace {
+constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
+}
+
+Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
+    : device_(device),
+      scene_(scene),
+      kernels_(kernels),
+      program_(device,
+               assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
+               defines_of(scene, settings), settings.precision != Precision::double_),
+      count_hits_(program_.kernel("count_hits")),
+      scan_blocks_(program_.kernel("scan_blocks")),
+      scan_add_(program_.kernel("scan_add")),
+      store_segments_(program_.kernel("store_segments")),
+      weave_(program_.kernel("weave")),
+      evaluate_(program_.kernel("evaluate")),
+      shade_(program_.kernel("shade")),
+      counts_(device, "counts"),
+      results_(device, "results"),
+      ends_(device, "segments"),
+      partitions_(device, "partitions"),
+      bits_(device, "partitions' bits") {}
+
+std::uint64_t Exact::held() const { return counts_.size() + results_.size() + ends_.size() + partitions_.size() + bits_.size(); }
+
+void Exact::release_counted() {
+    for (Buffer* buffer : {&ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
+}
+
+// Exclusive prefix sums over the first `size` counts, level by level.
+double Exact::scan(std::uint32_t size) {
+    std::vector<std::uint32_t> sizes{size};
+    while (sizes.back() > 1) sizes.push_back((sizes.back() + scan_block - 1) / scan_block);
+    while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
+    std::vector<Event> events;
+    const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts_ : *sums_[i]; };
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
+        level(i + 1).reserve(sizes[i + 1] * sizeof(kernel::RayCount));
+        events.push_back(scan_blocks_.launch(sizes[i + 1] * work_group, work_group, level(i), level(i + 1), sizes[i]));
+    }
+    for (std::size_t i = sizes.size() - 1; i-- > 1;)
+        events.push_back(scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
+    double sum = 0;
+    for (const Event& event : events) sum += milliseconds(event);
+    return sum;
+}
+
+bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, bool pictured, PipelineCounts& counts) {
+    const SceneBuffers& s = scene;
+    const std::size_t entries = std::size_t{rays} + 1;
+    if (entries * ray_bytes > device_.available()) release_counted();
+    counts_.reserve(entries * sizeof(kernel::RayCount));
+    results_.reserve(rays * sizeof(kernel::RayResult));
+
+    const kernel::RayCount zero{};
+    counts_.upload(&zero, sizeof zero, rays * sizeof zero);
+    const Event count = count_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                           s.inner_nodes, s.nodes, tile.rays, counts_);
+    const double scan_time = scan(static_cast<std::uint32_t>(entries));
+    counts_.read(&total_, sizeof total_, rays * sizeof total_);
+    counts.count_hits += milliseconds(count);
+    counts.scan += scan_time;
+
+    const kernel::RayCount total = total_;
+    const std::uint64_t node_count = 2 * std::uint64_t{total.segments};
+    const std::uint64_t end_bytes = node_count * kernels_.end_bytes();
+    const std::uint64_t node_bytes = node_count * sizeof(kernel::PartitionNode);
+    const std::uint64_t bit_bytes = std::uint64_t{total.words} * sizeof(std::uint32_t);
+    const std::uint64_t largest = std::max({end_bytes, node_bytes, bit_bytes});
+    // Buffers only grow, unless that would not fit.
+    const std::uint64_t before = ends_.size() + partitions_.size() + bits_.size();
+    const std::uint64_t grown = std::max<std::uint64_t>(end_bytes, ends_.size()) +
+                                std::max<std::uint64_t>(node_bytes, partitions_.size()) +
+                                std::max<std::uint64_t>(bit_bytes, bits_.size());
+    if (grown > device_.available() + before) release_counted();
+    if (total.segments >= NONE / 2 || total.words == COUNT_MAX || largest > device_.max_buffer()) return false;
+    const std::uint64_t free = device_.available() + ends_.size() + partitions_.size() + bits_.size();
+    if (end_bytes + node_bytes + bit_bytes > free) return false;
+    ends_.reserve(end_bytes);
+    partitions_.reserve(node_bytes);
+    bits_.reserve(bit_bytes);
+
+    const std::uint32_t hitting = total.segments ? rays : 0;
+    const Event store = store_segments_.launch(hitting, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
+                                               s.words, s.inner_nodes, s.nodes, tile.rays, counts_, ends_);
+    const Event weave = weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
+    const Event evaluate = evaluate_.launch(hitting, work_group, tile.frame, s.solids, s.regions, s.starts, s.leaves, s.trees,
+                                            counts_, ends_, partitions_, bits_, results_, tile.rays);
+    Event shade;
+    if (pictured)
+        shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
+                              s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_, tile.rays,
+                              tile.picture);
+    counts.store_segments += milliseconds(store);
+    counts.weave += milliseconds(weave);
+    counts.evaluate += milliseconds(evaluate);
+    counts.shade += milliseconds(shade);
+
+    counts.segments += total.segments;
+    counts.hits += node_count;
+    counts.partitions_allocated += node_count;
+    counts.segment_bytes += end_bytes;
+    counts.partition_bytes += node_bytes + bit_bytes;
+    return true;
+}
+
+void Exact::add_results(std::uint32_t rays, PipelineCounts& counts) const {
+    for (const kernel::RayResult& result : results_.read<kernel::RayResult>(rays)) {
+        counts.partitions_used += result.partitions;
+        counts.overlaps += result.overlaps;
+    }
+}
+
+std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, PipelineCounts& counts) const {
+    const auto offsets = counts_.read<kernel::RayCount>(std::size_t{rays} + 1);
+    const auto results = results_.read<kernel::RayResult>(rays);
+    const auto ends = kernels_.ends(ends_.read<std::byte>(2 * std::size_t{total_.segments} * kernels_.end_bytes()));
+    const auto nodes = partitions_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
+    const auto bits = bits_.read<std::uint32_t>(total_.words);
+    std::vector<std::vector<ClaimedPartition>> claims(rays);
+    for (std::uint32_t i = 0; i < rays; ++i) {
+        counts.partitions_used += results[i].partitions;
+        counts.overlaps += results[i].overlaps;
+        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], results[i].first);
+    }
+    return claims;
+}
+
+// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
+std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
+    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data()};
+    kernel::window window;
+    kernel::fill_window(&window, cover, 0, 0, NO_END);
+    std::vector<std::uint32_t> claimants;
+    std::uint32_t from = 0;
+    for (;;) {
+        const std::uint32_t region = kernel::next_claim(scene_.regions.data(), scene_.trees.data(), &window, cover, &from);
+        if (region == NONE) return claimants;
+        claimants.push_back(region);
+    }
+}
+
+std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
+                                               const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
+                                               const kernel::RayCount& end, std::uint32_t first_node) const {
+    std::vector<ClaimedPartition> claims;
+    const std::uint32_t segments = end.segments - begin.segments;
+    const std::size_t base = 2 * std::size_t{begin.segments};
+    for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
+        const kernel::PartitionNode& partition = nodes[base + node];
+        const std::uint32_t region = partition.region & ~OVERLAP;
+        if (region == NONE) continue;
+        ClaimedPartition claim;
+        claim.in = ends[base + partition.in_end];
+        claim.out = ends[base + partition.out_end];
+        claim.in_leaves = partition.in_end % 2 == 1;
+        claim.out_enters = partition.out_end % 2 == 0;
+        claim.region = region;
+        if (partition.region & OVERLAP)
+            claim.claimants = claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
+        claims.push_back(std::move(claim));
+    }
+    return claims;
+}
+
+}  // namespace csgrt
