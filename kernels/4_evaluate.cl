@@ -36,11 +36,13 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
     while (node != NONE) {
         PartitionNode partition = list[node];
         window w;
+        few_solids few;
         u32 from = 0, claimed, overlap;
         c.bits = all_bits + offset.words + node * words;
         fill_window(&w, c, 0, 0, NO_END);
-        claimed = next_claim(regions, trees, &w, c, &from);
-        overlap = claimed != NONE && next_claim(regions, trees, &w, c, &from) != NONE;
+        few = list_covered(c);
+        claimed = next_claim(regions, trees, &w, c, &few, &from);
+        overlap = claimed != NONE && next_claim(regions, trees, &w, c, &few, &from) != NONE;
         result.overlaps += overlap;
         list[node].region = claimed | (overlap ? OVERLAP : 0u);
         if (claimed != NONE && result.first == NONE && c.ends[partition.out_end].t > t_min) {

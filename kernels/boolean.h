@@ -85,10 +85,74 @@ FN u32 find_place(window* w, cover c, u32 leaves, u32 from, u32 end) {
     return w->at < w->count;
 }
 
+// The solids that cover a partition, if they are few, with a filter that most others do not pass.
+#define FEW 32u
+typedef struct {
+    u32 count;  // more than FEW: they are not listed
+    u32 even, odd;
+    u32 solids[FEW];
+} few_solids;
+
+FN few_solids list_covered(cover c) {
+    few_solids few;
+    u32 word, words = words_of(c.segments);
+    few.count = few.even = few.odd = 0;
+    for (word = 0; word < words; ++word) {
+        u32 bits = c.bits[word];
+        while (bits) {
+            u32 lowest = bits & (0u - bits);
+            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+            u32 bit = 1u << (solid >> 1 & 31u);
+            bits ^= lowest;
+            if (few.count == FEW) {
+                few.count = FEW + 1u;
+                return few;
+            }
+            if (solid & 1u) {
+                few.odd |= bit;
+            } else {
+                few.even |= bit;
+            }
+            few.solids[few.count++] = solid;
+        }
+    }
+    return few;
+}
+
+FN u32 is_covered(const few_solids* few, u32 solid) {
+    u32 i;
+    if (!((solid & 1u ? few->odd : few->even) >> (solid >> 1 & 31u) & 1u)) return 0;
+    for (i = 0; i < few->count; ++i)
+        if (few->solids[i] == solid) return 1;
+    return 0;
+}
+
+// Bit 4 op + left + 2 right: the operator's value.
+#define TRUTHS                                                                                                     \
+    (0xeu << 4 * OP_UNION | 0x8u << 4 * OP_INTERSECTION | 0x2u << 4 * OP_DIFFERENCE | 0x6u << 4 * OP_XOR | \
+     0x4u << 4 * OP_REVERSE_DIFFERENCE)
+
+// The same, word by word from the last: operands come before their operators, and one bit each is kept of them. No step
+// waits for another's memory; where trees are not large that is faster than to skip what is empty.
+FN u32 scan_tree(GLOBAL const u32* trees, u32 node, u32 end, const few_solids* few) {
+    u32 values = 0;
+    while (end > node) {
+        u32 word = trees[--end], op = word >> TREE_SHIFT;
+        if (op == OP_LEAF) {
+            values = values << 1 | is_covered(few, word & TREE_MASK);
+        } else if (op == OP_NOT) {
+            values ^= 1u;
+        } else {
+            values = (values >> 1 & ~1u) | (TRUTHS >> (4 * op + (values & 3u)) & 1u);
+        }
+    }
+    return values & 1u;
+}
+
 #define NEGATE_BIT 0x80000000u
 
-// The value of the tree in the words from `node` to `end`.
-FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, cover c) {
+// The value of the tree in the words from `node` to `end`, from covered leaf to covered leaf.
+FN u32 walk_tree(GLOBAL const u32* trees, u32 node, u32 end, cover c) {
     u32 stack[CSGRT_TREE_STACK], ends[CSGRT_TREE_STACK];
     u32 depth = 0, negate = 0, value, tree_end = end;
     window w;
@@ -144,15 +208,24 @@ FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, cover c) {
 }
 
 #define NO_END 0xffffffffu
+#ifndef SCANNED_WORDS
+#define SCANNED_WORDS 256u  // of a tree, that are scanned rather than walked
+#endif
+
+FN u32 evaluate_tree(GLOBAL const u32* trees, u32 node, u32 end, cover c, const few_solids* few) {
+    if (end - node <= SCANNED_WORDS && few->count <= FEW) return scan_tree(trees, node, end, few);
+    return walk_tree(trees, node, end, c);
+}
 
 // The next region, ascending, that claims the partition, from the tree at `*from` on, which is moved behind it; NONE: no
 // more. `starts`: filled from the first.
-FN u32 next_claim(GLOBAL const RegionRecord* regions, GLOBAL const u32* trees, window* starts, cover c, u32* from) {
+FN u32 next_claim(GLOBAL const RegionRecord* regions, GLOBAL const u32* trees, window* starts, cover c,
+                  const few_solids* few, u32* from) {
     while (find_place(starts, c, 0, *from, NO_END)) {
         u32 region = starts->regions[starts->at];
         RegionRecord record = regions[region];
         *from = record.first_word + record.word_count;
-        if ((record.flags & REGION_UNION_ONLY) || evaluate_tree(trees, record.first_word, *from, c)) return region;
+        if ((record.flags & REGION_UNION_ONLY) || evaluate_tree(trees, record.first_word, *from, c, few)) return region;
     }
     return NONE;
 }

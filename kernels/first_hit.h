@@ -79,6 +79,7 @@ FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
 FN u32 first_claim(const front* w, scene_tables s) {
     cover c;
     window starts;
+    few_solids few;
     u32 from = 0;
     c.ends = w->ends;
     c.bits = &w->open;
@@ -86,8 +87,9 @@ FN u32 first_claim(const front* w, scene_tables s) {
     c.solids = s.g.solids;
     c.starts = s.starts;
     c.leaves = s.leaves;
+    few = list_covered(c);
     fill_window(&starts, c, 0, 0, NO_END);
-    return next_claim(s.regions, s.trees, &starts, c, &from);
+    return next_claim(s.regions, s.trees, &starts, c, &few, &from);
 }
 
 // Passes all events that nothing can join that comes at `horizon` or later. 1: the first partition to be seen is known.

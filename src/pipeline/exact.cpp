@@ -142,12 +142,13 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, Pip
 // All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
 std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
     const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data()};
+    const kernel::few_solids few = kernel::list_covered(cover);
     kernel::window window;
     kernel::fill_window(&window, cover, 0, 0, NO_END);
     std::vector<std::uint32_t> claimants;
     std::uint32_t from = 0;
     for (;;) {
-        const std::uint32_t region = kernel::next_claim(scene_.regions.data(), scene_.trees.data(), &window, cover, &from);
+        const std::uint32_t region = kernel::next_claim(scene_.regions.data(), scene_.trees.data(), &window, cover, &few, &from);
         if (region == NONE) return claimants;
         claimants.push_back(region);
     }
