@@ -15,7 +15,9 @@
 #include "geometry/collect.h"
 #include "shared/slab.h"
 
+#ifndef PENDING
 #define PENDING 32u     // segments that a ray holds at a time; their cover is one word
+#endif
 #define WALK_STACK 64u  // boxes left over at a time
 
 // The segments that have begun or will begin, and their ends not yet passed, in order of distance.
@@ -33,7 +35,6 @@ typedef struct {
 typedef struct {
     Geometry g;
     GLOBAL const BvhNode* nodes;
-    GLOBAL const RegionRecord* regions;
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
@@ -78,18 +79,16 @@ FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
 
 FN u32 first_claim(const front* w, scene_tables s) {
     cover c;
-    window starts;
-    few_solids few;
-    u32 from = 0;
+    covered_solids covered;
     c.ends = w->ends;
     c.bits = &w->open;
     c.segments = PENDING;
     c.solids = s.g.solids;
     c.starts = s.starts;
     c.leaves = s.leaves;
-    few = list_covered(c);
-    fill_window(&starts, c, 0, 0, NO_END);
-    return next_claim(s.regions, s.trees, &starts, c, &few, &from);
+    c.trees = s.trees;
+    covered = list_covered(c);
+    return find_claim(c, &covered, 0).least;
 }
 
 // Passes all events that nothing can join that comes at `horizon` or later. 1: the first partition to be seen is known.

@@ -65,7 +65,6 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
         int found;
         s.g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
         s.nodes = nodes;
-        s.regions = regions;
         s.starts = starts;
         s.leaves = leaves;
         s.trees = trees;

@@ -47,7 +47,7 @@ typedef struct {
     u32 first_word;                  // into words, for solids of any size: counts, indices
     u32 first_plane, plane_count;    // into plane_refs
     u32 first_start, start_count;    // into starts
-    u32 first_leaf, leaf_count;      // into leaves: where it stands in trees that are not unions only, ascending
+    u32 first_leaf, leaf_count;      // into leaves: where it stands in terms of more than SCANNED_WORDS, ascending
     SOLID_CENTER
 } SolidRecord;
 
@@ -85,11 +85,13 @@ typedef struct {
     u32 material;
 } RegionRecord;
 
-// A leaf of a region's tree such that some one of these is covered wherever the region is: all of a union, those of A in
-// A - B, those of either in A and B. `node`: where it stands in `trees`; of a solid's starts in one region the first.
+// A region's tree is a union of terms. A term's starts are leaves such that some one of them is covered wherever the term
+// is: all of a union, those of A in A - B, those of either in A and B. A record for each solid and term that it starts.
 typedef struct {
-    u32 node, region;
+    u32 region;
+    u32 first_word, end_word;  // of the term, in trees
 } StartRecord;
+#define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
 
 typedef struct {
     float r, g, b;

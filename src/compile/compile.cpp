@@ -122,11 +122,32 @@ void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Compiled
     }
 }
 
-/// The leaves of a tree that start it, ascending; positions in `trees`.
-std::vector<std::uint32_t> starts_of(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record) {
+/// A term of a region's tree: words [first, end) of `trees`.
+struct Term {
+    std::uint32_t region, first, end;
+};
+
+/// The members of the unions at a tree's top, in order.
+void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record, std::uint32_t region, std::vector<Term>& terms) {
+    std::vector<Term> rest{{region, record.first_word, record.first_word + record.word_count}};
+    while (!rest.empty()) {
+        const Term term = rest.back();
+        rest.pop_back();
+        if (trees[term.first] >> TREE_SHIFT == OP_UNION) {
+            const std::uint32_t right = trees[term.first] & TREE_MASK;
+            rest.push_back({region, right, term.end});
+            rest.push_back({region, term.first + 1, right});
+        } else {
+            terms.push_back(term);
+        }
+    }
+}
+
+/// The leaves that start a term, ascending; positions in `trees`.
+std::vector<std::uint32_t> starts_of(const std::vector<std::uint32_t>& trees, const Term& term) {
     // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
     std::vector<std::vector<std::uint32_t>> stack;
-    for (std::uint32_t node = record.first_word + record.word_count; node-- > record.first_word;) {
+    for (std::uint32_t node = term.end; node-- > term.first;) {
         const std::uint32_t op = trees[node] >> TREE_SHIFT;
         if (op == OP_LEAF) {
             stack.push_back({node});
@@ -165,32 +186,32 @@ void fill_table(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::
     });
 }
 
-/// Where each solid starts regions, and where it stands in their trees.
+/// Which terms each solid starts, and where it stands in large ones.
 void list_leaves(CompiledScene& compiled) {
-    const auto region_count = static_cast<std::uint32_t>(compiled.regions.size());
     const auto solid_at = [&](std::uint32_t node) { return compiled.trees[node] & TREE_MASK; };
+    std::vector<Term> terms;
+    for (std::uint32_t region = 0; region < compiled.regions.size(); ++region)
+        add_terms(compiled.trees, compiled.regions[region], region, terms);
     std::vector<std::vector<std::uint32_t>> starts;
-    for (const kernel::RegionRecord& record : compiled.regions) starts.push_back(starts_of(compiled.trees, record));
-    std::vector<std::uint32_t> last;
+    for (const Term& term : terms) starts.push_back(starts_of(compiled.trees, term));
+    std::vector<std::size_t> last;
     fill_table(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count, compiled.starts,
                [&](const auto& call) {
-                   last.assign(compiled.solids.size(), region_count);
-                   for (std::uint32_t region = 0; region < region_count; ++region)
-                       for (const std::uint32_t node : starts[region]) {
+                   last.assign(compiled.solids.size(), terms.size());
+                   for (std::size_t i = 0; i < terms.size(); ++i)
+                       for (const std::uint32_t node : starts[i]) {
                            const std::uint32_t solid = solid_at(node);
-                           if (last[solid] == region) continue;
-                           last[solid] = region;
-                           call(solid, kernel::StartRecord{node, region});
+                           if (last[solid] == i) continue;
+                           last[solid] = i;
+                           call(solid, kernel::StartRecord{terms[i].region, terms[i].first, terms[i].end});
                        }
                });
     fill_table(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count, compiled.leaves,
                [&](const auto& call) {
-                   for (const kernel::RegionRecord& record : compiled.regions) {
-                       if (record.flags & REGION_UNION_ONLY) continue;
-                       for (std::uint32_t i = 0; i < record.word_count; ++i) {
-                           const std::uint32_t node = record.first_word + i;
+                   for (const Term& term : terms) {
+                       if (term.end - term.first <= SCANNED_WORDS) continue;
+                       for (std::uint32_t node = term.first; node < term.end; ++node)
                            if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF) call(solid_at(node), node);
-                       }
                    }
                });
 }

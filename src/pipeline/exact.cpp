@@ -97,7 +97,7 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     const Event store = store_segments_.launch(hitting, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
                                                s.words, s.inner_nodes, s.nodes, tile.rays, counts_, ends_);
     const Event weave = weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
-    const Event evaluate = evaluate_.launch(hitting, work_group, tile.frame, s.solids, s.regions, s.starts, s.leaves, s.trees,
+    const Event evaluate = evaluate_.launch(hitting, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees,
                                             counts_, ends_, partitions_, bits_, results_, tile.rays);
     Event shade;
     if (pictured)
@@ -141,17 +141,21 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, Pip
 
 // All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
 std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
-    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data()};
-    const kernel::few_solids few = kernel::list_covered(cover);
-    kernel::window window;
-    kernel::fill_window(&window, cover, 0, 0, NO_END);
+    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(),
+                              scene_.trees.data()};
+    const kernel::covered_solids covered = kernel::list_covered(cover);
     std::vector<std::uint32_t> claimants;
-    std::uint32_t from = 0;
-    for (;;) {
-        const std::uint32_t region = kernel::next_claim(scene_.regions.data(), scene_.trees.data(), &window, cover, &few, &from);
-        if (region == NONE) return claimants;
-        claimants.push_back(region);
+    for (std::uint32_t segment = 0; segment < segments; ++segment) {
+        if (!kernel::covers(cover, segment)) continue;
+        const kernel::SolidRecord& solid = scene_.solids[ends[2 * segment].solid];
+        for (std::uint32_t i = 0; i < solid.start_count; ++i) {
+            const kernel::StartRecord& start = scene_.starts[solid.first_start + i];
+            if (kernel::term_holds(cover, &covered, start)) claimants.push_back(start.region);
+        }
     }
+    std::sort(claimants.begin(), claimants.end());
+    claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+    return claimants;
 }
 
 std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
