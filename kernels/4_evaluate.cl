@@ -40,7 +40,7 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
         u32 overlap;
         c.bits = all_bits + offset.words + node * words;
         covered = list_covered(c);
-        found = find_claim(c, &covered, 1);
+        found = find_claim(c, &covered, 1, all_solids());
         overlap = found.other != NONE;
         result.overlaps += overlap;
         list[node].region = found.least | (overlap ? OVERLAP : 0u);

@@ -28,26 +28,21 @@ FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 
 #define FEW 32u
 typedef struct {
     u32 count;  // more than FEW: they are not listed
-    u32 even, odd;
+    SolidFilter filter;
     u32 solids[FEW];
 } covered_solids;
 
 FN covered_solids list_covered(cover c) {
     covered_solids list;
     u32 word, words = words_of(c.segments);
-    list.count = list.even = list.odd = 0;
+    list.count = list.filter.even = list.filter.odd = 0;
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
             u32 lowest = bits & (0u - bits);
             u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
-            u32 bit = 1u << (solid >> 1 & 31u);
             bits ^= lowest;
-            if (solid & 1u) {
-                list.odd |= bit;
-            } else {
-                list.even |= bit;
-            }
+            list.filter = with(list.filter, filter_of(solid));
             if (list.count < FEW) list.solids[list.count] = solid;
             if (list.count <= FEW) ++list.count;
         }
@@ -57,7 +52,7 @@ FN covered_solids list_covered(cover c) {
 
 FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
     u32 low = 0, high = c.segments;
-    if (!((solid & 1u ? list->odd : list->even) >> (solid >> 1 & 31u) & 1u)) return 0;
+    if (!within(filter_of(solid), list->filter)) return 0;
     if (list->count <= FEW) {
         for (; low < list->count; ++low)
             if (list->solids[low] == solid) return 1;
@@ -219,8 +214,15 @@ FN u32 walk_term(cover c, u32 node, u32 end) {
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     u32 size = start.end_word - start.first_word;
     if (size == 1) return 1;
+    if (!within(start.needed, list->filter)) return 0;
     if (size <= SCANNED_WORDS) return scan_term(c, list, start.first_word, start.end_word);
     return walk_term(c, start.first_word, start.end_word);
+}
+
+FN SolidFilter all_solids(void) {
+    SolidFilter f;
+    f.even = f.odd = 0xffffffffu;
+    return f;
 }
 
 // The regions that claim a partition: the least, and any other. NONE: there is none.
@@ -228,8 +230,8 @@ typedef struct {
     u32 least, other;
 } claim;
 
-// `other`: is it wanted.
-FN claim find_claim(cover c, const covered_solids* list, u32 other) {
+// `other`: is it wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
+FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);
     found.least = found.other = NONE;
@@ -243,7 +245,7 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other) {
             for (; i < end; ++i) {
                 StartRecord start = c.starts[i];
                 if (start.region >= found.least && (!other || found.other != NONE || start.region == found.least)) continue;
-                if (!term_holds(c, list, start)) continue;
+                if (!meet(start.solids, changed) || !term_holds(c, list, start)) continue;
                 if (start.region < found.least) {
                     found.other = found.least;
                     found.least = start.region;

@@ -77,7 +77,7 @@ FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
     return 1;
 }
 
-FN u32 first_claim(const front* w, scene_tables s) {
+FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
     cover c;
     covered_solids covered;
     c.ends = w->ends;
@@ -88,7 +88,7 @@ FN u32 first_claim(const front* w, scene_tables s) {
     c.leaves = s.leaves;
     c.trees = s.trees;
     covered = list_covered(c);
-    return find_claim(c, &covered, 0).least;
+    return find_claim(c, &covered, 0, changed).least;
 }
 
 // Passes all events that nothing can join that comes at `horizon` or later. 1: the first partition to be seen is known.
@@ -98,9 +98,12 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
         const real t = w->ends[w->order[done]].t;
         const u32 before = w->open;
         u32 end = done, in_end = NONE, out_end = NONE;
+        SolidFilter changed;
+        changed.even = changed.odd = 0;
         if (!all && !(horizon - t > tolerance)) break;
         do {
             w->open ^= 1u << (w->order[end] >> 1);
+            changed = with(changed, filter_of(w->ends[w->order[end]].solid));
             ++end;
         } while (end < w->count && (w->ends[w->order[end]].t == t || w->ends[w->order[end]].t - t <= tolerance));
         for (i = done; i < end; ++i) {
@@ -118,7 +121,8 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
         if (w->region != NONE && t > t_min) {
             found = 1;
         } else {
-            w->region = w->open ? first_claim(w, s) : NONE;
+            if (w->region != NONE) changed = all_solids();
+            w->region = w->open ? first_claim(w, s, changed) : NONE;
             w->seen = w->ends[in_end != NONE ? in_end : out_end];
             w->seen.t = t;
             w->from_within = in_end == NONE;

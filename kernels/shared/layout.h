@@ -85,11 +85,33 @@ typedef struct {
     u32 material;
 } RegionRecord;
 
+// A set of solids, known by a bit each, which others may share: what is not in the filter is not in the set.
+typedef struct {
+    u32 even, odd;
+} SolidFilter;
+
+FN SolidFilter filter_of(u32 solid) {
+    SolidFilter f;
+    u32 bit = 1u << (solid >> 1 & 31u);
+    f.even = solid & 1u ? 0u : bit;
+    f.odd = solid & 1u ? bit : 0u;
+    return f;
+}
+FN SolidFilter with(SolidFilter a, SolidFilter b) {
+    a.even |= b.even;
+    a.odd |= b.odd;
+    return a;
+}
+FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.odd & ~b.odd); }
+FN u32 meet(SolidFilter a, SolidFilter b) { return (a.even & b.even) || (a.odd & b.odd); }
+
 // A region's tree is a union of terms. A term's starts are leaves such that some one of them is covered wherever the term
 // is: all of a union, those of A in A - B, those of either in A and B. A record for each solid and term that it starts.
 typedef struct {
     u32 region;
     u32 first_word, end_word;  // of the term, in trees
+    SolidFilter needed;        // solids that all cover wherever the term is
+    SolidFilter solids;        // all of the term's
 } StartRecord;
 #define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
 

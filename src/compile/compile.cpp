@@ -143,29 +143,42 @@ void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionReco
     }
 }
 
-/// The leaves that start a term, ascending; positions in `trees`.
-std::vector<std::uint32_t> starts_of(const std::vector<std::uint32_t>& trees, const Term& term) {
+/// The record of a term, and the leaves that start it, ascending; positions in `trees`.
+struct TermStarts {
+    kernel::StartRecord record;
+    std::vector<std::uint32_t> leaves;
+};
+TermStarts starts_of(const std::vector<std::uint32_t>& trees, const Term& term) {
+    struct Part {
+        std::vector<std::uint32_t> leaves;
+        kernel::SolidFilter needed;
+    };
     // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
-    std::vector<std::vector<std::uint32_t>> stack;
+    std::vector<Part> stack;
+    kernel::SolidFilter solids{0, 0};
     for (std::uint32_t node = term.end; node-- > term.first;) {
         const std::uint32_t op = trees[node] >> TREE_SHIFT;
         if (op == OP_LEAF) {
-            stack.push_back({node});
+            stack.push_back({{node}, kernel::filter_of(trees[node] & TREE_MASK)});
+            solids = kernel::with(solids, stack.back().needed);
             continue;
         }
-        std::vector<std::uint32_t> left = std::move(stack.back());
+        Part left = std::move(stack.back());
         stack.pop_back();
-        std::vector<std::uint32_t>& right = stack.back();
-        const bool either = op == OP_INTERSECTION;
-        if (op == OP_DIFFERENCE || (either && left.size() <= right.size())) {
+        Part& right = stack.back();
+        if (op == OP_DIFFERENCE) {
             right = std::move(left);
-        } else if (op != OP_REVERSE_DIFFERENCE && !either) {
-            if (left.size() > right.size()) std::swap(left, right);
-            right.insert(right.end(), left.begin(), left.end());
+        } else if (op == OP_INTERSECTION) {
+            right.needed = kernel::with(left.needed, right.needed);
+            if (left.leaves.size() <= right.leaves.size()) right.leaves = std::move(left.leaves);
+        } else if (op != OP_REVERSE_DIFFERENCE) {
+            right.needed = {left.needed.even & right.needed.even, left.needed.odd & right.needed.odd};
+            if (left.leaves.size() > right.leaves.size()) std::swap(left.leaves, right.leaves);
+            right.leaves.insert(right.leaves.end(), left.leaves.begin(), left.leaves.end());
         }
     }
-    std::sort(stack.back().begin(), stack.back().end());
-    return std::move(stack.back());
+    std::sort(stack.back().leaves.begin(), stack.back().leaves.end());
+    return {{term.region, term.first, term.end, stack.back().needed, solids}, std::move(stack.back().leaves)};
 }
 
 /// Gives each solid its part of a table: `for_each(call)` calls call(solid, entry), in order, the same each time.
@@ -192,18 +205,18 @@ void list_leaves(CompiledScene& compiled) {
     std::vector<Term> terms;
     for (std::uint32_t region = 0; region < compiled.regions.size(); ++region)
         add_terms(compiled.trees, compiled.regions[region], region, terms);
-    std::vector<std::vector<std::uint32_t>> starts;
+    std::vector<TermStarts> starts;
     for (const Term& term : terms) starts.push_back(starts_of(compiled.trees, term));
     std::vector<std::size_t> last;
     fill_table(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count, compiled.starts,
                [&](const auto& call) {
                    last.assign(compiled.solids.size(), terms.size());
                    for (std::size_t i = 0; i < terms.size(); ++i)
-                       for (const std::uint32_t node : starts[i]) {
+                       for (const std::uint32_t node : starts[i].leaves) {
                            const std::uint32_t solid = solid_at(node);
                            if (last[solid] == i) continue;
                            last[solid] = i;
-                           call(solid, kernel::StartRecord{terms[i].region, terms[i].first, terms[i].end});
+                           call(solid, starts[i].record);
                        }
                });
     fill_table(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count, compiled.leaves,
