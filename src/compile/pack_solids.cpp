@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <unordered_set>
 
 #include "compile/packer.hpp"
 #include "compile/polyhedron.hpp"
@@ -45,11 +44,8 @@ void Packer::frame(const Wide& center, const WideMatrix& axes) {
 }
 
 void Packer::faces(const std::vector<Plane>& all) {
-    std::unordered_set<kernel::PlaneRef> seen;
-    for (const Plane& plane : all) {
-        const kernel::PlaneRef ref = planes.add(plane, box);
-        if (seen.insert(ref).second) scene.plane_refs.push_back(ref);
-    }
+    planes.insert(planes.end(), all.begin(), all.end());
+    is_polyhedron = true;
 }
 
 void Packer::operator()(const Ell& s) {
@@ -133,21 +129,6 @@ void Packer::operator()(const Cline&) { throw std::logic_error("a cline is packe
 
 void Packer::operator()(const Unsupported& s) {
     throw Error(Status::scene, "solids of type '" + s.type + "' cannot be rendered");
-}
-
-void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
-                CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared) {
-    Packer packer{matrix, box, scene, planes, surfaces, shared};
-    packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
-    packer.record.first_plane = static_cast<std::uint32_t>(scene.plane_refs.size());
-    std::visit(packer, shape);
-    if (packer.record.type == SOLID_ELL || packer.record.type == SOLID_TGC || packer.record.type == SOLID_TOR)
-        surfaces.share(packer.record, packer.axes_in_world, box, scene);
-    for (const Plane& cut : cuts) packer.face(transform_plane(matrix, cut));
-    if (scene.reals.size() > 0xffffffffu || scene.plane_refs.size() > 0xffffffffu || scene.words.size() > 0xffffffffu)
-        throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
-    packer.record.plane_count = static_cast<std::uint32_t>(scene.plane_refs.size()) - packer.record.first_plane;
-    scene.solids.push_back(packer.record);
 }
 
 }  // namespace csgrt

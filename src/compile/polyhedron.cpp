@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace csgrt {
 
@@ -54,8 +55,43 @@ void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& p
         planes.push_back(transform_plane(matrix, side));
 }
 
+/// Perpendicular to a triangle, twice its area long. Of its two shorter sides: a cross product rounds by the product of
+/// its factors, and in a sliver that of the long ones is little else.
+Wide normal_of(const Wide& a, const Wide& b, const Wide& c) {
+    const std::array<Wide, 3> sides{b - a, c - b, a - c};
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (glm::length(sides[i]) > glm::length(sides[longest])) longest = i;
+    return glm::cross(sides[(longest + 1) % 3], sides[(longest + 2) % 3]);
+}
+
+/// Which three of a face's corners its plane goes through.
+enum class Through {
+    first,   ///< that span one: as BRL-CAD chooses, which matters where a face is twisted
+    widest,  ///< whose rounding tilts the plane least: where one end of a face is a sliver
+};
+
+struct Triangle {
+    Wide corner, normal;
+};
+
+/// `corners`: a face's, each once. None: all are as good as in line.
+std::optional<Triangle> spanning(const std::vector<Wide>& corners, long double in_line, Through through) {
+    std::optional<Triangle> best;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (std::size_t j = i + 1; j < corners.size(); ++j)
+            for (std::size_t k = j + 1; k < corners.size(); ++k) {
+                const Wide normal = normal_of(corners[i], corners[j], corners[k]), along = corners[j] - corners[i];
+                if (glm::length(normal) < in_line * glm::dot(along, along)) continue;
+                if (best && (through == Through::first || glm::length(normal) <= glm::length(best->normal))) continue;
+                best = Triangle{corners[i], normal};
+            }
+    return best;
+}
+
 /// The faces through the corners, of which those closer than `same` are one and those as good as in line span none.
-ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, long double in_line, long double size) {
+ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, long double in_line, long double size,
+                       Through through) {
     static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
         {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
 
@@ -77,28 +113,25 @@ ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, lon
     ArbFaces result;
     result.is_hull = true;
     for (const auto& face : faces) {
-        std::vector<std::size_t> chosen;
-        Wide normal(0);
+        std::vector<std::size_t> distinct;
+        std::vector<Wide> of_face;
         for (const std::size_t corner : face) {
-            const std::size_t c = first_of[corner];
-            if (chosen.size() == 3 || std::find(chosen.begin(), chosen.end(), c) != chosen.end()) continue;
-            if (chosen.size() == 2) {
-                const Wide along = corners[chosen[1]] - corners[chosen[0]];
-                normal = glm::cross(along, corners[c] - corners[chosen[0]]);
-                if (glm::length(normal) < in_line * glm::dot(along, along)) continue;
-            }
-            chosen.push_back(c);
+            if (std::find(distinct.begin(), distinct.end(), first_of[corner]) != distinct.end()) continue;
+            distinct.push_back(first_of[corner]);
+            of_face.push_back(corners[first_of[corner]]);
         }
-        if (chosen.size() < 3) continue;
-        const Wide& on = corners[chosen[0]];
+        const std::optional<Triangle> triangle = spanning(of_face, in_line, through);
+        if (!triangle) continue;
+        const Wide on = triangle->corner;
+        Wide normal = triangle->normal;
         if (glm::dot(normal, on - mean) < 0) normal = -normal;
         result.planes.push_back(plane_through(on, normal));
 
         const Wide unit = glm::normalize(normal);
         for (std::size_t i = 0; i < 8; ++i) {
             const long double above = glm::dot(unit, corners[i] - on);
-            const bool of_face = std::find(face.begin(), face.end(), i) != face.end();
-            if (above > flat * size || (of_face && above < -flat * size)) result.is_hull = false;
+            const bool in_face = std::find(face.begin(), face.end(), i) != face.end();
+            if (above > flat * size || (in_face && above < -flat * size)) result.is_hull = false;
         }
     }
     if (result.planes.size() < 4) result.is_hull = false;
@@ -118,9 +151,11 @@ ArbFaces arb_faces(const Arb& arb, const Matrix& matrix) {
     const long double size = glm::length(high - low);
     // However thin, a convex arb is what its numbers say. Else corners that are nearly one may span a face that is
     // rounding.
-    ArbFaces result = faces_through(corners, equal_corner_relative * size, equal_corner_relative, size);
+    ArbFaces result =
+        faces_through(corners, equal_corner_relative * size, equal_corner_relative, size, Through::widest);
     if (result.is_hull) return result;
-    result = faces_through(corners, std::min(same_corner, same_corner_relative * size), in_line_relative, size);
+    result = faces_through(corners, std::min(same_corner, same_corner_relative * size), in_line_relative, size,
+                           Through::first);
     if (!result.is_hull) clip_to_corners(arb, matrix, result.planes);
     return result;
 }
