@@ -29,6 +29,11 @@ using std::size_t;
 #include "../../kernels/3_weave.cl"
 #include "../../kernels/4_evaluate.cl"
 #include "../../kernels/5_shade.cl"
+#define CSGRT_SOLIDS 0xffffffffu
+inline u32 atomic_inc(u32* place) { return (*place)++; }
+#include "../../kernels/first_hit.h"
+#include "../../kernels/first_hits.cl"
+#undef CSGRT_SOLIDS
 #pragma GCC diagnostic pop
 // NOLINTEND
 #undef __kernel
@@ -49,13 +54,15 @@ struct HostRun {
     std::vector<kernel::Pixel> pixels;
 };
 
-/// Runs all kernels; `rays` empty: the frame's camera. Pixels are in the order of the rays' numbers.
+/// Runs all kernels; `rays` empty: the frame's camera. 
 inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
                            const std::vector<kernel::RayRecord>& rays = {}) {
     using namespace kernel;
     Frame frame = prepared.frame;
     frame.first_ray = 0;
     frame.ray_count = static_cast<u32>(prepared.rays);
+    frame.columns = frame.width;
+    frame.rows = frame.height;
     const std::size_t count = frame.ray_count;
     HostRun run;
     const auto each = [&](const auto& work) {
@@ -77,7 +84,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
     run.results.resize(count);
-    run.pixels.resize(count);
+    run.picture.resize(std::size_t{13} * frame.width * frame.height);
     each([&] {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                        scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(),
@@ -88,18 +95,39 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
                       run.results.data());
     });
     each([&] {
-        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(),
-                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data());
+        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(),
+                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data(), rays.data());
     });
     if (!frame.listed) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(),
-                  run.pixels.data());
+                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(), rays.data(),
+                  run.picture.data());
         });
     }
     return run;
+}
+
+/// The first hits by their own kernels. Returns how many rays had no room.
+inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFrame& prepared, std::vector<float>& picture) {
+    using namespace kernel;
+    Frame frame = prepared.frame;
+    frame.first_ray = 0;
+    frame.ray_count = static_cast<u32>(prepared.rays);
+    frame.columns = frame.width;
+    frame.rows = frame.height;
+    picture.assign(std::size_t{10} * frame.width * frame.height, 0);
+    std::vector<unsigned char> blocks(frame.ray_count / (BLOCK * BLOCK));
+    std::vector<u32> overflown(frame.ray_count);
+    u32 overflows = 0;
+    for (global_id = 0; global_id < blocks.size(); ++global_id) cull_blocks(&frame, scene.nodes.data(), blocks.data());
+    for (global_id = 0; global_id < frame.ray_count; ++global_id)
+        first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
+                   scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
+                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.data(),
+                   &overflows, overflown.data(), picture.data());
+    return overflows;
 }
 
 }  // namespace csgrt::test
