@@ -30,6 +30,7 @@ typedef struct {
     End seen;   // where that partition begins, if it is claimed
     u32 region;  // by this one; NONE: it is not
     u32 from_within;  // it begins where a solid ends
+    u32 steps;  // solids taken up and partitions evaluated
 } front;
 
 typedef struct {
@@ -57,6 +58,7 @@ FN void insert_end(front* w, u32 number) {
 FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
     SolidRecord solid = g.solids[index];
     u32 count, i;
+    ++w->steps;
 #if (CSGRT_SOLIDS) & MANY_SEGMENTS
     End found[2 * PENDING];
     if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS End*)0) > PENDING) return 0;
@@ -123,6 +125,7 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
         } else {
             if (w->region != NONE) changed = all_solids();
             w->region = w->open ? first_claim(w, s, changed) : NONE;
+            ++w->steps;
             w->seen = w->ends[in_end != NONE ? in_end : out_end];
             w->seen.t = t;
             w->from_within = in_end == NONE;
@@ -134,6 +137,14 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
     return found;
 }
 
+// On a GPU a ray that takes long holds up all those beside it: after some solids and partitions it goes the long way, too,
+// where a work-item does each of them.
+#ifdef CSGRT_PATIENCE
+#define IS_PATIENT(steps) ((steps) <= CSGRT_PATIENCE)
+#else
+#define IS_PATIENT(steps) 1
+#endif
+
 #define RAY_MISSES 0
 #define RAY_HITS 1
 #define RAY_OVERFLOWS 2
@@ -144,7 +155,7 @@ FN int first_hit(GLOBAL const Frame* f, scene_tables s, ray3 r, front* w) {
     u32 left[WALK_STACK];       // boxes left over,
     float nearest[WALK_STACK];  // and where the nearest of this and those before it is entered
     u32 depth = 0, at = 0, i;
-    w->count = w->used = w->open = w->from_within = 0;
+    w->count = w->used = w->open = w->from_within = w->steps = 0;
     w->region = NONE;
     for (i = 0; i < f->unbounded_count; ++i)
         if (!take_solid(w, s.g, i, r, t_min)) return RAY_OVERFLOWS;
@@ -173,6 +184,7 @@ FN int first_hit(GLOBAL const Frame* f, scene_tables s, ray3 r, front* w) {
                 if (depth > 0 && w->count > 0 &&
                     advance(w, s, tolerance, t_min, 0, distance_before(slabs, nearest[depth - 1])))
                     return RAY_HITS;
+                if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
             }
             if (depth == 0) break;
             at = left[--depth];

@@ -14,13 +14,16 @@ static RayCount plus(RayCount a, RayCount b) {
 }
 
 __kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u32 size) {
+    __local RayCount entries[SCAN_BLOCK];  // neighbours in memory are read by neighbours
     __local RayCount partial[SCAN_GROUP];
     u32 item = (u32)get_local_id(0), block = (u32)get_group_id(0);
-    u32 first = block * SCAN_BLOCK + item * SCAN_EACH;
+    u32 base = block * SCAN_BLOCK, first = item * SCAN_EACH;
     RayCount sum;
     u32 i;
     sum.segments = sum.words = 0;
-    for (i = first; i < first + SCAN_EACH && i < size; ++i) sum = plus(sum, counts[i]);
+    for (i = item; i < SCAN_BLOCK; i += SCAN_GROUP) entries[i] = base + i < size ? counts[base + i] : sum;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (i = first; i < first + SCAN_EACH; ++i) sum = plus(sum, entries[i]);
     partial[item] = sum;
     barrier(CLK_LOCAL_MEM_FENCE);
     for (i = 1; i < SCAN_GROUP; i <<= 1) {
@@ -34,11 +37,13 @@ __kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u3
     if (item == SCAN_GROUP - 1) sums[block] = partial[item];
     sum.segments = sum.words = 0;
     if (item > 0) sum = partial[item - 1];
-    for (i = first; i < first + SCAN_EACH && i < size; ++i) {
-        RayCount own = counts[i];
-        counts[i] = sum;
+    for (i = first; i < first + SCAN_EACH; ++i) {
+        RayCount own = entries[i];
+        entries[i] = sum;
         sum = plus(sum, own);
     }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (i = item; i < SCAN_BLOCK && base + i < size; i += SCAN_GROUP) counts[base + i] = entries[i];
 }
 
 __kernel void scan_add(__global RayCount* counts, __global const RayCount* sums, u32 size) {

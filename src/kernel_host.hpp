@@ -24,6 +24,7 @@ static_assert(sizeof(MaterialRecord) == 28);
 static_assert(sizeof(BvhNode) == 32 && offsetof(BvhNode, high) == 16);
 static_assert(sizeof(End) == 16 && offsetof(End, solid) == 8);
 static_assert(sizeof(PartitionNode) == 20);
+static_assert(sizeof(Candidate) == 16);
 static_assert(sizeof(RayCount) == 8);
 static_assert(sizeof(StartRecord) == 28);
 static_assert(sizeof(RayResult) == 12);

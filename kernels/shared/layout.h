@@ -180,6 +180,12 @@ typedef struct {
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
 
+// 1 count hits -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
+typedef struct {
+    u32 ray, solid;
+    u32 count, before;  // segments: how many, and how many the ray has of earlier candidates
+} Candidate;
+
 // 2 store segments -> weave: two ends a segment, in then out, by ascending solid.
 typedef struct {
     real t;
@@ -187,18 +193,19 @@ typedef struct {
     u32 surface;  // which surface of the solid; see geometry/<solid>.h
 } End;
 
-// 3 weave -> evaluate: doubly linked lists by index into the ray's own 2 * segments nodes.
+// 3 weave -> evaluate: linked lists by index into the ray's own 2 * segments nodes.
 typedef struct {
-    u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition
-    u32 next, prev;       // NONE: no more
+    u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition; NONE: the node is none
+    u32 next;             // before weaving: the end that is in this place by distance; NONE: no more
+    u32 ray;
     u32 region;           // after evaluation: the region that claimed it, or NONE; OVERLAP is set if several wanted it
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
 
-// 3 weave and 4 evaluate -> shade
+// 3 weave -> shade
 typedef struct {
-    u32 first;       // node of the first partition, then (evaluate) of the first one claimed; NONE: none
+    u32 first;       // node of the first partition, then (shade) of the first one seen; NONE: none
     u32 partitions;  // woven
     u32 overlaps;    // partitions that more than one region wanted
 } RayResult;

@@ -21,99 +21,124 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       program_(device,
                assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
                defines_of(scene, settings), settings.precision != Precision::double_),
+      find_candidates_(program_.kernel("find_candidates")),
+      list_candidates_(program_.kernel("list_candidates")),
       count_hits_(program_.kernel("count_hits")),
+      sum_hits_(program_.kernel("sum_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
       scan_add_(program_.kernel("scan_add")),
       store_segments_(program_.kernel("store_segments")),
+      order_ends_(program_.kernel("order_ends")),
       weave_(program_.kernel("weave")),
       evaluate_(program_.kernel("evaluate")),
       shade_(program_.kernel("shade")),
+      places_(device, "candidates' places"),
       counts_(device, "counts"),
       results_(device, "results"),
+      candidates_(device, "candidates"),
       ends_(device, "segments"),
       partitions_(device, "partitions"),
       bits_(device, "partitions' bits") {}
 
-std::uint64_t Exact::held() const { return counts_.size() + results_.size() + ends_.size() + partitions_.size() + bits_.size(); }
-
-void Exact::release_counted() {
-    for (Buffer* buffer : {&ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
+std::uint64_t Exact::held() const {
+    std::uint64_t sum = 0;
+    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &ends_, &partitions_, &bits_}) sum += buffer->size();
+    return sum;
 }
 
-// Exclusive prefix sums over the first `size` counts, level by level.
-double Exact::scan(std::uint32_t size) {
-    std::vector<std::uint32_t> sizes{size};
+void Exact::release_counted() {
+    for (Buffer* buffer : {&candidates_, &ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
+}
+
+kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times) {
+    const kernel::RayCount zero{};
+    counts.upload(&zero, sizeof zero, rays * sizeof zero);
+    std::vector<std::uint32_t> sizes{rays + 1};
     while (sizes.back() > 1) sizes.push_back((sizes.back() + scan_block - 1) / scan_block);
     while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
     std::vector<Event> events;
-    const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts_ : *sums_[i]; };
+    const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
     for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
         level(i + 1).reserve(sizes[i + 1] * sizeof(kernel::RayCount));
         events.push_back(scan_blocks_.launch(sizes[i + 1] * work_group, work_group, level(i), level(i + 1), sizes[i]));
     }
     for (std::size_t i = sizes.size() - 1; i-- > 1;)
         events.push_back(scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
-    double sum = 0;
-    for (const Event& event : events) sum += milliseconds(event);
-    return sum;
+    kernel::RayCount total;
+    counts.read(&total, sizeof total, rays * sizeof total);
+    for (const Event& event : events) times.scan += milliseconds(event);
+    return total;
+}
+
+// Makes room for the segments. Buffers only grow, unless that would not fit.
+bool Exact::reserve_counted(const kernel::RayCount& total) {
+    if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
+    const std::uint64_t nodes = 2 * std::uint64_t{total.segments};
+    const std::pair<Buffer*, std::uint64_t> wanted[] = {{&ends_, nodes * kernels_.end_bytes()},
+                                                        {&partitions_, nodes * sizeof(kernel::PartitionNode)},
+                                                        {&bits_, std::uint64_t{total.words} * sizeof(std::uint32_t)}};
+    std::uint64_t needed = 0, grown = 0, held = 0;
+    for (const auto& [buffer, bytes] : wanted) {
+        if (bytes > device_.max_buffer()) return false;
+        needed += bytes;
+        grown += std::max<std::uint64_t>(bytes, buffer->size());
+        held += buffer->size();
+    }
+    if (needed > device_.available() + held) return false;
+    if (grown > device_.available() + held)
+        for (const auto& [buffer, bytes] : wanted) *buffer = Buffer(device_, buffer->name());
+    for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
+    return true;
 }
 
 bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, bool pictured, PipelineCounts& counts) {
     const SceneBuffers& s = scene;
     const std::size_t entries = std::size_t{rays} + 1;
     if (entries * ray_bytes > device_.available()) release_counted();
+    places_.reserve(entries * sizeof(kernel::RayCount));
     counts_.reserve(entries * sizeof(kernel::RayCount));
     results_.reserve(rays * sizeof(kernel::RayResult));
 
-    const kernel::RayCount zero{};
-    counts_.upload(&zero, sizeof zero, rays * sizeof zero);
-    const Event count = count_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                           s.inner_nodes, s.nodes, tile.rays, counts_);
-    const double scan_time = scan(static_cast<std::uint32_t>(entries));
-    counts_.read(&total_, sizeof total_, rays * sizeof total_);
-    counts.count_hits += milliseconds(count);
-    counts.scan += scan_time;
+    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, tile.rays, places_);
+    const cl_uint candidates = scan(places_, rays, counts).segments;
+    const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
+    if (candidates == COUNT_MAX || candidate_bytes > device_.max_buffer()) return false;
+    if (candidate_bytes > candidates_.size()) {
+        if (candidate_bytes > device_.available() + candidates_.size()) release_counted();
+        if (candidate_bytes > device_.available()) return false;
+        candidates_.reserve(candidate_bytes);
+    }
+    const Event list = list_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, tile.rays, places_, candidates_);
+    const Event count = count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                           s.inner_nodes, tile.rays, candidates, candidates_);
+    const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);
+    total_ = scan(counts_, rays, counts);
+    for (const Event* event : {&find, &list, &count, &sum}) counts.count_hits += milliseconds(*event);
+    if (!reserve_counted(total_)) return false;
 
-    const kernel::RayCount total = total_;
-    const std::uint64_t node_count = 2 * std::uint64_t{total.segments};
-    const std::uint64_t end_bytes = node_count * kernels_.end_bytes();
-    const std::uint64_t node_bytes = node_count * sizeof(kernel::PartitionNode);
-    const std::uint64_t bit_bytes = std::uint64_t{total.words} * sizeof(std::uint32_t);
-    const std::uint64_t largest = std::max({end_bytes, node_bytes, bit_bytes});
-    // Buffers only grow, unless that would not fit.
-    const std::uint64_t before = ends_.size() + partitions_.size() + bits_.size();
-    const std::uint64_t grown = std::max<std::uint64_t>(end_bytes, ends_.size()) +
-                                std::max<std::uint64_t>(node_bytes, partitions_.size()) +
-                                std::max<std::uint64_t>(bit_bytes, bits_.size());
-    if (grown > device_.available() + before) release_counted();
-    if (total.segments >= NONE / 2 || total.words == COUNT_MAX || largest > device_.max_buffer()) return false;
-    const std::uint64_t free = device_.available() + ends_.size() + partitions_.size() + bits_.size();
-    if (end_bytes + node_bytes + bit_bytes > free) return false;
-    ends_.reserve(end_bytes);
-    partitions_.reserve(node_bytes);
-    bits_.reserve(bit_bytes);
-
-    const std::uint32_t hitting = total.segments ? rays : 0;
-    const Event store = store_segments_.launch(hitting, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
-                                               s.words, s.inner_nodes, s.nodes, tile.rays, counts_, ends_);
+    const cl_uint nodes = 2 * total_.segments;
+    const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes,
+                                               s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates, candidates_, counts_,
+                                               ends_, partitions_);
+    const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, nodes, partitions_);
     const Event weave = weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
-    const Event evaluate = evaluate_.launch(hitting, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees,
-                                            counts_, ends_, partitions_, bits_, results_, tile.rays);
+    const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_, bits_, nodes,
+                                            partitions_);
     Event shade;
     if (pictured)
         shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
                               s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_, tile.rays,
                               tile.picture);
     counts.store_segments += milliseconds(store);
-    counts.weave += milliseconds(weave);
+    counts.weave += milliseconds(order) + milliseconds(weave);
     counts.evaluate += milliseconds(evaluate);
     counts.shade += milliseconds(shade);
 
-    counts.segments += total.segments;
-    counts.hits += node_count;
-    counts.partitions_allocated += node_count;
-    counts.segment_bytes += end_bytes;
-    counts.partition_bytes += node_bytes + bit_bytes;
+    counts.segments += total_.segments;
+    counts.hits += nodes;
+    counts.partitions_allocated += nodes;
+    counts.segment_bytes += std::uint64_t{nodes} * kernels_.end_bytes() + candidate_bytes;
+    counts.partition_bytes += std::uint64_t{nodes} * sizeof(kernel::PartitionNode) + std::uint64_t{total_.words} * sizeof(std::uint32_t);
     return true;
 }
 
@@ -133,8 +158,8 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, Pip
     std::vector<std::vector<ClaimedPartition>> claims(rays);
     for (std::uint32_t i = 0; i < rays; ++i) {
         counts.partitions_used += results[i].partitions;
-        counts.overlaps += results[i].overlaps;
         claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], results[i].first);
+        for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
     }
     return claims;
 }

@@ -1,6 +1,6 @@
 // Every partition of a tile's rays, in five kernels:
 //
-//   count hits -> (scan) -> store segments -> weave -> evaluate -> shade
+//   count hits -> store segments -> weave -> evaluate -> shade
 //
 // Memory is counted, then allocated, never guessed.
 #pragma once
@@ -25,13 +25,15 @@ public:
     /// Adds up the last run's partitions and overlaps.
     void add_results(std::uint32_t rays, PipelineCounts& counts) const;
 
-    static constexpr std::uint64_t ray_bytes = sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
+    static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
     std::uint64_t held() const;
     /// Gives back what holds segments and partitions: memory that another use of the budget wants.
     void release_counted();
 
 private:
-    double scan(std::uint32_t size);
+    /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set; returns the last sum.
+    kernel::RayCount scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times);
+    bool reserve_counted(const kernel::RayCount& total);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
                                             const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
                                             const kernel::RayCount& end, std::uint32_t first_node) const;
@@ -41,9 +43,10 @@ private:
     const CompiledScene& scene_;
     const HostKernels& kernels_;
     Program program_;
-    Kernel count_hits_, scan_blocks_, scan_add_, store_segments_, weave_, evaluate_, shade_;
-    Buffer counts_, results_;                    // one entry a ray
-    Buffer ends_, partitions_, bits_;            // by what was counted
+    Kernel find_candidates_, list_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
+        evaluate_, shade_;
+    Buffer places_, counts_, results_;              // one entry a ray
+    Buffer candidates_, ends_, partitions_, bits_;  // by what was counted
     std::vector<std::unique_ptr<Buffer>> sums_;  // of the scan, a level each
     kernel::RayCount total_{};                   // of the last run
 };

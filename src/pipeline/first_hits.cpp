@@ -5,16 +5,17 @@
 namespace csgrt {
 namespace {
 
-std::vector<std::string> defines(const CompiledScene& scene, const Settings& settings) {
+std::vector<std::string> defines(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> all = defines_of(scene, settings);
     all.push_back("CSGRT_PRIVATE_ENDS");
+    if (device.info().type == "gpu") all.push_back("CSGRT_PATIENCE=24u");  // measured: bench/NOTES.md
     return all;
 }
 
 }  // namespace
 
 FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
-    : program_(device, assemble_program({"first_hits.cl"}), defines(scene, settings),
+    : program_(device, assemble_program({"first_hits.cl"}), defines(device, scene, settings),
                settings.precision != Precision::double_),
       cull_blocks_(program_.kernel("cull_blocks")),
       first_hits_(program_.kernel("first_hits")),

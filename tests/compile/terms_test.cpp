@@ -9,18 +9,23 @@ using namespace csgrt;
 
 namespace {
 
+struct Random {
+    std::mt19937 engine{11};
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine() % n); }
+};
+
 /// A random tree over solids 0 .. solids - 1, in postfix order, which holds no empty space.
-void add_tree(FlatTree& tree, std::uint32_t leaves, std::uint32_t solids, std::mt19937& random) {
+void add_tree(FlatTree& tree, std::uint32_t leaves, std::uint32_t solids, Random& random) {
     if (leaves == 1) {
-        tree.nodes.push_back({Operator::leaf, 0, static_cast<std::uint32_t>(random() % solids)});
+        tree.nodes.push_back({Operator::leaf, 0, random.below(solids)});
         return;
     }
-    const std::uint32_t left = 1 + random() % (leaves - 1);
+    const std::uint32_t left = 1 + random.below(leaves - 1);
     add_tree(tree, left, solids, random);
     add_tree(tree, leaves - left, solids, random);
     constexpr Operator operators[] = {Operator::union_, Operator::intersection, Operator::difference, Operator::difference,
                                       Operator::xor_};
-    tree.nodes.push_back({operators[random() % 5], 2, 0});
+    tree.nodes.push_back({operators[random.below(5)], 2, 0});
 }
 
 bool value_of(const FlatTree& tree, const std::vector<bool>& covered) {
@@ -44,12 +49,12 @@ bool value_of(const FlatTree& tree, const std::vector<bool>& covered) {
 }  // namespace
 
 TEST_CASE("a term's value is its tree's, whether it is scanned or walked") {
-    std::mt19937 random(11);
+    Random random;
     std::size_t held = 0, not_held = 0;
     for (int round = 0; round < 400; ++round) {
-        const std::uint32_t solids = 1 + random() % 60;
+        const std::uint32_t solids = 1 + random.below(60);
         FlatTree tree;
-        add_tree(tree, 1 + random() % (round < 300 ? 30 : 900), solids, random);
+        add_tree(tree, 1 + random.below(round < 300 ? 30 : 900), solids, random);
         std::vector<std::uint32_t> words;
         linearize(tree, words);
         // Where each solid stands.
@@ -68,7 +73,7 @@ TEST_CASE("a term's value is its tree's, whether it is scanned or walked") {
             std::vector<bool> covered(solids);
             for (std::uint32_t s = 0; s < solids; ++s) {
                 ends[2 * s].solid = ends[2 * s + 1].solid = s;
-                covered[s] = random() % 4 < static_cast<unsigned>(shot) % 5;
+                covered[s] = random.below(4) < static_cast<std::uint32_t>(shot) % 5;
                 if (covered[s]) bits[s / 32] |= 1u << s % 32;
             }
             const kernel::cover cover{ends.data(), bits.data(), solids, records.data(), nullptr, leaves.data(), words.data()};

@@ -31,9 +31,10 @@ using namespace csgrt;
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
     FIELD(Frame, first_row) FIELD(Frame, rows) FIELD(Frame, first_column) FIELD(Frame, columns) RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
-    FIELD(RayRecord, dz) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(End) FIELD(End, t) \
-    FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
-    FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, prev) FIELD(PartitionNode, region) \
+    FIELD(RayRecord, dz) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
+    FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
+    FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
+    FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, ray) FIELD(PartitionNode, region) \
     RECORD(RayResult) FIELD(RayResult, first) FIELD(RayResult, partitions) FIELD(RayResult, overlaps) RECORD(Pixel) \
     FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(Pixel, normal) FIELD(Pixel, region) FIELD(Pixel, solid) \
     FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap)

@@ -51,7 +51,7 @@ struct HostRun {
     std::vector<kernel::PartitionNode> nodes;
     std::vector<std::uint32_t> bits;
     std::vector<kernel::RayResult> results;
-    std::vector<kernel::Pixel> pixels;
+    std::vector<float> picture;  ///< the frame's channels, plane by plane
 };
 
 /// Runs all kernels; `rays` empty: the frame's camera. 
@@ -68,35 +68,48 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     const auto each = [&](const auto& work) {
         for (global_id = 0; global_id < count; ++global_id) work();
     };
-    run.offsets.resize(count + 1);
-    each([&] {
+    const auto scan = [](std::vector<RayCount>& counts) {
+        RayCount sum{};
+        for (RayCount& c : counts) {
+            const RayCount own = c;
+            c = sum;
+            sum.segments += own.segments;
+            sum.words += own.words;
+        }
+        return sum;
+    };
+    std::vector<RayCount> places(count + 1);
+    each([&] { find_candidates(&frame, scene.nodes.data(), rays.data(), places.data()); });
+    std::vector<Candidate> candidates(scan(places).segments);
+    each([&] { list_candidates(&frame, scene.nodes.data(), rays.data(), places.data(), candidates.data()); });
+    const auto each_of = [&](std::size_t size, const auto& work) {
+        for (global_id = 0; global_id < size; ++global_id) work(static_cast<u32>(size));
+    };
+    each_of(candidates.size(), [&](u32 size) {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(), run.offsets.data());
+                   scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data());
     });
-    RayCount sum{};
-    for (RayCount& c : run.offsets) {
-        const RayCount own = c;
-        c = sum;
-        sum.segments += own.segments;
-        sum.words += own.words;
-    }
+    run.offsets.resize(count + 1);
+    each([&] { sum_hits(&frame, places.data(), candidates.data(), run.offsets.data()); });
+    const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
     run.results.resize(count);
     run.picture.resize(std::size_t{13} * frame.width * frame.height);
-    each([&] {
+    each_of(candidates.size(), [&](u32 size) {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(),
-                       run.offsets.data(), run.ends.data());
+                       scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data(), run.offsets.data(),
+                       run.ends.data(), run.nodes.data());
     });
+    each_of(run.ends.size(), [&](u32 size) { order_ends(run.offsets.data(), run.ends.data(), size, run.nodes.data()); });
     each([&] {
         kernel::weave(&frame, rays.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
                       run.results.data());
     });
-    each([&] {
-        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(),
-                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.results.data(), rays.data());
+    each_of(run.nodes.size(), [&](u32 size) {
+        evaluate(scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
+                 run.ends.data(), run.bits.data(), size, run.nodes.data());
     });
     if (!frame.listed) {
         each([&] {
