@@ -140,14 +140,14 @@ TEST_CASE("a tree of 100,000 nodes, and 10,000 segments on a ray", "[stress]") {
         CHECK(found_nodes >= nodes);
         CHECK(made.known.front().size() >= stretches);
         double size = 0;
-        const Expected expected = expected_of(made);
+        const std::vector<Expected> expected = expected_of(made);
         const std::vector<RayPartitions> found =
             shoot(made.scene, made.objects, made.objects, made.rays, on_reference(), size);
         for (std::size_t i = 0; i < found.size(); ++i) {
             INFO("ray " << i);
             const Sequence sequence = sequence_of(found[i]);
-            REQUIRE(same_regions(sequence, expected.sequences[i]));
-            CHECK(worst_end(sequence, expected.sequences[i], 0) <= 1);
+            REQUIRE(same_regions(sequence, expected[i].sequence));
+            CHECK(worst_end(sequence, expected[i].sequence, 0) <= 1);
         }
     };
     require_right(stress::make("deep_trees", 6), 99'999, 1);   // all on the left
@@ -190,6 +190,18 @@ TEST_CASE("stress scenes are the same everywhere, and differ by family and seed"
                 }
         }
     CHECK(hash == 12383825850896447630u);
+}
+
+TEST_CASE("a stress scene with more rays begins with its usual ones", "[stress]") {
+    for (const std::string& family : stress::families()) {
+        INFO(family);
+        const stress::StressScene usual = stress::make(family, 1), more = stress::make(family, 1, 3);
+        REQUIRE(more.rays.size() == 3 * usual.rays.size());
+        CHECK(more.known.size() == 3 * usual.known.size());
+        for (std::size_t i = 0; i < usual.rays.size(); ++i)
+            REQUIRE(std::memcmp(&usual.rays[i], &more.rays[i], sizeof(Ray)) == 0);
+        CHECK(std::memcmp(&more.rays[usual.rays.size()], &usual.rays[0], sizeof(Ray)) != 0);
+    }
 }
 
 TEST_CASE("trees in other words have the same value", "[stress]") {
