@@ -1,7 +1,9 @@
 // The hierarchy of boxes that kernels 1 and 2 walk.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
@@ -17,8 +19,16 @@ struct Hierarchy {
 /// within one radius of the centre, and with all its roundings to float displaces a side by less than half of this.
 inline constexpr double bvh_padding = 1.0 / (1 << 20);
 
-/// Builds the hierarchy by the binned surface area heuristic, with 1 to 4 boxes a leaf. `center` and `radius` are of a
-/// sphere around all boxes. The box that comes i-th in the order gets the number first_solid + i.
-Hierarchy build_bvh(const std::vector<Box>& boxes, const Vec3& center, double radius, std::uint32_t first_solid);
+/// Builds the hierarchy by the binned surface area heuristic, with 1 to 4 boxes a leaf. `box_of(i)`, for i < count < 2^28,
+/// may be called by several threads at once. `center` and `radius` are of a sphere around all boxes. The box that comes
+/// i-th in the order gets the number first_solid + i. `threads` (0: as many as there are processors) changes nothing but
+/// the time.
+Hierarchy build_bvh(std::size_t count, const std::function<Box(std::size_t)>& box_of, const Vec3& center, double radius,
+                    std::uint32_t first_solid, unsigned threads = 0);
+
+inline Hierarchy build_bvh(const std::vector<Box>& boxes, const Vec3& center, double radius, std::uint32_t first_solid,
+                           unsigned threads = 0) {
+    return build_bvh(boxes.size(), [&](std::size_t i) { return boxes[i]; }, center, radius, first_solid, threads);
+}
 
 }  // namespace csgrt

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <vector>
 
 namespace csgrt {
 
@@ -27,5 +28,48 @@ inline std::uint64_t cell_hash(std::initializer_list<std::int64_t> cell) {
     }
     return hash;
 }
+
+/// From the hashes of cells to numbers, in one piece of memory: a scene has millions of cells, each looked up once or
+/// twice.
+class CellTable {
+public:
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    /// The number of a cell; none if it has none.
+    std::uint32_t find(std::uint64_t hash) const {
+        if (slots_.empty()) return none;
+        return slots_[slot_of(hash)].number;
+    }
+    /// Gives a cell a number and returns the one that it had.
+    std::uint32_t exchange(std::uint64_t hash, std::uint32_t number) {
+        if (2 * count_ >= slots_.size()) grow();
+        Slot& slot = slots_[slot_of(hash)];
+        const std::uint32_t before = slot.number;
+        if (before == none) ++count_;
+        slot = {hash, number};
+        return before;
+    }
+
+private:
+    struct Slot {
+        std::uint64_t hash;
+        std::uint32_t number;
+    };
+
+    std::size_t slot_of(std::uint64_t hash) const {
+        std::size_t i = static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u) & (slots_.size() - 1);
+        while (slots_[i].number != none && slots_[i].hash != hash) i = (i + 1) & (slots_.size() - 1);
+        return i;
+    }
+    void grow() {
+        std::vector<Slot> old(std::max<std::size_t>(64, 4 * slots_.size()), Slot{0, none});
+        old.swap(slots_);
+        for (const Slot& slot : old)
+            if (slot.number != none) slots_[slot_of(slot.hash)] = slot;
+    }
+
+    std::vector<Slot> slots_;  // a power of two of them
+    std::size_t count_ = 0;
+};
 
 }  // namespace csgrt

@@ -29,15 +29,24 @@ MeshFrame frame_of(const Triangles& mesh) {
     MeshFrame frame;
     if (is_empty(box)) return frame;
     frame.center = narrow(0.5L * (wide(box.low) + wide(box.high)));
-    long double radius = 0;
+    long double square = 0;
     for (const auto& face : mesh.faces)
-        for (const std::uint32_t corner : face)
-            radius = std::max(radius, glm::length(wide(mesh.vertices[corner]) - wide(frame.center)));
+        for (const std::uint32_t corner : face) {
+            const Wide from = wide(mesh.vertices[corner]) - wide(frame.center);
+            square = std::max(square, glm::dot(from, from));
+        }
+    const long double radius = std::sqrt(square);
     constexpr long double margin = 1.001L;  // rounding, in single precision too, takes no vertex past the radius
     int exponent = 0;
     std::frexp(radius * margin, &exponent);
     frame.scale = std::ldexp(1.0, exponent);
     return frame;
+}
+
+/// At least doubles what has to grow: a scene may have very many meshes.
+template <class T>
+void make_room(std::vector<T>& to, std::size_t more) {
+    if (to.capacity() - to.size() < more) to.reserve(std::max(2 * to.capacity(), to.size() + more));
 }
 
 /// Before the vertices stand center and scale, which only the host reads. Returns the faces in the order of the
@@ -53,24 +62,29 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
 
     std::vector<Vec3> local;
     local.reserve(mesh.vertices.size());
-    scene.reals.reserve(first_real + 3 * mesh.vertices.size());
+    make_room(scene.reals, 3 * mesh.vertices.size());
     for (const Vec3& vertex : mesh.vertices) {
         local.push_back(frame(vertex));
         for (const double x : {local.back().x, local.back().y, local.back().z}) scene.reals.push_back(x);
     }
-    std::vector<Box> boxes;
-    boxes.reserve(mesh.faces.size());
-    for (const auto& face : mesh.faces) {
-        boxes.push_back(empty_box);
-        for (const std::uint32_t corner : face) extend(boxes.back(), local[corner]);
+    const auto box_of = [&](std::size_t face) {
+        Box box = empty_box;
+        for (const std::uint32_t corner : mesh.faces[face]) extend(box, local[corner]);
+        return box;
+    };
+    Hierarchy hierarchy = build_bvh(mesh.faces.size(), box_of, {}, 1, 0);
+    const auto node_count = static_cast<std::uint32_t>(hierarchy.nodes.size());
+    if (first_node == 0) {
+        scene.inner_nodes = std::move(hierarchy.nodes);  // the only large mesh of most scenes: not copied
+    } else {
+        scene.inner_nodes.insert(scene.inner_nodes.end(), hierarchy.nodes.begin(), hierarchy.nodes.end());
     }
-    Hierarchy hierarchy = build_bvh(boxes, {}, 1, 0);
-    scene.inner_nodes.insert(scene.inner_nodes.end(), hierarchy.nodes.begin(), hierarchy.nodes.end());
 
+    make_room(scene.words, MESH_TRIANGLES + 3 * mesh.faces.size());
     scene.words.resize(first_word + MESH_TRIANGLES);
     scene.words[first_word + MESH_VERTICES] = static_cast<std::uint32_t>(first_real);
     scene.words[first_word + MESH_NODES] = static_cast<std::uint32_t>(first_node);
-    scene.words[first_word + MESH_NODE_COUNT] = static_cast<std::uint32_t>(hierarchy.nodes.size());
+    scene.words[first_word + MESH_NODE_COUNT] = node_count;
     scene.words[first_word + MESH_FACING] = facing;
     for (const std::uint32_t face : hierarchy.order)
         scene.words.insert(scene.words.end(), mesh.faces[face].begin(), mesh.faces[face].end());

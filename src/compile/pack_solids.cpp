@@ -16,6 +16,8 @@ namespace {
 constexpr long double pointed = 1e-12L;
 // Tapers of a and b that differ by less than this are one: the cone is a quadric.
 constexpr long double same_taper = 1e-9L;
+// So many faces are compared one by one.
+constexpr std::size_t few_faces = 16;
 
 /// Semi-axes as p0 + p1 z, in units of the larger end.
 struct Taper {
@@ -45,10 +47,17 @@ void Packer::frame(const Wide& center, const WideMatrix& axes) {
 }
 
 void Packer::faces(const std::vector<Plane>& all) {
-    std::unordered_set<kernel::PlaneRef> seen;
+    const std::size_t first = scene.plane_refs.size();
+    std::unordered_set<kernel::PlaneRef> seen;  // an arbn may have very many faces
     for (const Plane& plane : all) {
         const kernel::PlaneRef ref = planes.add(plane, box);
-        if (seen.insert(ref).second) scene.plane_refs.push_back(ref);
+        if (all.size() <= few_faces) {
+            const auto own = scene.plane_refs.begin() + static_cast<std::ptrdiff_t>(first);
+            if (std::find(own, scene.plane_refs.end(), ref) != scene.plane_refs.end()) continue;
+        } else if (!seen.insert(ref).second) {
+            continue;
+        }
+        scene.plane_refs.push_back(ref);
     }
 }
 

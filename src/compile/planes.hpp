@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include <csgrt/scene.hpp>
 
+#include "compile/cells.hpp"
 #include "compile/compiled_scene.hpp"
 
 namespace csgrt {
@@ -29,20 +29,24 @@ public:
     std::vector<kernel::PlaneRecord> take() { return std::move(records_); }
 
 private:
+    /// A record as it is looked up: on one side of space, see facing().
     struct Entry {
-        Box box;             ///< of the solid that brought the plane
-        std::uint32_t next;  ///< in the same cell
+        Vec3 normal;
+        double distance, offset;  ///< from the origin and from the scene's centre
+        std::uint32_t next;       ///< in the same cell
+        bool flipped;             ///< against the record
+        Box box;                  ///< of the solid that brought the plane
     };
 
     std::uint32_t find(const Plane& plane, const Box& box) const;
-    bool same(std::uint32_t record, const Plane& plane, const Box& box) const;
+    bool same(const Entry& entry, const Plane& plane, const Box& box) const;
     double offset(const Plane& plane) const;
 
     Vec3 center_;
     double radius_;
     std::vector<kernel::PlaneRecord> records_;
     std::vector<Entry> entries_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  ///< hash of a cell -> its last record
+    CellTable cells_;  ///< the last record of each
 };
 
 }  // namespace csgrt

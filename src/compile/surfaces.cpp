@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/cells.hpp"
-
 namespace csgrt {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
+constexpr std::uint32_t none = CellTable::none;
 constexpr double point_cell = 1e-7;  // of the scene's radius
 constexpr double size_cell = 1e-7;   // of the size itself: its logarithm is looked up
 constexpr double reach = 1e-9;       // far above `gap`, far below a cell
@@ -119,10 +117,10 @@ void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, co
         for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
             for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z)
                 for (std::int64_t size = ranges[3].first; size <= ranges[3].last; ++size) {
-                    const auto known = cells_.find(cell_hash({record.type, x, y, z, size}));
-                    if (known == cells_.end()) continue;
+                    const std::uint32_t last = cells_.find(cell_hash({record.type, x, y, z, size}));
+                    if (last == none) continue;
                     if (points.empty()) points = points_on(record.type, mine, axes);
-                    for (std::uint32_t i = known->second; i != none; i = entries_[i].next) {
+                    for (std::uint32_t i = last; i != none; i = entries_[i].next) {
                         const double* other = reals_at(entries_[i].first_real);
                         const bool same = std::all_of(points.begin(), points.end(), [&](const Wide& p) {
                             return distance(record.type, other, p) <= limit;
@@ -145,9 +143,7 @@ void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, co
     const std::uint64_t hash = cell_hash(
         {record.type, own(0), own(1), own(2), cells_of(static_cast<double>(std::log(key.size)), 0, size_cell).first});
     const auto next = static_cast<std::uint32_t>(entries_.size());
-    const auto [entry, added] = cells_.emplace(hash, next);
-    entries_.push_back({record.first_real, added ? none : entry->second});
-    entry->second = next;
+    entries_.push_back({record.first_real, cells_.exchange(hash, next)});
 }
 
 }  // namespace csgrt

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include <csgrt/scene.hpp>
 
+#include "compile/cells.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
 
@@ -41,7 +41,7 @@ private:
     Vec3 center_;
     double radius_;
     std::vector<Entry> entries_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  ///< hash of a cell -> its last entry
+    CellTable cells_;  ///< the last entry of each
 };
 
 }  // namespace csgrt

@@ -1,6 +1,7 @@
 // The hierarchy: every solid in one leaf, inside all boxes on the way, and no ray past what it hits.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "catch.hpp"
@@ -195,4 +196,25 @@ TEST_CASE("no ray passes a box that it hits, and few others are met") {
 TEST_CASE("a hundred thousand boxes") {
     const Scattered s = scattered(100'000, 6);
     check_structure(s, build_bvh(s.boxes, s.center, s.radius, 1), 1);
+}
+
+TEST_CASE("a hierarchy does not depend on the number of threads") {
+    const Scattered s = scattered(60'000, 8);
+    const Hierarchy one = build_bvh(s.boxes, s.center, s.radius, 5, 1);
+    for (const unsigned threads : {2u, 3u, 8u}) {
+        const Hierarchy h = build_bvh(s.boxes, s.center, s.radius, 5, threads);
+        CHECK(h.order == one.order);
+        REQUIRE(h.nodes.size() == one.nodes.size());
+        CHECK(std::memcmp(h.nodes.data(), one.nodes.data(), h.nodes.size() * sizeof h.nodes[0]) == 0);
+    }
+}
+
+TEST_CASE("boxes beyond the largest float are split, too") {
+    Scattered far;
+    for (int i = 0; i < 100; ++i) far.add({1e150 * i, -1e100, 1}, {1e149, 1, 1e-300});
+    far.finish();
+    const Hierarchy h = build_bvh(far.boxes, far.center, far.radius, 0);
+    REQUIRE(h.order.size() == far.boxes.size());
+    for (const kernel::BvhNode& node : h.nodes)
+        for (int axis = 0; axis < 3; ++axis) CHECK(node.low[axis] <= node.high[axis]);
 }

@@ -1,0 +1,56 @@
+// Work on the host's processors whose results do not depend on how many there are.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace csgrt {
+
+/// 0 stands for all processors that this process may use.
+inline unsigned thread_count(unsigned wanted) {
+    return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// Runs work() on this thread and on threads - 1 others, and returns when all have. It must not throw.
+template <class Work>
+void on_threads(unsigned threads, const Work& work) {
+    std::vector<std::thread> others;
+    for (unsigned i = 1; i < threads; ++i) {
+        try {
+            others.emplace_back(work);
+        } catch (const std::system_error&) {
+            break;  // no more threads: those that there are do it
+        }
+    }
+    work();
+    for (std::thread& other : others) other.join();
+}
+
+/// Calls work(first, last, chunk) for chunk = 0, 1, ... of `size` numbers each that make up 0 ... count - 1, in any
+/// order and several at once. If some throw, what the foremost chunk threw is thrown.
+template <class Work>
+void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Work& work) {
+    const std::size_t chunks = (count + size - 1) / size;
+    std::vector<std::exception_ptr> thrown(chunks);
+    std::atomic<std::size_t> next{0};
+    const auto run = [&] {
+        for (std::size_t chunk = next++; chunk < chunks; chunk = next++) {
+            try {
+                work(chunk * size, std::min(count, (chunk + 1) * size), chunk);
+            } catch (...) {
+                thrown[chunk] = std::current_exception();
+            }
+        }
+    };
+    on_threads(static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(chunks, 1))),
+               run);
+    for (const std::exception_ptr& exception : thrown)
+        if (exception) std::rethrow_exception(exception);
+}
+
+}  // namespace csgrt
