@@ -12,7 +12,7 @@
 #include <mutex>
 
 #include "compile/linear.hpp"
-#include "compile/parallel.hpp"
+#include "parallel.hpp"
 
 namespace csgrt {
 

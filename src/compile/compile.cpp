@@ -15,6 +15,8 @@
 #include "compile/linearize.hpp"
 #include "compile/pack_solids.hpp"
 #include "compile/polyhedron.hpp"
+#include "parallel.hpp"
+#include "scene/validate.hpp"
 
 namespace csgrt {
 
@@ -62,28 +64,6 @@ Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& c
     }
     const Vec3& c = compiled.center;
     return {{c.x - reach, c.y - reach, c.z - reach}, {c.x + reach, c.y + reach, c.z + reach}};
-}
-
-void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<std::uint32_t>& order,
-                 const std::vector<Box>& boxes, CompiledScene& compiled) {
-    const Box common = common_box(scene, flat, compiled);
-    PlaneTable planes(compiled.center, 0.5 * diagonal(common));
-    SurfaceTable surfaces(compiled.center, compiled.radius);
-    SharedParts shared;
-    for (const std::uint32_t i : order) {
-        const Instance& instance = flat.instances[i];
-        const Solid& solid = std::get<Solid>(scene.objects[instance.object]);
-        const Shape& shape = shape_of(scene, flat, instance);
-        const bool bounded = is_finite(boxes[i]);
-        pack_solid(shape, cuts_of(flat, instance), instance.matrix, bounded ? boxes[i] : common, compiled, planes,
-                   surfaces, shared);
-        compiled.solid_info.push_back({solid.name, type_name(solid.shape), instance.piece});
-        compiled.solid_boxes.push_back(boxes[i]);
-        compiled.solid_types |= 1u << compiled.solids.back().type;
-        if (!bounded && !std::holds_alternative<Half>(shape))
-            compiled.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
-    }
-    compiled.planes = planes.take();
 }
 
 void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, CompiledScene& compiled) {
@@ -163,11 +143,12 @@ void set_surroundings(const Scene& scene, CompiledScene& compiled) {
 }  // namespace
 
 CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects, const CompileOptions& options) {
-    if (std::vector<Diagnostic> findings = validate(scene, objects, options.skip_unsupported); !findings.empty())
+    const Names names(scene);
+    if (std::vector<Diagnostic> findings = validate(scene, names, objects, options.skip_unsupported); !findings.empty())
         throw Error(Status::scene, std::move(findings));
 
     FlatScene flat =
-        flatten(scene, objects.empty() ? top_objects(scene) : objects, options.air, options.skip_unsupported);
+        flatten(scene, names, objects.empty() ? names.top_objects() : objects, options.air, options.skip_unsupported);
     CompiledScene compiled;
     compiled.notes = std::move(flat.notes);
     compiled.skipped = std::move(flat.skipped);
@@ -180,19 +161,28 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
 
     set_surroundings(scene, compiled);
     std::vector<Box> boxes, brlcad_boxes;
-    boxes.reserve(flat.instances.size());
-    for (const Instance& instance : flat.instances)
-        boxes.push_back(solid_box(shape_of(scene, flat, instance), instance.matrix, cuts_of(flat, instance)));
+    boxes.resize(flat.instances.size());
+    const auto for_instances = [&](const auto& call) {
+        constexpr std::size_t chunk = 1024;
+        for_chunks(flat.instances.size(), chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t i = first; i < last; ++i) call(i);
+        });
+    };
+    for_instances([&](std::size_t i) {
+        const Instance& instance = flat.instances[i];
+        boxes[i] = solid_box(shape_of(scene, flat, instance), instance.matrix, cuts_of(flat, instance));
+    });
     set_sphere(boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(boxes, compiled);
-    pack_solids(scene, flat, order, boxes, compiled);
+    pack_solids(scene, flat, order, boxes, common_box(scene, flat, compiled), compiled);
 
     std::vector<std::uint32_t> number(order.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-        number[order[i]] = i;
+    brlcad_boxes.resize(order.size());
+    for_instances([&](std::size_t i) {
+        number[order[i]] = static_cast<std::uint32_t>(i);
         const Instance& instance = flat.instances[order[i]];
-        brlcad_boxes.push_back(brlcad_box(shape_of(scene, flat, instance), instance.matrix, cuts_of(flat, instance)));
-    }
+        brlcad_boxes[i] = brlcad_box(shape_of(scene, flat, instance), instance.matrix, cuts_of(flat, instance));
+    });
     std::uint64_t leaves = 0;
     for (FlatRegion& region : flat.regions) {
         for (FlatTree::Node& node : region.tree.nodes) {

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "compile/cells.hpp"
 #include "compile/linear.hpp"
 #include "compile/linearize.hpp"
 #include "compile/regions.hpp"
@@ -30,8 +31,40 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-struct InstanceHash {
-    std::size_t operator()(const Instance& instance) const {
+/// The instances of a scene, each once.
+class InstanceTable {
+public:
+    explicit InstanceTable(std::size_t objects) : first_(objects, none) {}
+
+    /// The number of the instance in `all`, to which it is added if it is new.
+    std::uint32_t number(const Instance& instance, std::vector<Instance>& all) {
+        const auto next = static_cast<std::uint32_t>(all.size());
+        std::uint32_t& first = first_[instance.object];
+        if (first == none) {
+            first = next;
+            others_.push_back(none);
+            all.push_back(instance);
+            return next;
+        }
+        // Not the only place of its object: looked up among those that are not the first ones.
+        if (equal(all[first], instance)) return first;
+        const std::uint64_t hash = hash_of(instance);
+        const std::uint32_t last = cells_.find(hash);
+        for (std::uint32_t i = last; i != none; i = others_[i])
+            if (equal(all[i], instance)) return i;
+        others_.push_back(last);
+        cells_.exchange(hash, next);
+        all.push_back(instance);
+        return next;
+    }
+
+private:
+    static constexpr std::uint32_t none = CellTable::none;
+
+    static bool equal(const Instance& a, const Instance& b) {
+        return a.object == b.object && a.piece == b.piece && a.matrix == b.matrix;
+    }
+    static std::uint64_t hash_of(const Instance& instance) {
         std::uint64_t hash = (14695981039346656037u ^ instance.object) * 1099511628211u ^ instance.piece;
         for (const double value : instance.matrix) {
             std::uint64_t bits;
@@ -41,18 +74,21 @@ struct InstanceHash {
         }
         return hash;
     }
-};
-struct InstanceEqual {
-    bool operator()(const Instance& a, const Instance& b) const {
-        return a.object == b.object && a.piece == b.piece && a.matrix == b.matrix;
-    }
+
+    std::vector<std::uint32_t> first_;   ///< one an object: its first instance
+    CellTable cells_;                    ///< of those that are not: the last one of each hash
+    std::vector<std::uint32_t> others_;  ///< one an instance: the one before it of the same hash
 };
 
 /// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
 class Flattener {
 public:
     Flattener(const Scene& scene, const ObjectIndex& index, bool skip_unsupported, FlatScene& result)
-        : scene_(scene), index_(index), skip_unsupported_(skip_unsupported), result_(result) {}
+        : scene_(scene),
+          index_(index),
+          skip_unsupported_(skip_unsupported),
+          result_(result),
+          instances_(scene.objects.size()) {}
 
     enum class Kind { tree, nothing, everything };
     Kind write(const RegionForest& forest, std::uint32_t term, FlatTree& tree);
@@ -65,6 +101,7 @@ private:
     };
     struct Frame {
         const Combination* combination;
+        std::uint32_t object;
         Matrix matrix;
         std::size_t next;
         std::uint64_t first_leaf;  ///< number of the first leaf below
@@ -83,7 +120,7 @@ private:
     FlatTree* tree_ = nullptr;
     std::vector<Operand> operands_;
     std::vector<Frame> frames_;
-    std::unordered_map<Instance, std::uint32_t, InstanceHash, InstanceEqual> known_;
+    InstanceTable instances_;
     std::unordered_map<const Combination*, Kind> hollow_;  ///< without solids below, and the constant that they are
     std::unordered_set<std::uint32_t> skipped_;
     std::uint64_t references_ = 0, leaves_ = 0;
@@ -126,9 +163,10 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
             frames_.pop_back();
             continue;
         }
-        const TreeNode& node = nodes[frame.next++];
+        const std::size_t number = frame.next++;
+        const TreeNode& node = nodes[number];
         if (node.op == Operator::leaf) {
-            enter(index_.find(node.object), compose(frame.matrix, node.matrix));
+            enter(index_.child(frame.object, number), compose(frame.matrix, node.matrix));
         } else {
             operate(node.op, node.arity);
         }
@@ -143,7 +181,7 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         if (const auto known = hollow_.find(combination); known != hollow_.end()) {
             operands_.push_back({tree_->nodes.size(), known->second});
         } else {
-            frames_.push_back({combination, matrix, 0, leaves_});
+            frames_.push_back({combination, object, matrix, 0, leaves_});
         }
         return;
     }
@@ -173,10 +211,7 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
 std::uint32_t Flattener::instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix) {
     Instance instance{object, piece, matrix};
     for (double& value : instance.matrix) value += 0.0;  // -0 and 0 are one place
-    const auto number = static_cast<std::uint32_t>(result_.instances.size());
-    const auto [entry, added] = known_.emplace(instance, number);
-    if (added) result_.instances.push_back(instance);
-    return entry->second;
+    return instances_.number(instance, result_.instances);
 }
 
 void Flattener::append(Operator op, std::size_t arity) {
@@ -238,6 +273,16 @@ void Flattener::operate(Operator op, std::uint32_t arity) {
 void drop_unused(FlatScene& flat) {
     constexpr std::uint32_t unused = 0xffffffff;
     std::vector<std::uint32_t> number(flat.instances.size(), unused);
+    std::uint32_t used = 0;
+    bool in_order = true;
+    for (const FlatRegion& region : flat.regions)
+        for (const FlatTree::Node& node : region.tree.nodes)
+            if (node.op == Operator::leaf && number[node.solid] == unused) {
+                in_order = in_order && node.solid == used;
+                number[node.solid] = used++;
+            }
+    if (in_order && used == flat.instances.size()) return;
+    std::fill(number.begin(), number.end(), unused);
     std::vector<Instance> kept;
     for (FlatRegion& region : flat.regions) {
         for (FlatTree::Node& node : region.tree.nodes) {
@@ -267,9 +312,10 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
     return composite != flat.composites.end() ? composite->second.pieces[instance.piece].cuts : none;
 }
 
-FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air, bool skip_unsupported) {
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
+                  bool skip_unsupported) {
     FlatScene result;
-    ObjectIndex index(scene);
+    ObjectIndex index(scene, names);
     Flattener flattener(scene, index, skip_unsupported, result);
     std::vector<std::string> air_regions, empty_regions;
     std::vector<Diagnostic> findings;

@@ -8,6 +8,7 @@
 
 #include "compile/compiled_scene.hpp"
 #include "compile/pieces.hpp"
+#include "scene/names.hpp"
 
 namespace csgrt {
 
@@ -39,6 +40,12 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
 /// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is.
 /// `skip_unsupported`: solids of unknown types are empty sets; else they are leaves like any other.
-FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air, bool skip_unsupported = false);
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
+                  bool skip_unsupported = false);
+
+inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air,
+                         bool skip_unsupported = false) {
+    return flatten(scene, Names(scene), objects, air, skip_unsupported);
+}
 
 }  // namespace csgrt

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <unordered_set>
 
 #include "compile/packer.hpp"
 #include "compile/polyhedron.hpp"
@@ -16,8 +15,6 @@ namespace {
 constexpr long double pointed = 1e-12L;
 // Tapers of a and b that differ by less than this are one: the cone is a quadric.
 constexpr long double same_taper = 1e-9L;
-// So many faces are compared one by one.
-constexpr std::size_t few_faces = 16;
 
 /// Semi-axes as p0 + p1 z, in units of the larger end.
 struct Taper {
@@ -47,18 +44,8 @@ void Packer::frame(const Wide& center, const WideMatrix& axes) {
 }
 
 void Packer::faces(const std::vector<Plane>& all) {
-    const std::size_t first = scene.plane_refs.size();
-    std::unordered_set<kernel::PlaneRef> seen;  // an arbn may have very many faces
-    for (const Plane& plane : all) {
-        const kernel::PlaneRef ref = planes.add(plane, box);
-        if (all.size() <= few_faces) {
-            const auto own = scene.plane_refs.begin() + static_cast<std::ptrdiff_t>(first);
-            if (std::find(own, scene.plane_refs.end(), ref) != scene.plane_refs.end()) continue;
-        } else if (!seen.insert(ref).second) {
-            continue;
-        }
-        scene.plane_refs.push_back(ref);
-    }
+    planes.insert(planes.end(), all.begin(), all.end());
+    is_polyhedron = true;
 }
 
 void Packer::operator()(const Ell& s) {
@@ -142,21 +129,6 @@ void Packer::operator()(const Cline&) { throw std::logic_error("a cline is packe
 
 void Packer::operator()(const Unsupported& s) {
     throw Error(Status::scene, "solids of type '" + s.type + "' cannot be rendered");
-}
-
-void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
-                CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared) {
-    Packer packer{matrix, box, scene, planes, surfaces, shared};
-    packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
-    packer.record.first_plane = static_cast<std::uint32_t>(scene.plane_refs.size());
-    std::visit(packer, shape);
-    if (packer.record.type == SOLID_ELL || packer.record.type == SOLID_TGC || packer.record.type == SOLID_TOR)
-        surfaces.share(packer.record, packer.axes_in_world, box, scene);
-    for (const Plane& cut : cuts) packer.face(transform_plane(matrix, cut));
-    if (scene.reals.size() > 0xffffffffu || scene.plane_refs.size() > 0xffffffffu || scene.words.size() > 0xffffffffu)
-        throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
-    packer.record.plane_count = static_cast<std::uint32_t>(scene.plane_refs.size()) - packer.record.first_plane;
-    scene.solids.push_back(packer.record);
 }
 
 }  // namespace csgrt

@@ -6,6 +6,7 @@
 #include <csgrt/scene.hpp>
 
 #include "compile/compiled_scene.hpp"
+#include "compile/flatten.hpp"
 #include "compile/planes.hpp"
 #include "compile/surfaces.hpp"
 
@@ -20,5 +21,10 @@ using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 /// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
                 CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared);
+
+/// pack_solid for each instance of `order`; `common` stands for the box of those that are not bounded. The arithmetic is
+/// done by several threads.
+void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<std::uint32_t>& order,
+                 const std::vector<Box>& boxes, const Box& common, CompiledScene& compiled);
 
 }  // namespace csgrt

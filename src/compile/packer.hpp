@@ -18,18 +18,18 @@ namespace csgrt {
 /// pack_sketches.cpp what outlines make, pack_meshes.cpp what triangles make.
 struct Packer {
     const Matrix& matrix;
-    const Box& box;
-    CompiledScene& scene;
-    PlaneTable& planes;
-    SurfaceTable& surfaces;
+    CompiledScene& scene;  ///< solids of any size write there; others do not touch it: see is_small
     SharedParts& shared;
+    std::vector<double>& reals;  ///< where this solid's begin at first_real: the scene's, for solids of any size
+    std::vector<Plane>& planes;  ///< the faces, to be found in the table of planes
     kernel::SolidRecord record{};
     WideMatrix axes_in_world{};  ///< of the last frame
+    bool is_polyhedron = false;  ///< faces in one plane are one
 
-    void real(long double value) { scene.reals.push_back(static_cast<double>(value)); }
+    void real(long double value) { reals.push_back(static_cast<double>(value)); }
     /// center and L, the inverse of the matrix whose columns are the local axes in the world.
     void frame(const Wide& center, const WideMatrix& axes);
-    void face(const Plane& plane) { scene.plane_refs.push_back(planes.add(plane, box)); }
+    void face(const Plane& plane) { planes.push_back(plane); }
     /// The face through `point` that a and b span, looking away from `inside` (all before the matrix).
     void face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside);
     /// Faces of a polyhedron; several in one plane are one.

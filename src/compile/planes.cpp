@@ -13,7 +13,7 @@ constexpr std::uint32_t none = CellTable::none;
 
 // Cells have their centres at 0 and +-1, where most normals of models lie.
 constexpr double normal_cell = 1e-7;
-constexpr double offset_cell = 3e-8;  // of the scene's radius
+constexpr double offset_cell = 1.5e-8;  // of the scene's radius
 
 Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 

@@ -16,16 +16,18 @@ constexpr std::uint64_t reference_limit = 4 * Limits::instances;
 
 }  // namespace
 
-ObjectIndex::ObjectIndex(const Scene& scene) : scene_(scene), solids_(scene.objects.size(), -1) {
-    index_.reserve(scene.objects.size());
-    for (std::size_t i = 0; i < scene.objects.size(); ++i)
-        index_.emplace(name_of(scene.objects[i]), static_cast<std::uint32_t>(i));
+ObjectIndex::ObjectIndex(const Scene& scene, const Names& names)
+    : scene_(scene), names_(names), solids_(scene.objects.size(), -1) {}
+
+static std::uint32_t existing(std::uint32_t object, const std::string& name) {
+    if (object == Names::none) throw Error(Status::scene, "there is no object '" + name + "'");
+    return object;
 }
 
-std::uint32_t ObjectIndex::find(const std::string& name) const {
-    const auto found = index_.find(name);
-    if (found == index_.end()) throw Error(Status::scene, "there is no object '" + name + "'");
-    return found->second;
+std::uint32_t ObjectIndex::find(const std::string& name) const { return existing(names_.find(name), name); }
+
+std::uint32_t ObjectIndex::child(std::uint32_t object, std::size_t node) const {
+    return existing(names_.child(object, node), std::get<Combination>(scene_.objects[object]).tree.nodes[node].object);
 }
 
 double ObjectIndex::solids_below(std::uint32_t object) {
@@ -41,9 +43,9 @@ double ObjectIndex::solids_below(std::uint32_t object) {
         if (combination == nullptr) {
             solids_[frame.object] = 1;
         } else if (frame.next < combination->tree.nodes.size()) {
-            const TreeNode& node = combination->tree.nodes[frame.next++];
-            if (node.op != Operator::leaf) continue;
-            const std::uint32_t child = find(node.object);
+            const std::size_t number = frame.next++;
+            if (combination->tree.nodes[number].op != Operator::leaf) continue;
+            const std::uint32_t child = this->child(frame.object, number);
             if (solids_[child] >= 0) {
                 frame.solids += solids_[child];
             } else {
@@ -72,9 +74,11 @@ RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const std::st
             frames_.pop_back();
             continue;
         }
-        const TreeNode& node = nodes[frame.next++];
+        const std::size_t number = frame.next++;
+        const TreeNode& node = nodes[number];
         if (node.op == Operator::leaf) {
-            visit(index.find(node.object), compose(frame.matrix, node.matrix), frame.attributes, frame.path, dropped);
+            visit(index.child(frame.object, number), compose(frame.matrix, node.matrix), frame.attributes, frame.path,
+                  dropped);
         } else {
             operate(node.op, node.arity);
         }

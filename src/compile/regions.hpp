@@ -15,26 +15,28 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "compile/attributes.hpp"
+#include "scene/names.hpp"
 
 namespace csgrt {
 
-/// The objects of a scene by name.
+/// The objects of a scene by name, and how many solids there are below each.
 class ObjectIndex {
 public:
-    explicit ObjectIndex(const Scene& scene);
+    ObjectIndex(const Scene& scene, const Names& names);
     /// Throws Error (scene) if there is none.
     std::uint32_t find(const std::string& name) const;
+    /// What a leaf names; see Names::child. Throws Error (scene) if there is no such object.
+    std::uint32_t child(std::uint32_t object, std::size_t node) const;
     /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
     double solids_below(std::uint32_t object);
 
 private:
     const Scene& scene_;
-    std::unordered_map<std::string_view, std::uint32_t> index_;
+    const Names& names_;
     std::vector<double> solids_;  ///< negative: not counted yet
 };
 

@@ -36,19 +36,19 @@ private:
 void check_tree(const Tree& tree, const Place& combination, const Report& report) {
     std::uint64_t waiting = 0;  // operands that no operator has taken yet
     for (const TreeNode& node : tree.nodes) {
-        const std::string name(operator_name(node.op));
-        if (name.empty()) {
+        const auto name = [&] { return std::string(operator_name(node.op)); };
+        if (operator_name(node.op).empty()) {
             report(node.place, "this is no operator of a tree", {});
             return;
         }
         if (!takes(node.op, node.arity)) {
             report(
-                node.place, "'" + name + "' cannot have " + std::to_string(node.arity) + " operands",
+                node.place, "'" + name() + "' cannot have " + std::to_string(node.arity) + " operands",
                 node.op == Operator::difference ? "give the object that is cut, then those that are taken away" : "");
             return;
         }
         if (node.arity > waiting) {
-            report(node.place, "the tree lacks operands for '" + name + "'", {});
+            report(node.place, "the tree lacks operands for '" + name() + "'", {});
             return;
         }
         waiting = waiting - node.arity + 1;
@@ -58,19 +58,19 @@ void check_tree(const Tree& tree, const Place& combination, const Report& report
 
 void check_matrix(const TreeNode& leaf, const Report& report) {
     const Matrix& m = leaf.matrix;
-    const std::string of = "the matrix of '" + leaf.object + "' ";
+    const auto of = [&] { return "the matrix of '" + leaf.object + "' "; };
     if (!std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); })) {
-        report(leaf.place, of + "has a number that is not finite", {});
+        report(leaf.place, of() + "has a number that is not finite", {});
         return;
     }
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
-        report(leaf.place, of + "must end in the row 0 0 0 1",
+        report(leaf.place, of() + "must end in the row 0 0 0 1",
                "points are columns: p' = M p, translation in the last column");
         return;
     }
     const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
     if (std::abs(dot(unit(x), cross(unit(y), unit(z)))) < least_volume) {
-        report(leaf.place, of + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
+        report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
     }
 }
 

@@ -1,7 +1,8 @@
 #include <csgrt/scene.hpp>
 
 #include <algorithm>
-#include <unordered_set>
+
+#include "scene/names.hpp"
 
 namespace csgrt {
 
@@ -53,21 +54,7 @@ const Place& place_of(const Object& object) {
 }
 
 std::vector<std::string> top_objects(const Scene& scene) {
-    if (!scene.top.empty()) return scene.top;
-
-    std::unordered_set<std::string_view> used;
-    for (const Object& object : scene.objects) {
-        const auto* combination = std::get_if<Combination>(&object);
-        if (combination == nullptr) continue;
-        for (const TreeNode& node : combination->tree.nodes) {
-            if (node.op == Operator::leaf) used.insert(node.object);
-        }
-    }
-    std::vector<std::string> top;
-    for (const Object& object : scene.objects) {
-        if (used.count(name_of(object)) == 0) top.push_back(name_of(object));
-    }
-    return top;
+    return scene.top.empty() ? Names(scene).top_objects() : scene.top;
 }
 
 }  // namespace csgrt

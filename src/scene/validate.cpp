@@ -4,14 +4,13 @@
 #include <cstdint>
 #include <string_view>
 #include <tuple>
-#include <unordered_map>
 
-#include <csgrt/scene.hpp>
-
+#include "parallel.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/nearest.hpp"
 #include "scene/object_faults.hpp"
 #include "scene/solid_faults.hpp"
+#include "scene/validate.hpp"
 
 namespace csgrt {
 
@@ -30,11 +29,14 @@ std::string count_of_solids(std::uint64_t count) {
 
 class Validation {
 public:
-    Validation(const Scene& scene, bool allow_unsupported)
-        : scene_(scene), allow_unsupported_(allow_unsupported), objects_(scene.objects.size()) {}
+    Validation(const Scene& scene, const Names& names, bool allow_unsupported)
+        : scene_(scene), names_(names), allow_unsupported_(allow_unsupported), objects_(scene.objects.size()) {}
 
     std::vector<Diagnostic> run(const std::vector<std::string>& named) {
-        index_names();
+        for (const std::uint32_t object : names_.taken())
+            add(place_of(scene_.objects[object]),
+                "there are two objects named '" + name_of(scene_.objects[object]) + "'", "rename one of them");
+        find_sound();
         check_settings(scene_, report_);
         const std::vector<std::uint32_t> roots = find_roots(named);
         std::uint64_t solids = 0;
@@ -55,6 +57,7 @@ private:
     enum class State : std::uint8_t { unseen, open, done };
     struct Reached {
         State state = State::unseen;
+        bool sound = false;        ///< by itself
         std::uint32_t height = 0;  ///< combinations on the longest path downward, this one included
         std::uint32_t users = 0;   ///< legs that lead here, each counted once
         std::uint32_t first_user = 0;
@@ -73,28 +76,37 @@ private:
         }
     }
 
-    void index_names() {
-        index_.reserve(scene_.objects.size());
-        for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) {
-            const std::string& name = name_of(scene_.objects[i]);
-            if (!index_.emplace(name, i).second) {
-                add(place_of(scene_.objects[i]), "there are two objects named '" + name + "'", "rename one of them");
+    /// Marks the objects without a fault of their own, so that the walk need not look at them. Nearly all have none.
+    void find_sound() {
+        constexpr std::size_t chunk = 2048;
+        for_chunks(objects_.size(), chunk, 0, [this](std::size_t first, std::size_t last, std::size_t) {
+            bool sound = true;
+            const Report note = [&](const Place&, const std::string&, const std::string&) { sound = false; };
+            for (std::size_t i = first; i < last; ++i) {
+                sound = true;
+                if (const auto* solid = std::get_if<Solid>(&scene_.objects[i])) {
+                    sound = solid_faults(solid->shape).empty();
+                } else {
+                    check_combination(std::get<Combination>(scene_.objects[i]), note);
+                }
+                objects_[i].sound = sound;
             }
-        }
+        });
     }
 
     std::string did_you_mean_object(const std::string& wrong) const {
         std::vector<std::string_view> names;
-        for (const auto& [name, object] : index_) names.push_back(name);
-        std::sort(names.begin(), names.end());  // the answer does not hang on the order of a hash table
+        for (const Object& object : scene_.objects) names.push_back(name_of(object));
+        std::sort(names.begin(), names.end());  // the answer does not hang on the order of the file
+        names.erase(std::unique(names.begin(), names.end()), names.end());
         return did_you_mean(wrong, names);
     }
 
     std::vector<std::uint32_t> find_roots(const std::vector<std::string>& named) {
         std::vector<std::uint32_t> roots;
-        for (const std::string& name : named.empty() ? top_objects(scene_) : named) {
-            if (const auto found = index_.find(name); found != index_.end()) {
-                roots.push_back(found->second);
+        for (const std::string& name : named.empty() ? names_.top_objects() : named) {
+            if (const std::uint32_t found = names_.find(name); found != Names::none) {
+                roots.push_back(found);
             } else {
                 add({}, "the scene has no object '" + name + "'", did_you_mean_object(name));
             }
@@ -112,8 +124,10 @@ private:
             Frame& frame = path_.back();
             const auto* combination = std::get_if<Combination>(&scene_.objects[frame.object]);
             if (combination != nullptr && frame.next_node < combination->tree.nodes.size()) {
-                const TreeNode& node = combination->tree.nodes[frame.next_node++];
-                if (node.op == Operator::leaf) follow(frame.object, *combination, node);
+                const std::size_t number = frame.next_node++;
+                const TreeNode& node = combination->tree.nodes[number];
+                if (node.op == Operator::leaf)
+                    follow(frame.object, *combination, node, names_.child(frame.object, number));
             } else {
                 leave();
             }
@@ -124,6 +138,7 @@ private:
         if (objects_[object].state != State::unseen) return;
         objects_[object].state = State::open;
         path_.push_back({object, 0});
+        if (objects_[object].sound) return;
         if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
             for (const std::string& fault : solid_faults(solid->shape)) {
                 add(solid->place, "solid '" + solid->name + "': " + fault);
@@ -134,21 +149,20 @@ private:
     }
 
     /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
-    void follow(std::uint32_t parent, const Combination& combination, const TreeNode& leg) {
-        const auto found = index_.find(leg.object);
-        if (found == index_.end()) {
+    void follow(std::uint32_t parent, const Combination& combination, const TreeNode& leg, std::uint32_t object) {
+        if (object == Names::none) {
             add(leg.place, "'" + combination.name + "' uses '" + leg.object + "', which does not exist",
                 did_you_mean_object(leg.object));
             return;
         }
-        Reached& child = objects_[found->second];
+        Reached& child = objects_[object];
         if (child.users++ == 0) child.first_user = parent;
         if (child.state == State::open) {
-            report_cycle(found->second, leg);
+            report_cycle(object, leg);
         } else if (child.state == State::done) {
             add_below(parent, child);
         } else {
-            enter(found->second);
+            enter(object);
         }
     }
 
@@ -157,16 +171,16 @@ private:
         path_.pop_back();
         Reached& reached = objects_[object];
         reached.state = State::done;
+        const auto name = [&] { return "'" + name_of(scene_.objects[object]) + "'"; };
         const Place& place = place_of(scene_.objects[object]);
-        const std::string name = "'" + name_of(scene_.objects[object]) + "'";
         if (std::holds_alternative<Solid>(scene_.objects[object])) {
             reached.solids = 1;
         } else if (++reached.height == Limits::nesting + 1) {
             add(place,
-                "below " + name + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
+                "below " + name() + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
                 "join some of the combinations on the way");
         }
-        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place, name, reached.solids);
+        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place, name(), reached.solids);
         if (!path_.empty()) add_below(path_.back().object, reached);
     }
 
@@ -224,9 +238,9 @@ private:
     }
 
     const Scene& scene_;
+    const Names& names_;
     const bool allow_unsupported_;
     std::vector<Reached> objects_;
-    std::unordered_map<std::string_view, std::uint32_t> index_;
     std::vector<Frame> path_;
     std::vector<Diagnostic> found_;
     std::size_t left_out_ = 0;
@@ -238,8 +252,13 @@ private:
 
 }  // namespace
 
+std::vector<Diagnostic> validate(const Scene& scene, const Names& names, const std::vector<std::string>& objects,
+                                 bool allow_unsupported) {
+    return Validation(scene, names, allow_unsupported).run(objects);
+}
+
 std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool allow_unsupported) {
-    return Validation(scene, allow_unsupported).run(objects);
+    return validate(scene, Names(scene), objects, allow_unsupported);
 }
 
 }  // namespace csgrt

@@ -1,0 +1,44 @@
+// The objects of a scene by name, and what each leaf of their trees names, looked up once for all.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// Refers to the scene, which must neither change nor go while this is used.
+class Names {
+public:
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    explicit Names(const Scene& scene);
+
+    /// The first object of that name; none: there is none.
+    std::uint32_t find(std::string_view name) const { return find(name, hash_of(name)); }
+    /// The object that a leaf names: node `node` of the tree of combination `object`.
+    std::uint32_t child(std::uint32_t object, std::size_t node) const { return children_[first_child_[object] + node]; }
+    /// Objects with names that others before them have.
+    const std::vector<std::uint32_t>& taken() const { return taken_; }
+    /// See csgrt::top_objects.
+    std::vector<std::string> top_objects() const;
+
+private:
+    struct Slot {
+        std::uint32_t hash, object;  // none: empty
+    };
+
+    static std::uint32_t hash_of(std::string_view name);
+    std::uint32_t find(std::string_view name, std::uint32_t hash) const;
+
+    const Scene& scene_;
+    std::vector<Slot> slots_;  // a power of two of them, at most half of them taken
+    std::vector<std::uint32_t> taken_;
+    std::vector<std::uint64_t> first_child_;  // one an object: where its tree's nodes begin in `children_`
+    std::vector<std::uint32_t> children_;
+};
+
+}  // namespace csgrt
