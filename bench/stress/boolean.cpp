@@ -4,8 +4,8 @@
 namespace csgrt::stress {
 
 /// Two to nine regions in one place; some are one another's copies, some share solids.
-StressScene overlaps(std::uint64_t seed) {
-    Builder to("overlaps", seed);
+StressScene overlaps(std::uint64_t seed, std::size_t times) {
+    Builder to("overlaps", seed, times);
     Random& random = to.random();
     std::vector<std::string> solids;
     const int count = random.whole(3, 6), regions = random.whole(2, 9);
@@ -21,13 +21,13 @@ StressScene overlaps(std::uint64_t seed) {
         before = tree;
         to.region(std::move(tree));
     }
-    some_rays(to, 12, 60);
+    some_rays(to, 12, to.rays(60));
     return to.take();
 }
 
 /// Six to fourteen solids under differences of differences, xor and complements.
-StressScene nested(std::uint64_t seed) {
-    Builder to("nested", seed);
+StressScene nested(std::uint64_t seed, std::size_t times) {
+    Builder to("nested", seed, times);
     Random& random = to.random();
     const int count = random.whole(6, 14);
     Tree tree = leaf(some_solid(to));
@@ -58,7 +58,7 @@ StressScene nested(std::uint64_t seed) {
         if (random.below(4) == 0) tree = leaf(to.combination(std::move(tree)));
     }
     to.region(std::move(tree));
-    some_rays(to, 12, 60);
+    some_rays(to, 12, to.rays(60));
     return to.take();
 }
 

@@ -90,7 +90,8 @@ static std::uint64_t mixed(const std::string& family, std::uint64_t seed) {
     return Random(hash ^ seed).next();
 }
 
-Builder::Builder(const std::string& family, std::uint64_t seed) : random_(mixed(family, seed)) {
+Builder::Builder(const std::string& family, std::uint64_t seed, std::size_t times)
+    : random_(mixed(family, seed)), times_(times) {
     made_.family = family;
     made_.seed = seed;
     made_.scene.title = "stress: " + family + " " + std::to_string(seed);

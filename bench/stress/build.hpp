@@ -43,7 +43,7 @@ Arb box(const Vec3& low, const Vec3& high);
 /// Adds to a StressScene.
 class Builder {
 public:
-    Builder(const std::string& family, std::uint64_t seed);
+    Builder(const std::string& family, std::uint64_t seed, std::size_t times);
 
     /// The name of the new solid.
     std::string solid(Shape shape);
@@ -57,12 +57,16 @@ public:
     void ray_through(const Vec3& point, const Vec3& direction, double back);
     void known(std::vector<Stretch> stretches) { made_.known.push_back(std::move(stretches)); }
 
+    /// How many rays to make where a scene has `usual` ones. They are made last: the first are the same, however many.
+    int rays(int usual) const { return usual * static_cast<int>(times_); }
+
     Random& random() { return random_; }
     StressScene take() { return std::move(made_); }
 
 private:
     StressScene made_;
     Random random_;
+    std::size_t times_;
 };
 
 /// A solid of any of the simple types within 12 or so of the origin, at least 2 thick.
@@ -75,17 +79,17 @@ Tree some_tree(const std::vector<std::string>& solids, Random& random);
 void some_rays(Builder& to, double radius, int count);
 
 // The families: each makes one scene.
-StressScene coplanar(std::uint64_t seed);
-StressScene coincident(std::uint64_t seed);
-StressScene tangent(std::uint64_t seed);
-StressScene edges(std::uint64_t seed);
-StressScene far_origin(std::uint64_t seed);
-StressScene scale(std::uint64_t seed);
-StressScene slivers(std::uint64_t seed);
-StressScene degenerate(std::uint64_t seed);
-StressScene deep_trees(std::uint64_t seed);
-StressScene depth(std::uint64_t seed);
-StressScene overlaps(std::uint64_t seed);
-StressScene nested(std::uint64_t seed);
+StressScene coplanar(std::uint64_t seed, std::size_t times);
+StressScene coincident(std::uint64_t seed, std::size_t times);
+StressScene tangent(std::uint64_t seed, std::size_t times);
+StressScene edges(std::uint64_t seed, std::size_t times);
+StressScene far_origin(std::uint64_t seed, std::size_t times);
+StressScene scale(std::uint64_t seed, std::size_t times);
+StressScene slivers(std::uint64_t seed, std::size_t times);
+StressScene degenerate(std::uint64_t seed, std::size_t times);
+StressScene deep_trees(std::uint64_t seed, std::size_t times);
+StressScene depth(std::uint64_t seed, std::size_t times);
+StressScene overlaps(std::uint64_t seed, std::size_t times);
+StressScene nested(std::uint64_t seed, std::size_t times);
 
 }  // namespace csgrt::stress

@@ -82,8 +82,8 @@ void add_regions(Builder& to, const std::vector<Tree>& leaves) {
 }  // namespace
 
 /// Boxes, wedges, cylinders' ends and half-spaces on a grid of planes.
-StressScene coplanar(std::uint64_t seed) {
-    Builder to("coplanar", seed);
+StressScene coplanar(std::uint64_t seed, std::size_t times) {
+    Builder to("coplanar", seed, times);
     Random& random = to.random();
     const double step = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 0.1 : 12.7;
     Placed placed(to, static_cast<Frame>(seed % 4));
@@ -122,7 +122,7 @@ StressScene coplanar(std::uint64_t seed) {
         }
     }
     add_regions(to, leaves);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         // Through a face of the grid, away from its edges.
         const auto between_lines = [&] {
             const int cell = random.whole(-2, 1);
@@ -137,8 +137,8 @@ StressScene coplanar(std::uint64_t seed) {
 }
 
 /// Solids of revolution about one axis, with few radii, each given in several ways.
-StressScene coincident(std::uint64_t seed) {
-    Builder to("coincident", seed);
+StressScene coincident(std::uint64_t seed, std::size_t times) {
+    Builder to("coincident", seed, times);
     Random& random = to.random();
     Placed placed(to, static_cast<Frame>(seed % 4));
     std::vector<Tree> leaves;
@@ -189,7 +189,7 @@ StressScene coincident(std::uint64_t seed) {
         }
     }
     add_regions(to, leaves);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         const Vec3 point{random.between(-2.5, 2.5), random.between(-2.5, 2.5), random.between(-3, 3)};
         placed.ray_through(point, i % 4 == 0 ? random.axis() : random.slanted());
     }

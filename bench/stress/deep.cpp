@@ -90,8 +90,8 @@ Tree tree_of(const std::vector<Link>& chain, const Name& name_of, bool complemen
 
 /// Chains of 10^2 to 10^5 nodes: to the left, to the right, to both in turn, and as combinations in combinations. The
 /// leaves are few solids again and again, or each one of its own.
-StressScene deep_trees(std::uint64_t seed) {
-    Builder to("deep_trees", seed);
+StressScene deep_trees(std::uint64_t seed, std::size_t times) {
+    Builder to("deep_trees", seed, times);
     Random& random = to.random();
     static constexpr std::uint32_t sizes[] = {100, 300, 1000, 3000, 10000, 30000, 100000};
     const std::uint32_t leaves = sizes[seed % 7] / 2;
@@ -132,7 +132,7 @@ StressScene deep_trees(std::uint64_t seed) {
     } else {
         to.region(tree_of(chain, [&](std::uint32_t slab) { return names[slab]; }, complements));
     }
-    const int rays = leaves > 10000 ? 4 : 12;
+    const int rays = to.rays(leaves > 10000 ? 4 : 12);
     for (int i = 0; i < rays; ++i) {
         const std::uint32_t column = random.below(std::min(4u, columns));
         const double y = 4 * column + random.between(-0.9, 0.9), z = random.between(-0.9, 0.9);

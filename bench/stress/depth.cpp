@@ -47,11 +47,11 @@ Stretch between(const Ray& ray, double a, double b, std::uint32_t region) {
 
 }  // namespace
 
-StressScene depth(std::uint64_t seed) {
-    Builder to("depth", seed);
+StressScene depth(std::uint64_t seed, std::size_t times) {
+    Builder to("depth", seed, times);
     static constexpr std::uint32_t sizes[] = {10, 100, 1000, 3000, 10000};
     const std::uint32_t kind = static_cast<std::uint32_t>(seed % 6), size = sizes[seed / 6 % 5];
-    const int rays = size >= 1000 ? 3 : 12;
+    const int rays = to.rays(size >= 1000 ? 3 : 12);
     switch (kind) {
         case 0:    // sheets, all one region
         case 1: {  // each its own

@@ -20,8 +20,8 @@ void some_model(Builder& to, const Matrix& place) {
 }  // namespace
 
 /// Rays that start up to 10^8 sizes away; models that stand up to 10^8 sizes from the origin.
-StressScene far_origin(std::uint64_t seed) {
-    Builder to("far_origin", seed);
+StressScene far_origin(std::uint64_t seed, std::size_t times) {
+    Builder to("far_origin", seed, times);
     Random& random = to.random();
     const bool model_is_far = seed % 3 == 2;
     // Whole numbers of 2^-10, so that the sum with a place on a grid is exact; 2^27 is 1.3e8.
@@ -32,7 +32,7 @@ StressScene far_origin(std::uint64_t seed) {
         place = {std::round(far * d.x), std::round(far * d.y), std::round(far * d.z)};
     }
     some_model(to, translation(place));
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         const Vec3 d = i % 5 == 0 ? random.axis() : random.direction();
         const double back = 20 * (model_is_far ? random.whole(0, 3) : far);
         const double length = seed % 2 == 0 ? 1 : random.power_of_ten(-4, 4);
@@ -43,14 +43,14 @@ StressScene far_origin(std::uint64_t seed) {
 }
 
 /// A model of 10^-6 to 10^6 times the usual size, in whole powers of 10 or of 2.
-StressScene scale(std::uint64_t seed) {
-    Builder to("scale", seed);
+StressScene scale(std::uint64_t seed, std::size_t times) {
+    Builder to("scale", seed, times);
     Random& random = to.random();
     const int decades = static_cast<int>(seed % 13) - 6;
     const double by = seed / 13 % 2 == 0 ? random.power_of_ten(decades, decades)
                                          : std::ldexp(1.0, static_cast<int>(std::lround(decades * 3.25)));
     some_model(to, scaling(by));
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         const Vec3 d = i % 5 == 0 ? random.axis() : random.direction();
         const Vec3 through = 6 * random.in_cube();
         to.ray(by * (through - (i % 4 == 2 ? 0 : 50) * d), (i % 3 == 0 ? by : 1) * d);

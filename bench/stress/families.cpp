@@ -9,7 +9,7 @@ namespace {
 
 struct Family {
     const char* name;
-    StressScene (*make)(std::uint64_t seed);
+    StressScene (*make)(std::uint64_t seed, std::size_t times);
 };
 constexpr std::array<Family, 12> all{{
     {"coplanar", coplanar},
@@ -34,9 +34,9 @@ std::vector<std::string> families() {
     return names;
 }
 
-StressScene make(const std::string& family, std::uint64_t seed) {
+StressScene make(const std::string& family, std::uint64_t seed, std::size_t times) {
     for (const Family& known : all)
-        if (family == known.name) return known.make(seed);
+        if (family == known.name) return known.make(seed, times);
     throw Error(Status::usage, "there is no stress family '" + family + "'");
 }
 

@@ -32,7 +32,8 @@ struct StressScene {
 /// Their names, in the order in which they are described in bench/stress/README.md.
 std::vector<std::string> families();
 
+/// `times`: as many times as many rays, of which the first are the usual ones.
 /// Throws Error (usage) if there is no such family.
-StressScene make(const std::string& family, std::uint64_t seed);
+StressScene make(const std::string& family, std::uint64_t seed, std::size_t times = 1);
 
 }  // namespace csgrt::stress

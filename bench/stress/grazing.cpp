@@ -28,8 +28,8 @@ void touch(Builder& to, const Vec3& point, const Vec3& n, const Vec3& d, double 
 }  // namespace
 
 /// A curved solid and another that stands behind or inside it; some touch each other.
-StressScene tangent(std::uint64_t seed) {
-    Builder to("tangent", seed);
+StressScene tangent(std::uint64_t seed, std::size_t times) {
+    Builder to("tangent", seed, times);
     Random& random = to.random();
     const Vec3 at = seed % 2 == 0 ? Vec3{} : 10 * random.in_cube();
     const Vec3 axis = seed % 4 < 2 ? Vec3{0, 0, 1} : random.direction();
@@ -41,7 +41,7 @@ StressScene tangent(std::uint64_t seed) {
     };
     const double r = random.between(1, 5), height = random.between(4, 8);
     Tree first, other = leaf(to.solid(ball(at + 0.25 * r * axis, 0.5 * r)));
-    constexpr int count = 60;
+    const int count = to.rays(60);
     switch (seed / 4 % 6) {
         case 0: {  // a ball, and one that touches it
             first = leaf(to.solid(ball(at, r)));
@@ -133,8 +133,8 @@ StressScene tangent(std::uint64_t seed) {
 }
 
 /// Boxes, wedges, pyramids, cylinders' rims and cones' tips.
-StressScene edges(std::uint64_t seed) {
-    Builder to("edges", seed);
+StressScene edges(std::uint64_t seed, std::size_t times) {
+    Builder to("edges", seed, times);
     Random& random = to.random();
     // On a grid, or anywhere.
     const Vec3 at = 5 * random.in_cube();
@@ -186,7 +186,7 @@ StressScene edges(std::uint64_t seed) {
         to.region(operate(seed % 3 == 1 ? Operator::union_ : Operator::xor_, {first, other}));
     }
     const double size = a + b + c;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         const auto [from, to_corner] = lines[random.below(static_cast<std::uint32_t>(lines.size()))];
         const Vec3 p = moved_point(place, corners[from]), q = moved_point(place, corners[to_corner]);
         const double by = beside(random);

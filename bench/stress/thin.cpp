@@ -4,8 +4,8 @@
 namespace csgrt::stress {
 
 /// Shells of 10^-9 to 10^-1 of their radius, plates and needles as thin, and wedges between faces that are nearly one.
-StressScene slivers(std::uint64_t seed) {
-    Builder to("slivers", seed);
+StressScene slivers(std::uint64_t seed, std::size_t times) {
+    Builder to("slivers", seed, times);
     Random& random = to.random();
     // Surfaces closer than 1e-10 of their solids' sizes are one when the scene is compiled: these stay above.
     const std::uint64_t kind = seed / 9 % 7;
@@ -55,7 +55,7 @@ StressScene slivers(std::uint64_t seed) {
                                         (0.5 * size - thin) * d(0, 0, 1)}))}));
             break;
     }
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         Vec3 through = size * random.in_cube();
         if (kind == 4 && i % 2 == 0)  // at the needle
             through = moved_point(turn, {thin * random.between(-2, 2), thin * random.between(-1, 1), through.z});
@@ -65,8 +65,8 @@ StressScene slivers(std::uint64_t seed) {
 }
 
 /// Semi-axes and radii of very different lengths, tips that are all but points, sides that are all but parallel.
-StressScene degenerate(std::uint64_t seed) {
-    Builder to("degenerate", seed);
+StressScene degenerate(std::uint64_t seed, std::size_t times) {
+    Builder to("degenerate", seed, times);
     Random& random = to.random();
     const int power = -static_cast<int>(1 + seed / 14 % 6);
     const double e = random.power_of_ten(power, power);
@@ -138,7 +138,7 @@ StressScene degenerate(std::uint64_t seed) {
         to.region(operate(seed % 3 == 1 ? Operator::difference : Operator::union_, {thing, other}));
     }
     const Vec3 size{dot(reach, x), dot(reach, y), dot(reach, z)};
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < to.rays(60); ++i) {
         const Vec3 in = random.in_cube();
         const Vec3 through = size.x * in.x * x + size.y * in.y * y + size.z * in.z * z;
         const Vec3 d = i % 6 == 0 ? x : i % 6 == 1 ? y : i % 6 == 2 ? z : random.direction();

@@ -77,6 +77,9 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::vector<FoundDevice> find_devices() {
+    // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
     // PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
     static std::once_flag once;
     std::call_once(once, ensure_cache_folder);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numeric>
+#include <thread>
 
 #include "device/program.hpp"
 
@@ -244,4 +245,20 @@ TEST_CASE("a home that cannot be written gives a temporary cache and no crash", 
     Buffer out(device, "out", sizeof(cl_uint));
     program.kernel("f").launch(1, 1, out);
     CHECK(out.read<cl_uint>(1)[0] == 6);
+}
+
+TEST_CASE("the first devices of a process may be asked for by many threads at once", "[.first_threads]") {
+    std::vector<std::string> names(8);
+    std::vector<std::thread> threads;
+    for (std::string& name : names)
+        threads.emplace_back([&name] {
+            try {
+                name = Device().info().name;
+            } catch (const Error& error) {
+                name = error.what();
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    const std::string after = Device().info().name;
+    for (const std::string& name : names) CHECK(name == after);
 }

@@ -8,7 +8,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "quad.hpp"
+#include "reach.hpp"
 
 namespace csgrt::oracle {
 
@@ -49,7 +49,7 @@ public:
                 radius = std::max(radius, to_double(length(at(i, k) - center)));
                 middle = middle + quad(1) / 3 * at(i, k);
             }
-            Ball ball{to_vec3(middle), 0};
+            Reach ball{to_vec3(middle), 0};
             for (std::size_t k = 0; k < 3; ++k)
                 ball.radius = std::max(ball.radius, 1.001 * to_double(length(at(i, k) - middle)));
             balls_.push_back(ball);
@@ -75,8 +75,9 @@ public:
         const quad speed = length(d);
         const QVec aside = any_across(d), aside2 = cross(d, aside);
         found.edge_distance = 4 * quad(radius) + 1;
+        const Vec3 from = to_vec3(o), way = to_vec3(d);
         for (std::size_t i = 0; i < faces_.size(); ++i) {
-            if (is_far(i, o, d, speed, near)) continue;
+            if (balls_[i].is_passed_by(from, way, near) || is_far(i, o, d, speed, near)) continue;
             int sides[3];
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t next = (k + 1) % 3;
@@ -134,11 +135,6 @@ public:
     double condition = 1;
 
 private:
-    struct Ball {
-        Vec3 center;
-        double radius;
-    };
-
     bool is_far(std::size_t i, const QVec& o, const QVec& d, quad speed, double near) const {
         const QVec across = cross(QVec(balls_[i].center) - o, d);
         const quad reach = (quad(balls_[i].radius) + quad(near)) * speed;
@@ -159,7 +155,7 @@ private:
 
     std::vector<QVec> vertices_;
     std::vector<Face> faces_;
-    std::vector<Ball> balls_;
+    std::vector<Reach> balls_;
     std::vector<QVec> normals_;
     std::vector<double> heights_;
 };

@@ -46,6 +46,11 @@ struct Expression {
         for (const Expression& operand : operands) value = either(value, operand.any(of));
         return value;
     }
+    template <class Call>
+    void each(const Call& call) const {
+        if (op == Operator::leaf) call(solid);
+        for (const Expression& operand : operands) operand.each(call);
+    }
     /// `of(solid)` is the membership of a solid.
     template <class Of>
     Membership evaluate(const Of& of) const {
@@ -106,7 +111,7 @@ struct SceneAnswer {
     std::vector<Spans> regions;  ///< for every region its spans, exactly
     std::vector<Piece> pieces;   ///< the whole line, in order
     std::vector<Event> events;   ///< of all solids, in no order
-    bool tie = false;            ///< rounding, or the slack, decides how many spans some region has
+    bool tie = false;            ///< rounding, or the slack, decides how many spans some region has, or where one ends
     bool solid_tie = false;      ///< rounding decides how many intervals some solid has
 };
 
@@ -119,6 +124,9 @@ public:
         : scene_(scene), skip_unsupported_(skip_unsupported) {
         for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
             for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
+        regions_of_.resize(solids_.size());
+        for (std::uint32_t r = 0; r < regions_.size(); ++r)
+            regions_[r].tree.each([&](std::size_t solid) { regions_of_[solid].push_back(r); });
     }
 
     // Keeps the scene by reference; so a temporary will not do.
@@ -130,37 +138,45 @@ public:
     SceneAnswer shoot(const Ray& ray, double slack) const {
         const double speed = to_double(length(QVec(ray.direction)));
         SceneAnswer answer;
-        std::vector<Sure> sets(solids_.size());
+        std::vector<Sure> sets;  // of the solids that the ray may meet
         std::vector<quad> bounds;
+        quad most = 0;
         for (std::size_t i = 0; i < solids_.size(); ++i) {
+            if (solids_[i].reach.is_passed_by(ray.origin, ray.direction)) continue;
             const Answer one = solids_[i](ray);
+            sets.push_back({i, {}, {}, {}});
             answer.solid_tie = answer.solid_tie || one.tie;
             double widest = 0;
             for (const Interval& interval : one.intervals) {
-                sets[i].exact.push_back({{interval.in.t, 0}, {interval.out.t, 0}});
+                sets.back().exact.push_back({{interval.in.t, 0}, {interval.out.t, 0}});
                 for (const End& e : {interval.in, interval.out}) {
                     if (!std::isfinite(e.t)) continue;
-                    const double rounding = margin * one.delta / (e.cosine * speed) + 4 * double_epsilon * std::abs(e.t);
+                    const double rounding =
+                        margin * one.delta / (e.cosine * speed) + 4 * double_epsilon * std::abs(e.t);
                     answer.events.push_back({e.t, e.tolerance, e.normal, std::min(rounding, e.tolerance), i});
                     widest = std::max(widest, e.tolerance);
                 }
             }
             const quad by = quad(slack / speed) + quad(widest);
-            sets[i].inner = resized(one.inner, -by);
-            sets[i].outer = resized(one.outer, by);
-            for (const Spans* spans : {&sets[i].inner, &sets[i].exact, &sets[i].outer})
+            most = larger(most, by);
+            Sure& set = sets.back();
+            set.inner = resized(one.inner, -by);
+            set.outer = resized(one.outer, by);
+            for (const Spans* spans : {&set.inner, &set.exact, &set.outer})
                 for (const Span& s : *spans)
                     for (const quad t : {s.in.at, s.out.at})
                         if (absolute(t) < infinity()) bounds.push_back(t);
+            if (set.exact.empty() && set.outer.empty()) sets.pop_back();
         }
         std::sort(bounds.begin(), bounds.end());
         bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
-        weave(sets, bounds, answer);
+        weave(sets, bounds, most, answer);
         return answer;
     }
 
 private:
     struct Sure {
+        std::size_t index = 0;  ///< of the solid, or of the region
         Spans inner, exact, outer;
     };
 
@@ -173,19 +189,32 @@ private:
         std::erase_if(spans, [](const Span& s) { return !(s.in.at < s.out.at); });
         return join(std::move(spans));
     }
+    /// May an end be somewhere else altogether: where a ray runs along a face, another one decides?
+    static bool leaps(const Spans& inner, const Spans& outer, quad far) {
+        for (std::size_t i = 0; i < inner.size(); ++i)
+            if (inner[i].in.at - outer[i].in.at > far || outer[i].out.at - inner[i].out.at > far) return true;
+        return false;
+    }
     static bool holds(const Spans& spans, quad t) {
         return std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.in.at < t && t < s.out.at; });
     }
 
-    void weave(const std::vector<Sure>& sets, const std::vector<quad>& bounds, SceneAnswer& answer) const {
-        std::vector<Sure> found(regions_.size());
+    /// `most`: by what the ends of any set were moved.
+    void weave(const std::vector<Sure>& sets, const std::vector<quad>& bounds, quad most, SceneAnswer& answer) const {
+        // Regions none of whose solids are met hold nothing.
+        std::vector<Sure> found;
+        for (const Sure& set : sets)
+            for (const std::uint32_t r : regions_of_[set.index]) found.push_back({r, {}, {}, {}});
+        std::sort(found.begin(), found.end(), [](const Sure& a, const Sure& b) { return a.index < b.index; });
+        const auto same = [](const Sure& a, const Sure& b) { return a.index == b.index; };
+        found.erase(std::unique(found.begin(), found.end(), same), found.end());
         const auto extend = [](Spans& spans, quad in, quad out) {
             if (!spans.empty() && spans.back().out.at == in)
                 spans.back().out.at = out;
             else
                 spans.push_back({{in, 0}, {out, 0}});
         };
-        std::vector<Membership> sure(sets.size()), exact(sets.size());
+        std::vector<Membership> sure(solids_.size(), Membership::outside), exact = sure;
         for (std::size_t i = 0; i <= bounds.size(); ++i) {
             const quad in = i == 0 ? -infinity() : bounds[i - 1], out = i == bounds.size() ? infinity() : bounds[i];
             quad middle = (in + out) / 2;
@@ -195,28 +224,31 @@ private:
                 middle = out - (1 + absolute(out));
             else if (i == bounds.size())
                 middle = in + (1 + absolute(in));
-            for (std::size_t s = 0; s < sets.size(); ++s) {
-                exact[s] = holds(sets[s].exact, middle) ? Membership::inside : Membership::outside;
-                sure[s] = holds(sets[s].inner, middle)   ? Membership::inside
-                          : holds(sets[s].outer, middle) ? Membership::unsure
-                                                         : Membership::outside;
+            for (const Sure& set : sets) {
+                exact[set.index] = holds(set.exact, middle) ? Membership::inside : Membership::outside;
+                sure[set.index] = holds(set.inner, middle)   ? Membership::inside
+                                  : holds(set.outer, middle) ? Membership::unsure
+                                                             : Membership::outside;
             }
             Piece piece{to_double(in), to_double(out), {}};
-            for (std::size_t r = 0; r < regions_.size(); ++r) {
-                const Membership m = regions_[r].evaluate([&](std::size_t s) { return sure[s]; });
-                if (m == Membership::inside) extend(found[r].inner, in, out);
+            for (Sure& one : found) {
+                const OracleRegion& region = regions_[one.index];
+                const Membership m = region.evaluate([&](std::size_t s) { return sure[s]; });
+                if (m == Membership::inside) extend(one.inner, in, out);
                 if (m != Membership::outside) {
-                    extend(found[r].outer, in, out);
-                    piece.claims.push_back({static_cast<std::uint32_t>(r), m == Membership::inside});
+                    extend(one.outer, in, out);
+                    piece.claims.push_back({static_cast<std::uint32_t>(one.index), m == Membership::inside});
                 }
-                if (regions_[r].evaluate([&](std::size_t s) { return exact[s]; }) == Membership::inside)
-                    extend(found[r].exact, in, out);
+                if (region.evaluate([&](std::size_t s) { return exact[s]; }) == Membership::inside)
+                    extend(one.exact, in, out);
             }
             answer.pieces.push_back(std::move(piece));
         }
+        answer.regions.resize(regions_.size());
         for (Sure& one : found) {
-            answer.tie = answer.tie || !nested_one_to_one(one.inner, one.exact, one.outer);
-            answer.regions.push_back(std::move(one.exact));
+            answer.tie = answer.tie || !nested_one_to_one(one.inner, one.exact, one.outer) ||
+                         leaps(one.inner, one.outer, 8 * most);
+            answer.regions[one.index] = std::move(one.exact);
         }
     }
 
@@ -232,9 +264,7 @@ private:
         Expression outer, bores;
         for (PipePart& part : parts) {
             (part.bore ? bores : outer).operands.push_back({Operator::leaf, {}, solids_.size()});
-            solids_.push_back([solid = std::make_shared<ImplicitSolid>(std::move(part.solid))](const Ray& ray) {
-                return intersect(*solid, ray);
-            });
+            solids_.push_back(scene_solid(std::move(part.solid)));
         }
         return bores.operands.empty() ? outer : apply(Operator::difference, outer, bores);
     }
@@ -323,6 +353,7 @@ private:
     const bool skip_unsupported_;
     std::vector<SceneSolid> solids_;
     std::vector<OracleRegion> regions_;
+    std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid
 };
 
 }  // namespace csgrt::oracle

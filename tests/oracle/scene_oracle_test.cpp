@@ -2,6 +2,7 @@
 #include "catch.hpp"
 
 #include "oracle/scene_oracle.hpp"
+#include "oracle/shapes.hpp"
 
 using namespace csgrt;
 using namespace csgrt::oracle;
@@ -136,4 +137,49 @@ TEST_CASE("scene oracle: a shared face and a sliver thinner than the slack are t
     bool seen = false;        // and where they meet, each may hold
     for (const Piece& piece : beside.pieces) seen = seen || piece.claims.size() == 2;
     CHECK(seen);
+}
+
+TEST_CASE("scene oracle: a ray along a face of cells, where another face may decide, is a tie", "[oracle]") {
+    Vol vol;  // two layers, the upper one half as long
+    vol.width = 2;
+    vol.height = vol.depth = 2;
+    vol.low = 1;
+    vol.high = 255;
+    vol.cells = {9, 9, 9, 9, 9, 0, 9, 0};
+    Scene scene;
+    scene.objects = {Solid{"v", vol, {}}, combination("r", true, {leaf("v")})};
+    const SceneOracle oracle(scene, {"r"});
+    const SceneAnswer inside = oracle.shoot({{-5, 0.5, 0.5}, {1, 0, 0}}, 0);
+    const SceneAnswer between = oracle.shoot({{-5, 0.5, 1}, {1, 0, 0}}, 0);
+    CHECK_FALSE(inside.tie);
+    REQUIRE(inside.regions[0].size() == 1);
+    CHECK(between.tie);  // as far as one layer reaches, or as the other
+}
+
+TEST_CASE("scene oracle: what is said in double to pass a solid by does", "[oracle]") {
+    Random random(17);
+    std::size_t passed = 0, met = 0;
+    for (const Kind kind : {Kind::ell, Kind::tgc, Kind::arb, Kind::tor, Kind::part, Kind::hyp, Kind::metaball})
+        for (std::size_t index = 0; index < 60; ++index) {
+            const Case one = make_case(kind, index, random);
+            const SceneSolid solid = scene_solid(one.shape, to_affine(one.matrix), 0.001);
+            const QVec center = solid.reach.center;
+            for (int i = 0; i < 12; ++i) {
+                // Beside the ball by a little, or by its half; near, or far away.
+                const QVec d = random.direction(), aside = unit(cross(d, random.direction()));
+                const double off = i % 3 == 0 ? random.between(0, 1) : 1 + random.sign() * random.power(-9, -1);
+                const double back = random.power(0, 6);
+                const QVec o = center + quad(solid.reach.radius) * (quad(off) * aside - quad(back) * d);
+                const Ray ray{to_vec3(o), to_vec3(quad(random.power(-3, 3)) * d)};
+                const Answer answer = solid(ray);
+                const bool meets = !answer.intervals.empty() || !answer.outer.empty();
+                met += meets;
+                if (!solid.reach.is_passed_by(ray.origin, ray.direction)) continue;
+                ++passed;
+                INFO(one.name);
+                REQUIRE_FALSE(meets);
+            }
+        }
+    CHECK(passed > 1000);
+    CHECK(met > 500);
 }

@@ -9,13 +9,26 @@
 #include "extruded.hpp"
 #include "intersect.hpp"
 #include "mesh_answer.hpp"
+#include "reach.hpp"
 #include "revolved.hpp"
 #include "solids/all.hpp"
 
 namespace csgrt::oracle {
 
+/// As far as a ray must be from it for intersect() and along() to say that it misses, and more.
+template <class AnySolid>
+Reach reach_of(const AnySolid& solid) {
+    const double rounding = 2 * margin * ulps * double_epsilon * solid.condition;
+    return {to_vec3(solid.center), 1.002 * solid.radius + rounding * (solid.placement + solid.radius), rounding};
+}
+
 /// A solid of a scene, in its place.
-using SceneSolid = std::function<Answer(const Ray&)>;
+struct SceneSolid {
+    std::function<Answer(const Ray&)> answer;
+    Reach reach = {};
+
+    Answer operator()(const Ray& ray) const { return answer(ray); }
+};
 
 /// The shaken rays of shaken.hpp as certain and possible spans.
 inline Answer along(const ExactSolid& solid, const Ray& ray) {
@@ -65,17 +78,23 @@ inline Answer along(const ExactSolid& solid, const Ray& ray) {
     return answer;
 }
 
+inline SceneSolid scene_solid(ImplicitSolid&& implicit) {
+    const auto solid = std::make_shared<ImplicitSolid>(std::move(implicit));
+    return {[solid](const Ray& ray) { return intersect(*solid, ray); }, solid->bounded ? reach_of(*solid) : Reach{}};
+}
+
 /// `skin`: how thick along the ray triangles without thickness are, millimetres.
 inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double skin) {
     const auto exact = [](ExactSolid solid) -> SceneSolid {
-        return [solid = std::move(solid)](const Ray& ray) { return along(solid, ray); };
+        const Reach reach = reach_of(solid);
+        return {[solid = std::move(solid)](const Ray& ray) { return along(solid, ray); }, reach};
     };
     const auto meshed = [&](const Parts& parts) -> SceneSolid {
-        return [mesh = std::make_shared<MeshSolid>(parts, place)](const Ray& ray) { return mesh->along(ray); };
+        return {[mesh = std::make_shared<MeshSolid>(parts, place)](const Ray& ray) { return mesh->along(ray); }};
     };
     if (const auto* bot = std::get_if<Bot>(&shape)) {
         if (bot->mode == Bot::Mode::volume) return meshed(parts_of(*bot));
-        return [plates = std::make_shared<PlateSolid>(*bot, place, skin)](const Ray& r) { return plates->along(r); };
+        return {[plates = std::make_shared<PlateSolid>(*bot, place, skin)](const Ray& r) { return plates->along(r); }};
     }
     if (const auto* ars = std::get_if<Ars>(&shape)) return meshed(parts_of(*ars));
     if (const auto* nmg = std::get_if<Nmg>(&shape)) return meshed(parts_of(*nmg));
@@ -84,9 +103,7 @@ inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double s
     if (const auto* ebm = std::get_if<Ebm>(&shape)) return exact(celled(*ebm, place));
     if (const auto* extrude = std::get_if<Extrude>(&shape)) return exact(extruded(*extrude, place));
     if (const auto* revolve = std::get_if<Revolve>(&shape)) return exact(revolved(*revolve, place));
-    return [solid = std::make_shared<ImplicitSolid>(implicit(shape, place))](const Ray& ray) {
-        return intersect(*solid, ray);
-    };
+    return scene_solid(implicit(shape, place));
 }
 
 }  // namespace csgrt::oracle

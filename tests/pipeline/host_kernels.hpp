@@ -46,6 +46,7 @@ namespace csgrt::test {
 
 /// Everything that the kernels leave behind for one frame, or for a list of rays.
 struct HostRun {
+    std::size_t candidates = 0;
     std::vector<kernel::RayCount> offsets;
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
@@ -54,7 +55,7 @@ struct HostRun {
     std::vector<float> picture;  ///< the frame's channels, plane by plane
 };
 
-/// Runs all kernels; `rays` empty: the frame's camera. 
+/// Runs all kernels; `rays` empty: the frame's camera.
 inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
                            const std::vector<kernel::RayRecord>& rays = {}) {
     using namespace kernel;
@@ -89,6 +90,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data());
     });
+    run.candidates = candidates.size();
     run.offsets.resize(count + 1);
     each([&] { sum_hits(&frame, places.data(), candidates.data(), run.offsets.data()); });
     const RayCount sum = scan(run.offsets);

@@ -10,6 +10,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "stress/expected.hpp"
 #include "stress/metamorphic.hpp"
 
 namespace csgrt::test {
@@ -57,45 +58,11 @@ inline void keep_finding(const std::string& what, const stress::StressScene& mad
     std::fclose(file);
 }
 
-/// What every ray must meet, and whether that is decided.
-struct Expected {
-    std::vector<Sequence> sequences;
-    std::vector<std::vector<std::vector<std::uint32_t>>> overlaps;  ///< empty: not known
-    std::vector<bool> ties;
-};
-
-inline Expected expected_of(const stress::StressScene& made) {
-    Expected expected;
-    if (!made.known.empty()) {
-        for (std::size_t i = 0; i < made.rays.size(); ++i)
-            expected.sequences.push_back(sequence_of(made.known[i], made.rays[i]));
-        expected.ties.assign(made.rays.size(), false);
-        return expected;
-    }
-    const TrueScene truth(made.scene, made.objects);
-    for (const Ray& ray : made.rays) {
-        const Truth one = truth.shoot(ray);
-        bool tie = one.tie;
-        expected.sequences.push_back(sequence_of(one, tie));
-        expected.overlaps.push_back(overlaps_of(one));
-        expected.ties.push_back(tie);
-    }
-    return expected;
-}
-
-/// The regions of a renderer in the order of `objects`: a region without solids has none.
-inline void renumber(std::vector<RayPartitions>& answers, const Renderer& renderer,
-                     const std::vector<std::string>& objects) {
-    std::vector<std::uint32_t> number;
-    for (const RegionInfo& region : renderer.regions()) {
-        const std::string name = region.path.substr(region.path.rfind('/') + 1);
-        number.push_back(static_cast<std::uint32_t>(std::find(objects.begin(), objects.end(), name) - objects.begin()));
-    }
-    for (RayPartitions& answer : answers) {
-        for (Partition& p : answer.partitions) p.region = number[p.region];
-        for (Overlap& o : answer.overlaps)
-            for (std::uint32_t& r : o.regions) r = number[r];
-    }
+inline std::vector<Expected> expected_of(const stress::StressScene& made) {
+    const ExpectedAnswers answers(made);
+    std::vector<Expected> all;
+    for (std::size_t i = 0; i < made.rays.size(); ++i) all.push_back(answers(i));
+    return all;
 }
 
 inline std::vector<RayPartitions> shoot(const Scene& scene, const std::vector<std::string>& objects,
@@ -105,7 +72,8 @@ inline std::vector<RayPartitions> shoot(const Scene& scene, const std::vector<st
     const Box& b = renderer.bounds();
     size = std::hypot(b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z);
     std::vector<RayPartitions> found = renderer.shoot(rays);
-    renumber(found, renderer, regions);
+    const Renumbering renumbering(renderer, regions);
+    for (RayPartitions& answer : found) renumbering.apply(answer);
     return found;
 }
 
@@ -113,27 +81,24 @@ inline Counts check(const stress::StressScene& made, const Settings& settings) {
     Counts counts;
     counts.scenes = 1;
     counts.rays = made.rays.size();
-    const Expected expected = expected_of(made);
+    const std::vector<Expected> expected = expected_of(made);
     double size = 0;
     const std::vector<RayPartitions> found = shoot(made.scene, made.objects, made.objects, made.rays, settings, size);
     std::vector<Sequence> base;
-    std::vector<bool> right;
     for (std::size_t i = 0; i < found.size(); ++i) {
         base.push_back(sequence_of(found[i]));
-        right.push_back(same_regions(base[i], expected.sequences[i]));
-        if (expected.ties[i]) {
+        if (expected[i].tie) {
             ++counts.ties;
             continue;
         }
-        if (!right[i]) {
+        const Compared compared = compare(found[i], expected[i]);
+        if (!compared.regions) {
             if (counts.wrong++ == 0) keep_finding("wrong", made, made.scene, made.rays[i]);
             continue;
         }
-        if (!expected.overlaps.empty() && overlaps_of(found[i]) != expected.overlaps[i])
-            if (counts.overlaps++ == 0) keep_finding("overlaps", made, made.scene, made.rays[i]);
-        const double off = worst_end(base[i], expected.sequences[i], 0);
-        counts.worst = std::max(counts.worst, off);
-        if (off > 1 && counts.far++ == 0) keep_finding("far", made, made.scene, made.rays[i]);
+        if (!compared.overlaps && counts.overlaps++ == 0) keep_finding("overlaps", made, made.scene, made.rays[i]);
+        counts.worst = std::max(counts.worst, compared.worst);
+        if (compared.worst > 1 && counts.far++ == 0) keep_finding("far", made, made.scene, made.rays[i]);
     }
     for (std::size_t c = 0; c < changes.size(); ++c) {
         const Changed other = changed(made, c, size, base);
@@ -141,7 +106,7 @@ inline Counts check(const stress::StressScene& made, const Settings& settings) {
         const std::vector<RayPartitions> again =
             shoot(other.scene, other.objects, made.objects, other.rays, settings, other_size);
         for (std::size_t i = 0; i < again.size(); ++i) {
-            if (expected.ties[i]) continue;
+            if (expected[i].tie) continue;
             Sequence sequence = sequence_of(again[i]);
             if (!other.way.empty()) sequence = turned_around(sequence, other.way[i]);
             bool agrees = same_regions(sequence, base[i]);

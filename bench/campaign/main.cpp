@@ -1,0 +1,194 @@
+// csgrt_campaign: many rays through every scene, on a device, each judged by the oracle.
+//
+//   csgrt_campaign [--rays N] [--seconds N] [--threads N] [--device CHOICE] [--only FAMILY,...] [--models FOLDER]
+//                  [--scenes FOLDER] [--precision NAME] [--json FILE] [--wrong FILE]
+//
+// --device: as of csgrt, or "reference". --precision: to see that what is wrong is seen.
+//
+// Every thread takes a scene, builds its kernels, shoots its rays in batches on the device and judges them. The rays
+// are shared out evenly; so is what is left of --seconds whenever a scene begins: one whose rays cost more gets fewer.
+// Exit status: 0 all is right, 8 something is not; what else may be as of csgrt.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include <csgrt/csgrt.hpp>
+
+#include "bench/chart/report.hpp"
+#include "tally.hpp"
+#include "verify/answers.hpp"
+
+namespace {
+
+using namespace csgrt;
+using namespace csgrt::campaign;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t batch = 16'384;     ///< rays of a call
+constexpr std::size_t on_reference = 64;  ///< of these, shot there, too
+
+struct Options {
+    double rays = 1e6, seconds = 1e9;
+    unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+    std::string device, json = "campaign.json", wrong = "campaign_wrong.jsonl";
+    Precision precision = Precision::double_;
+    Choice choice{"scenes", "../shared/brlcad", {}};
+};
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// One item, until its rays or its time are used up.
+Sums run(const Item& item, const Options& options, std::size_t planned, double seconds, Tally& tally,
+         std::string& device_name) {
+    const Clock::time_point start = Clock::now();
+    Sums sums;
+    sums.items = 1;
+    sums.planned = planned;
+    try {
+        const std::unique_ptr<Subject> subject = item.make();
+        Settings settings;
+        settings.reference = options.device == "reference";
+        if (!settings.reference) settings.device = options.device;
+        settings.precision = options.precision;
+        settings.threads = 1;
+        settings.skip_unsupported = true;
+        Renderer device(subject->scene(), subject->objects(), settings);
+        device_name = device.statistics().device;
+        settings.reference = true;
+        settings.device.clear();
+        Renderer reference(subject->scene(), subject->objects(), settings);
+        subject->prepare(device, planned);
+        sums.build = since(start);
+        while (sums.rays < planned && (sums.rays == 0 || since(start) < seconds)) {
+            Clock::time_point begun = Clock::now();
+            const std::vector<Ray> rays = subject->rays(std::min<std::size_t>(batch, planned - sums.rays));
+            if (rays.empty()) break;
+            std::vector<RayPartitions> found = device.shoot(rays);
+            sums.shoot += since(begun);
+            begun = Clock::now();
+            const std::vector<Ray> few(rays.begin(),
+                                       rays.begin() + std::min<std::ptrdiff_t>(on_reference, std::ssize(rays)));
+            const std::vector<RayPartitions> same = reference.shoot(few);
+            sums.compared += few.size();
+            for (std::size_t i = 0; i < few.size(); ++i)
+                if (!identical(found[i], same[i])) {
+                    ++sums.bit_differences;
+                    tally.add_wrong(item, few[i], "device and reference differ");
+                }
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (sums.rays > 0 && since(start) > seconds) break;
+                const Verdict verdict = subject->judge(i, found[i]);
+                ++sums.rays;
+                sums.hits += !found[i].partitions.empty();
+                ++(verdict.tie ? sums.ties : sums.decided);
+                sums.worst = std::max(sums.worst, verdict.worst);
+                if (verdict.wrong.empty()) continue;
+                ++sums.wrong;
+                tally.add_wrong(item, rays[i], verdict.wrong);
+            }
+            sums.judge += since(begun);
+        }
+    } catch (const std::exception& error) {
+        tally.add_error(item, error.what());
+    }
+    return sums;
+}
+
+double number(const std::string& name, const std::string& value) {
+    char* end = nullptr;
+    const double x = std::strtod(value.c_str(), &end);
+    if (end == value.c_str() || *end != 0 || !(x >= 1 && x <= 1e12))
+        throw Error(Status::usage, name + ": needs a number from 1 to 1e12, not " + value);
+    return x;
+}
+
+Options parse(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; i += 2) {
+        const std::string name = argv[i];
+        if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
+        const std::string value = argv[i + 1];
+        if (name == "--rays") {
+            options.rays = number(name, value);
+        } else if (name == "--seconds") {
+            options.seconds = number(name, value);
+        } else if (name == "--threads") {
+            options.threads = static_cast<unsigned>(std::min(number(name, value), 1024.0));
+        } else if (name == "--device") {
+            options.device = value;
+        } else if (name == "--only") {
+            std::istringstream in(value);
+            for (std::string part; std::getline(in, part, ',');) options.choice.only.push_back(part);
+        } else if (name == "--models") {
+            options.choice.models = value;
+        } else if (name == "--scenes") {
+            options.choice.scenes = value;
+        } else if (name == "--precision") {
+            const auto* at = std::find_if(std::begin(precision_names), std::end(precision_names),
+                                          [&](const auto& known) { return known.first == value; });
+            if (at == std::end(precision_names)) throw Error(Status::usage, "--precision: there is no " + value);
+            options.precision = at->second;
+        } else if (name == "--json") {
+            options.json = value;
+        } else if (name == "--wrong") {
+            options.wrong = value;
+        } else {
+            throw Error(Status::usage, name + ": unknown option");
+        }
+    }
+    return options;
+}
+
+int run_all(const Options& options) {
+    const Clock::time_point start = Clock::now();
+    const std::vector<Item> all = items(options.choice);
+    if (all.empty()) throw Error(Status::usage, "--only: nothing is called that");
+    double shares = 0;
+    for (const Item& item : all) shares += item.share;
+    Tally tally(options.wrong);
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::string device;
+    const auto work = [&] {
+        for (std::size_t i; (i = next.fetch_add(1)) < all.size();) {
+            const auto planned = static_cast<std::size_t>(std::ceil(options.rays * all[i].share / shares));
+            const double left =
+                (options.seconds - since(start)) * options.threads / static_cast<double>(all.size() - i);
+            std::string name;
+            tally.add(all[i],
+                      run(all[i], options, planned, std::min(left, options.seconds - since(start)), tally, name));
+            const std::lock_guard lock(mutex);
+            if (!name.empty()) device = name;
+            if (i % 64 == 63)
+                std::fprintf(stderr, "%zu of %zu, %.0f s, %.3g rays, %llu wrong\n", i + 1, all.size(), since(start),
+                             static_cast<double>(tally.total().rays),
+                             static_cast<unsigned long long>(tally.total().wrong));
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < options.threads; ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    std::fputs(tally.table().c_str(), stdout);
+    const Sums total = tally.total();
+    std::printf("%llu wrong of %llu decided rays, %llu different bits, %.0f s\n",
+                static_cast<unsigned long long>(total.wrong), static_cast<unsigned long long>(total.decided),
+                static_cast<unsigned long long>(total.bit_differences), since(start));
+    bench::write_whole(tally.to_json(device, options.threads, since(start)), options.json);
+    return tally.passed() ? 0 : static_cast<int>(Status::differs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run_all(parse(argc, argv));
+    } catch (const Error& error) {
+        std::fprintf(stderr, "csgrt_campaign: %s\n", error.what());
+        return static_cast<int>(error.status());
+    }
+}

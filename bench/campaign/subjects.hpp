@@ -1,0 +1,59 @@
+// What a campaign shoots at: every scene of the stress suite, our own scenes, BRL-CAD's models; each with any number of
+// rays and its judge.
+//
+// The judges are those of the tests: tests/stress/expected.hpp for the stress suite, tests/oracle/scene_judge.hpp for
+// the others. They know a scene by its implicit functions in 113-bit arithmetic, sort all ends of all solids on a ray,
+// and ask the trees for membership between them; nothing of it is shared with the kernels, nor with what compiles,
+// packs and traverses a scene. So there is no filter that could let something through: every ray is judged whole. What
+// makes that affordable is that a ray is not put to a solid whose widened ball it passes by (Reach in scene_solid.hpp),
+// nor to a region none of whose solids it meets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+namespace csgrt::campaign {
+
+struct Verdict {
+    bool tie = false;   ///< rounding decides something on this ray
+    std::string wrong;  ///< what is wrong; empty: nothing
+    double worst = 0;   ///< stress suite: the farthest end, in units of what may be
+};
+
+/// One scene, its rays and its judge. One thread at a time.
+class Subject {
+public:
+    virtual ~Subject() = default;
+    virtual const Scene& scene() const = 0;
+    virtual const std::vector<std::string>& objects() const = 0;
+    /// Called once, before the rest. The renderer must outlive it. `count`: about so many rays will be asked for.
+    virtual void prepare(const Renderer& renderer, std::size_t count) = 0;
+    /// The next rays, at most `count`; none: there are no more.
+    virtual std::vector<Ray> rays(std::size_t count) = 0;
+    /// Of ray `i` of those. Changes the answer.
+    virtual Verdict judge(std::size_t i, RayPartitions& found) const = 0;
+};
+
+/// One piece of work.
+struct Item {
+    std::string family;  ///< of the stress suite, "scenes" or "models"
+    std::string name;    ///< "slivers 25", "truck.asc"
+    std::string path;    ///< of a file; empty: the stress suite's
+    std::uint64_t seed = 0;
+    double share = 1;  ///< of an item's usual count of rays
+
+    std::unique_ptr<Subject> make() const;
+};
+
+struct Choice {
+    std::string scenes, models;     ///< folders; models that are not there are left out
+    std::vector<std::string> only;  ///< families; empty: all
+};
+/// The slowest first.
+std::vector<Item> items(const Choice& choice);
+
+}  // namespace csgrt::campaign

@@ -1,0 +1,74 @@
+// What a ray of a stress scene must meet: known from how the scene was made, or found by the oracle.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stress/sequence.hpp"
+
+namespace csgrt::test {
+
+struct Expected {
+    Sequence sequence;
+    std::optional<std::vector<std::vector<std::uint32_t>>> overlaps;  ///< none: not known
+    bool tie = false;                                                 ///< rounding decides
+};
+
+/// Of one scene, which must outlive it.
+class ExpectedAnswers {
+public:
+    explicit ExpectedAnswers(const stress::StressScene& made) : made_(made) {
+        if (made.known.empty()) truth_.emplace(made.scene, made.objects);
+    }
+
+    Expected operator()(std::size_t ray) const {
+        if (!truth_) return {sequence_of(made_.known[ray], made_.rays[ray]), {}, false};
+        const Truth truth = truth_->shoot(made_.rays[ray]);
+        Expected expected{{}, overlaps_of(truth), truth.tie};
+        expected.sequence = sequence_of(truth, expected.tie);
+        return expected;
+    }
+
+private:
+    const stress::StressScene& made_;
+    std::optional<TrueScene> truth_;
+};
+
+/// Turns a renderer's regions into their places in `objects`: a region without solids is none of the renderer's.
+class Renumbering {
+public:
+    Renumbering(const Renderer& renderer, const std::vector<std::string>& objects) {
+        for (const RegionInfo& region : renderer.regions()) {
+            const std::string name = region.path.substr(region.path.rfind('/') + 1);
+            const auto at = std::find(objects.begin(), objects.end(), name);
+            number_.push_back(static_cast<std::uint32_t>(at - objects.begin()));
+        }
+    }
+    void apply(RayPartitions& answer) const {
+        for (Partition& p : answer.partitions) p.region = number_[p.region];
+        for (Overlap& o : answer.overlaps)
+            for (std::uint32_t& r : o.regions) r = number_[r];
+    }
+
+private:
+    std::vector<std::uint32_t> number_;
+};
+
+/// How an answer with the regions of `objects` compares with it.
+struct Compared {
+    bool regions = false;   ///< the right ones, gaps included
+    bool overlaps = false;  ///< the right ones, where they are known
+    double worst = 0;  ///< if the regions are right: an end's distance from the truth, in units of what is documented
+};
+inline Compared compare(const RayPartitions& found, const Expected& expected) {
+    const Sequence sequence = sequence_of(found);
+    Compared compared;
+    compared.regions = same_regions(sequence, expected.sequence);
+    compared.overlaps = !expected.overlaps || overlaps_of(found) == *expected.overlaps;
+    if (compared.regions) compared.worst = worst_end(sequence, expected.sequence, 0);
+    return compared;
+}
+
+}  // namespace csgrt::test
