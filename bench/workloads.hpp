@@ -2,6 +2,7 @@
 // them (milliseconds a frame at 1024 x 1024).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,14 @@ namespace csgrt::bench {
 
 struct Workload {
     std::string name;
-    std::string file;  ///< relative to the models' folder, or to scenes/ if it ends in .json
+    std::string file;  ///< relative to the models' folder, or to scenes/ if it ends in .json; none: generated
     std::vector<std::string> objects;
     /// Domingues 2017, figure 4.2: OpenCL on a GTX 1060; table 4.2: segments. 0: not given.
     double thesis_ms = 0;
     double thesis_segments = 0;
     /// BRL-CAD 7.32.6, first hits, shooting time only: 2 CPU cores; its OpenCL path on PoCL with 2 cores, and on an H200.
     double brlcad_cpu_ms = 0, brlcad_pocl_ms = 0, brlcad_h200_ms = 0;
+    std::uint32_t parts = 0;  ///< solids of a generated scene, see parts.hpp
 };
 
 inline const std::vector<Workload>& workloads() {
@@ -26,7 +28,22 @@ inline const std::vector<Workload>& workloads() {
         {"tank_car", "tank_car.asc", {"tank_car"}, 0, 0, 182, 625, 191},
         {"tank_car+track", "tank_car.asc", {"tank_car", "track"}, 120, 651742, 0, 0, 0},
         {"havoc", "havoc.asc", {"havoc"}, 520, 701340, 340, 505, 307},
-        {"scene operators", "operators.json", {}, 0, 0, 0, 0, 0},
+        {"goliath", "goliath.g", {"Goliath.c"}, 300, 1710913, 169, 814, 324},
+        {"scene operators", "operators.json", {}},
+        {"scene solids", "solids.json", {}},
+        {"scene quadrics", "quadrics.json", {}},
+        {"scene polyhedra", "polyhedra.json", {}},
+        {"scene pipes", "pipes.json", {}},
+        {"scene sketches", "sketches.json", {}},
+        {"scene meshes", "meshes.json", {}},
+        {"scene gear", "gear.json", {}},
+        {"scene onion", "onion.json", {}},
+        {"scene overlap", "overlap.json", {}},
+        {"parts 10^2", "", {}, 0, 0, 0, 0, 0, 100},
+        {"parts 10^3", "", {}, 0, 0, 0, 0, 0, 1'000},
+        {"parts 10^4", "", {}, 0, 0, 0, 0, 0, 10'000},
+        {"parts 10^5", "", {}, 0, 0, 0, 0, 0, 100'000},
+        {"parts 10^6", "", {}, 0, 0, 0, 0, 0, 1'000'000},
     };
     return all;
 }

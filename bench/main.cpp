@@ -1,0 +1,223 @@
+// csgrt_bench: warm frames of every workload; tables on standard output, JSON on demand.
+//
+//   csgrt_bench [--device CHOICE|all]... [--size N] [--frames N] [--first-hit | --both] [--orbit N] [--only NAME,...]
+//               [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
+//   csgrt_bench --compare A.json B.json
+//
+// --floors: also what a frame of every partition must do at least, counted, beside what was measured of it (nothing is
+// measured with --frames 0).
+// --orbit N: a frame at each of N azimuths around the model, as a viewer draws them, in place of --frames from one
+// side.
+// --only: workloads whose names begin so. `first` is the time from a loaded scene to the first picture.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <tuple>
+
+#include <csgrt/csgrt.hpp>
+
+#include "figures.hpp"
+#include "floors.hpp"
+#include "parts.hpp"
+#include "workloads.hpp"
+
+namespace {
+
+using namespace csgrt;
+using namespace csgrt::bench;
+
+struct Options {
+    std::vector<std::string> devices, only, compare;
+    std::string models = "../shared/brlcad", scenes = "scenes", json;
+    int size = 1024, frames = 20, orbit = 0;
+    bool every_partition = true, first_hits = false, floors = false;
+};
+
+using Clock = std::chrono::steady_clock;
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double kernels(const Times& ms) {
+    double sum = 0;
+    for (const Stage& stage : stages) sum += ms.*stage.time;
+    return sum;
+}
+
+Figures measure(const Workload& workload, Renderer& renderer, bool every_partition, const Options& options) {
+    View view;
+    view.width = view.height = options.size;
+    view.every_partition = every_partition;
+    const auto start = Clock::now();
+    renderer.render(view);  // compiles kernels and takes memory
+    Figures f;
+    f.ms = {{"compile", renderer.statistics().ms.compile}, {"build", renderer.statistics().ms.build}};
+    f.ms.emplace_back("first",
+                      renderer.statistics().ms.compile + renderer.statistics().ms.build + milliseconds_since(start));
+    std::vector<Statistics> frames;
+    const int count = options.orbit > 0 ? options.orbit : options.frames;
+    for (int i = 0; i < count; ++i) {
+        if (options.orbit > 0) view.camera.azimuth = 35 + 360.0 * i / options.orbit;
+        renderer.render(view);
+        frames.push_back(renderer.statistics());
+    }
+    const Statistics& s = frames.front();
+    f.workload = workload.name;
+    f.device = s.device;
+    f.mode = every_partition ? "every partition" : "first hits";
+    f.size = options.size;
+    f.frames = count;
+    f.orbit = options.orbit;
+    f.solids = renderer.solids().size();
+    f.regions = renderer.regions().size();
+    f.segments = s.segments;
+    f.partitions_used = s.partitions_used;
+    f.partitions_allocated = s.partitions_allocated;
+    f.segment_and_partition_bytes = s.segment_bytes + s.partition_bytes;
+    f.device_bytes = s.device_bytes;
+    const auto times = [&](const auto& of) {
+        std::vector<double> values;
+        for (const Statistics& frame : frames) values.push_back(of(frame.ms));
+        return values;
+    };
+    for (const Stage& stage : stages)
+        f.ms.emplace_back(stage.name, median(times([&](const Times& ms) { return ms.*stage.time; })));
+    f.ms.emplace_back("kernels", median(times(kernels)));
+    const std::vector<double> whole = times([](const Times& ms) { return ms.frame; });
+    f.ms.emplace_back("frame", median(whole));
+    if (options.orbit > 0) f.ms.emplace_back("worst", *std::max_element(whole.begin(), whole.end()));
+    return f;
+}
+
+int whole(const std::string& name, const std::string& value, int least) {
+    char* end = nullptr;
+    const long number = std::strtol(value.c_str(), &end, 10);
+    if (end == value.c_str() || *end != 0 || number < least || number > 1'000'000)
+        throw Error(Status::usage, name + ": needs a whole number from " + std::to_string(least) + " on, not " + value);
+    return static_cast<int>(number);
+}
+
+std::vector<std::string> split(const std::string& list) {
+    std::vector<std::string> parts;
+    std::istringstream in(list);
+    for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+    return parts;
+}
+
+Options parse(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string name = argv[i];
+        if (name == "--first-hit" || name == "--both") {
+            options.first_hits = true;
+            options.every_partition = name == "--both";
+            continue;
+        }
+        if (name == "--floors") {
+            options.floors = true;
+            continue;
+        }
+        if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
+        const std::string value = argv[++i];
+        if (name == "--device") {
+            options.devices.push_back(value);
+        } else if (name == "--models") {
+            options.models = value;
+        } else if (name == "--scenes") {
+            options.scenes = value;
+        } else if (name == "--json") {
+            options.json = value;
+        } else if (name == "--size") {
+            options.size = whole(name, value, 1);
+        } else if (name == "--frames") {
+            options.frames = whole(name, value, 0);
+        } else if (name == "--orbit") {
+            options.orbit = whole(name, value, 1);
+        } else if (name == "--only") {
+            options.only = split(value);
+        } else if (name == "--compare") {
+            if (i + 1 == argc) throw Error(Status::usage, "--compare needs two files");
+            options.compare = {value, argv[++i]};
+        } else {
+            throw Error(Status::usage, name + ": unknown option");
+        }
+    }
+    if (options.devices.empty()) options.devices.push_back("");
+    if (std::find(options.devices.begin(), options.devices.end(), "all") != options.devices.end()) {
+        options.devices.clear();
+        for (std::size_t i = 0; i < devices().size(); ++i) options.devices.push_back(std::to_string(i));
+    }
+    return options;
+}
+
+bool wanted(const Workload& workload, const Options& options) {
+    return options.only.empty() || std::any_of(options.only.begin(), options.only.end(), [&](const std::string& name) {
+               return workload.name.starts_with(name);
+           });
+}
+
+/// By workload, so that a scene is generated or read but once.
+std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
+    std::vector<Figures> all;
+    for (const Workload& workload : workloads()) {
+        if (!wanted(workload, options)) continue;
+        const bool ours = workload.file.ends_with(".json");
+        const std::string path = (ours ? options.scenes : options.models) + "/" + workload.file;
+        if (workload.parts == 0 && !std::filesystem::exists(path)) {
+            std::fprintf(stderr, "%s: left out, there is no %s\n", workload.name.c_str(), path.c_str());
+            continue;
+        }
+        const auto start = Clock::now();
+        const Scene scene = workload.parts > 0 ? scene_of_parts(workload.parts) : load_scene(path);
+        const double load = milliseconds_since(start);
+        if (options.floors) floors.push_back(count_floor(workload.name, scene, workload.objects));
+        if (options.frames == 0 && options.orbit == 0) continue;
+        for (const std::string& device : options.devices) {
+            for (const bool every_partition : {true, false}) {
+                if (!(every_partition ? options.every_partition : options.first_hits)) continue;
+                Settings settings;
+                settings.device = device;
+                Renderer renderer(scene, workload.objects, settings);
+                all.push_back(measure(workload, renderer, every_partition, options));
+                all.back().ms.emplace(all.back().ms.begin(), "load", load);
+                std::fprintf(stderr, "%s, %s: frame %.2f ms\n", workload.name.c_str(), all.back().mode.c_str(),
+                             all.back().time("frame"));
+            }
+        }
+    }
+    // A table a device and mode.
+    std::stable_sort(all.begin(), all.end(), [](const Figures& a, const Figures& b) {
+        return std::tie(a.device, a.mode) < std::tie(b.device, b.mode);
+    });
+    return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const Options options = parse(argc, argv);
+        if (!options.compare.empty()) {
+            print_comparison(load(options.compare[0]), load(options.compare[1]));
+            return 0;
+        }
+        std::vector<Floor> floors;
+        const std::vector<Figures> all = run(options, floors);
+        print(all);
+        std::vector<double> measured;
+        for (const Floor& floor : floors) {
+            measured.push_back(-1);
+            for (const Figures& f : all)
+                if (f.workload == floor.workload && f.mode == "every partition") measured.back() = f.time("kernels");
+        }
+        if (options.floors) print_floors(floors, measured, options.size);
+        if (!options.json.empty()) save(all, options.json);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "csgrt_bench: %s\n", error.what());
+        return static_cast<int>(error.status());
+    }
+    return 0;
+}
