@@ -316,6 +316,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
                   bool skip_unsupported) {
     FlatScene result;
     ObjectIndex index(scene, names);
+    result.instances.reserve(scene.objects.size());
     Flattener flattener(scene, index, skip_unsupported, result);
     std::vector<std::string> air_regions, empty_regions;
     std::vector<Diagnostic> findings;

@@ -43,6 +43,7 @@ struct Chunk {
     std::vector<Prepared> solids;
     std::vector<double> reals;
     std::vector<Plane> planes;
+    std::vector<PlaneTable::Key> keys;  ///< one a plane
 };
 
 class Sharer {
@@ -51,14 +52,15 @@ public:
         : scene_(scene), planes_(planes), surfaces_(surfaces) {}
 
     /// The solid's reals end those of the scene already.
-    void add(kernel::SolidRecord record, const WideMatrix& axes, const Plane* planes, std::size_t plane_count,
-             bool is_polyhedron, const Matrix& matrix, const std::vector<Plane>& cuts, const Box& box) {
+    void add(kernel::SolidRecord record, const WideMatrix& axes, const Plane* planes, const PlaneTable::Key* keys,
+             std::size_t plane_count, bool is_polyhedron, const Matrix& matrix, const std::vector<Plane>& cuts,
+             const Box& box) {
         if (record.type == SOLID_ELL || record.type == SOLID_TGC || record.type == SOLID_TOR)
             surfaces_.share(record, axes, box, scene_);
         const std::size_t first = scene_.plane_refs.size();
         seen_.clear();
         for (std::size_t i = 0; i < plane_count; ++i) {
-            const kernel::PlaneRef ref = planes_.add(planes[i], box);
+            const kernel::PlaneRef ref = planes_.add(planes[i], keys[i], box);
             if (is_polyhedron && has(first, ref, plane_count)) continue;
             scene_.plane_refs.push_back(ref);
         }
@@ -93,8 +95,11 @@ void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix
     Packer packer{matrix, scene, shared, scene.reals, faces};
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
     std::visit(packer, shape);
+    std::vector<PlaneTable::Key> keys;
+    for (const Plane& face : faces) keys.push_back(planes.key_of(face));
     Sharer(scene, planes, surfaces)
-        .add(packer.record, packer.axes_in_world, faces.data(), faces.size(), packer.is_polyhedron, matrix, cuts, box);
+        .add(packer.record, packer.axes_in_world, faces.data(), keys.data(), faces.size(), packer.is_polyhedron, matrix,
+             cuts, box);
 }
 
 void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<std::uint32_t>& order,
@@ -128,17 +133,24 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
                 }
                 chunk.solids.push_back(prepared);
             }
+            chunk.keys.reserve(chunk.planes.size());
+            for (const Plane& plane : chunk.planes) chunk.keys.push_back(planes.key_of(plane));
         });
         return chunks;
     };
 
+    // Growing by copies costs more than memory that may stay unused.
+    compiled.reals.reserve(13 * order.size());
+    compiled.plane_refs.reserve(4 * order.size());
+    planes.reserve(2 * order.size());
     compiled.solids.reserve(order.size());
     compiled.solid_info.reserve(order.size());
     compiled.solid_boxes.reserve(order.size());
     std::size_t next = 0;
     const auto share = [&](const Chunk& chunk) {
         const double* reals = chunk.reals.data();
-        const Plane* faces = chunk.planes.data();
+        const std::size_t planes_in_all = chunk.planes.size();
+        std::size_t face = 0;
         for (const Prepared& prepared : chunk.solids) {
             const std::uint32_t number = order[next++];
             const Instance& instance = flat.instances[number];
@@ -151,10 +163,16 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<st
                 kernel::SolidRecord record = prepared.record;
                 record.first_real = static_cast<std::uint32_t>(compiled.reals.size());
                 compiled.reals.insert(compiled.reals.end(), reals, reals + prepared.reals);
-                sharer.add(record, prepared.axes, faces, prepared.planes, prepared.is_polyhedron, instance.matrix, cuts,
-                           box);
+                // Most of the time would go by in waiting for memory.
+                constexpr std::size_t soon = 8, later = 24;
+                for (std::size_t i = face; i < face + prepared.planes; ++i) {
+                    if (i + later < planes_in_all) planes.fetch_cell(chunk.keys[i + later]);
+                    if (i + soon < planes_in_all) planes.fetch_record(chunk.keys[i + soon]);
+                }
+                sharer.add(record, prepared.axes, chunk.planes.data() + face, chunk.keys.data() + face, prepared.planes,
+                           prepared.is_polyhedron, instance.matrix, cuts, box);
                 reals += prepared.reals;
-                faces += prepared.planes;
+                face += prepared.planes;
             } else {
                 pack_solid(shape, cuts, instance.matrix, box, compiled, planes, surfaces, shared);
             }

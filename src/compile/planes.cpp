@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "compile/linear.hpp"
 
@@ -14,6 +15,8 @@ constexpr std::uint32_t none = CellTable::none;
 // Cells have their centres at 0 and +-1, where most normals of models lie.
 constexpr double normal_cell = 1e-7;
 constexpr double offset_cell = 1.5e-8;  // of the scene's radius
+// Both boxes lie in the scene, where a tilt moves a plane by tilt x radius at most.
+constexpr double offset_reach = 3 * PlaneTable::tilt + PlaneTable::gap;
 
 Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 
@@ -49,50 +52,77 @@ bool PlaneTable::same(const Entry& entry, const Plane& plane, const Box& box) co
     return separation(normal, distance, box) <= limit && separation(normal, distance, entry.box) <= limit;
 }
 
+PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
+    Key key;
+    key.flipped = facing(plane.normal) < 0;
+    key.one = key.flipped ? flipped(plane) : plane;
+    key.offset = offset(key.one);
+    const Vec3& n = key.one.normal;
+    const double reach = offset_reach * radius_, cell = offset_cell * radius_;
+    const CellRange ranges[] = {cells_of(n.x, tilt, normal_cell), cells_of(n.y, tilt, normal_cell),
+                                cells_of(n.z, tilt, normal_cell), cells_of(key.offset, reach, cell)};
+    key.alone = std::all_of(std::begin(ranges), std::end(ranges), [](const CellRange& r) { return r.first == r.last; });
+    key.cell = cell_hash({cells_of(n.x, 0, normal_cell).first, cells_of(n.y, 0, normal_cell).first,
+                          cells_of(n.z, 0, normal_cell).first, cells_of(key.offset, 0, cell).first});
+    return key;
+}
+
+void PlaneTable::fetch_record(const Key& key) const {
+#if defined(__GNUC__)
+    const std::uint32_t record = cells_.find(key.cell);
+    if (record != none) __builtin_prefetch(&entries_[record]);
+#else
+    (void)key;
+#endif
+}
+
+std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const {
+    const double reach = offset_reach * radius_;
+    std::uint32_t found = none;
+    for (std::uint32_t record = cells_.find(cell); record != none; record = entries_[record].next) {
+        const Entry& entry = entries_[record];
+        if (std::fabs(entry.offset - key.offset) <= reach && record < found && same(entry, key.one, box))
+            found = record;
+    }
+    return found;
+}
+
 /// The first record of that plane, which looks the same way.
-std::uint32_t PlaneTable::find(const Plane& plane, const Box& box) const {
-    // Both boxes lie in the scene, where a tilt moves a plane by tilt x radius at most.
-    const double reach = (3 * tilt + gap) * radius_, at = offset(plane);
-    const CellRange x = cells_of(plane.normal.x, tilt, normal_cell), y = cells_of(plane.normal.y, tilt, normal_cell);
-    const CellRange z = cells_of(plane.normal.z, tilt, normal_cell);
-    const CellRange d = cells_of(at, reach, offset_cell * radius_);
+std::uint32_t PlaneTable::find(const Key& key, const Box& box) const {
+    if (key.alone) return find_in_cell(key.cell, key, box);
+    const Vec3& n = key.one.normal;
+    const CellRange x = cells_of(n.x, tilt, normal_cell), y = cells_of(n.y, tilt, normal_cell);
+    const CellRange z = cells_of(n.z, tilt, normal_cell);
+    const CellRange d = cells_of(key.offset, offset_reach * radius_, offset_cell * radius_);
     std::uint32_t found = none;
     for (std::int64_t i = x.first; i <= x.last; ++i)
         for (std::int64_t j = y.first; j <= y.last; ++j)
             for (std::int64_t k = z.first; k <= z.last; ++k)
-                for (std::int64_t l = d.first; l <= d.last; ++l) {
-                    std::uint32_t record = cells_.find(cell_hash({i, j, k, l}));
-                    for (; record != none; record = entries_[record].next) {
-                        const Entry& entry = entries_[record];
-                        if (std::fabs(entry.offset - at) <= reach && record < found && same(entry, plane, box))
-                            found = record;
-                    }
-                }
+                for (std::int64_t l = d.first; l <= d.last; ++l)
+                    found = std::min(found, find_in_cell(cell_hash({i, j, k, l}), key, box));
     return found;
 }
 
-kernel::PlaneRef PlaneTable::add(const Plane& plane, const Box& box) {
-    const double side = facing(plane.normal);
-    const bool is_flipped = side < 0;
-    const Plane one = is_flipped ? flipped(plane) : plane;
-    std::uint32_t found = find(one, box);
+kernel::PlaneRef PlaneTable::add(const Plane& plane, const Key& key, const Box& box) {
+    std::uint32_t found = find(key, box);
     bool opposite = false;
-    if (std::fabs(side) <= 4 * tilt) {
+    if (std::fabs(facing(plane.normal)) <= 4 * tilt) {
         // Another may have been taken for one on the other side.
-        const std::uint32_t other = find(flipped(one), box);
-        opposite = other < found;
-        found = std::min(found, other);
+        Key other = key;
+        other.one = flipped(key.one);
+        other.offset = -key.offset;
+        other.alone = false;
+        const std::uint32_t there = find(other, box);
+        opposite = there < found;
+        found = std::min(found, there);
     }
-    if (found != none) return found << 1 | static_cast<std::uint32_t>(is_flipped ^ entries_[found].flipped ^ opposite);
+    if (found != none) return found << 1 | static_cast<std::uint32_t>(key.flipped ^ entries_[found].flipped ^ opposite);
 
     const auto record = static_cast<std::uint32_t>(records_.size());
     if (record > 0x7fffffffu) throw Error(Status::scene, "the scene has more than 2147483647 different planes");
     records_.push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
-    const double at = offset(one);
-    const std::uint64_t cell =
-        cell_hash({cells_of(one.normal.x, 0, normal_cell).first, cells_of(one.normal.y, 0, normal_cell).first,
-                   cells_of(one.normal.z, 0, normal_cell).first, cells_of(at, 0, offset_cell * radius_).first});
-    entries_.push_back({one.normal, one.distance, at, cells_.exchange(cell, record), is_flipped, box});
+    entries_.push_back(
+        {key.one.normal, key.one.distance, key.offset, cells_.exchange(key.cell, record), key.flipped, box});
     return record << 1;
 }
 

@@ -23,9 +23,27 @@ public:
     /// `around`: a sphere around the scene; distances are looked up relative to it.
     PlaneTable(const Vec3& center, double radius) : center_(center), radius_(radius) {}
 
-    /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
-    kernel::PlaneRef add(const Plane& plane, const Box& box);
+    /// Where a plane is looked up; depends on nothing else, so several threads may find it ahead.
+    struct Key {
+        Plane one;          ///< the plane, or the one that looks the other way: see facing()
+        double offset = 0;  ///< of `one` from the scene's centre
+        std::uint64_t cell = 0;
+        bool flipped = false;  ///< `one` looks the other way
+        bool alone = false;    ///< no plane that is the same lies in another cell
+    };
+    Key key_of(const Plane& plane) const;
+    /// Brings what add() will read nearer to the processor: of a plane that comes a little later, then soon.
+    void fetch_cell(const Key& key) const { cells_.fetch(key.cell); }
+    void fetch_record(const Key& key) const;
 
+    /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
+    kernel::PlaneRef add(const Plane& plane, const Key& key, const Box& box);
+    kernel::PlaneRef add(const Plane& plane, const Box& box) { return add(plane, key_of(plane), box); }
+
+    void reserve(std::size_t planes) {
+        records_.reserve(planes);
+        entries_.reserve(planes);
+    }
     std::vector<kernel::PlaneRecord> take() { return std::move(records_); }
 
 private:
@@ -38,7 +56,8 @@ private:
         Box box;                  ///< of the solid that brought the plane
     };
 
-    std::uint32_t find(const Plane& plane, const Box& box) const;
+    std::uint32_t find(const Key& key, const Box& box) const;
+    std::uint32_t find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const;
     bool same(const Entry& entry, const Plane& plane, const Box& box) const;
     double offset(const Plane& plane) const;
 

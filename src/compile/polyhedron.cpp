@@ -59,9 +59,10 @@ void clip_to_corners(const Arb& arb, const Matrix& matrix, std::vector<Plane>& p
 /// its factors, and in a sliver that of the long ones is little else.
 Wide normal_of(const Wide& a, const Wide& b, const Wide& c) {
     const std::array<Wide, 3> sides{b - a, c - b, a - c};
+    const std::array<long double, 3> lengths{glm::length(sides[0]), glm::length(sides[1]), glm::length(sides[2])};
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i)
-        if (glm::length(sides[i]) > glm::length(sides[longest])) longest = i;
+        if (lengths[i] > lengths[longest]) longest = i;
     return glm::cross(sides[(longest + 1) % 3], sides[(longest + 2) % 3]);
 }
 
@@ -78,13 +79,17 @@ struct Triangle {
 /// `corners`: a face's, each once. None: all are as good as in line.
 std::optional<Triangle> spanning(const std::vector<Wide>& corners, long double in_line, Through through) {
     std::optional<Triangle> best;
+    long double best_length = 0;
     for (std::size_t i = 0; i < corners.size(); ++i)
         for (std::size_t j = i + 1; j < corners.size(); ++j)
             for (std::size_t k = j + 1; k < corners.size(); ++k) {
                 const Wide normal = normal_of(corners[i], corners[j], corners[k]), along = corners[j] - corners[i];
-                if (glm::length(normal) < in_line * glm::dot(along, along)) continue;
-                if (best && (through == Through::first || glm::length(normal) <= glm::length(best->normal))) continue;
+                const long double length = glm::length(normal);
+                if (length < in_line * glm::dot(along, along)) continue;
+                if (best && length <= best_length) continue;
                 best = Triangle{corners[i], normal};
+                best_length = length;
+                if (through == Through::first) return best;
             }
     return best;
 }
@@ -112,9 +117,12 @@ ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, lon
 
     ArbFaces result;
     result.is_hull = true;
+    result.planes.reserve(faces.size());
+    std::vector<std::size_t> distinct;
+    std::vector<Wide> of_face;
     for (const auto& face : faces) {
-        std::vector<std::size_t> distinct;
-        std::vector<Wide> of_face;
+        distinct.clear();
+        of_face.clear();
         for (const std::size_t corner : face) {
             if (std::find(distinct.begin(), distinct.end(), first_of[corner]) != distinct.end()) continue;
             distinct.push_back(first_of[corner]);
