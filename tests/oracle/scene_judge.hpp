@@ -2,9 +2,9 @@
 //
 // Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one
 // that may be there is; where several are, the overlap is listed with all of them. On rays without a tie partitions
-// begin and end where some solid does; without overlaps, too, each region's are the oracle's spans, end for end. Normals are unit vectors, and at an end that
-// belongs to one solid's surface alone they are that surface's, turned against the ray on the way in and along it on
-// the way out.
+// begin and end where some solid does; without overlaps, too, each region's are the oracle's spans, end for end.
+// Normals are unit vectors, and at an end that belongs to one solid's surface alone they are that surface's, turned
+// against the ray on the way in and along it on the way out.
 #pragma once
 
 #include <cmath>
@@ -179,7 +179,8 @@ private:
             // Where the hit itself may be displaced, curvature turns the normal: left to the judge of single solids.
             if (!only || only->tolerance * speed > 1e-8 || only->normal == Vec3{}) return;
             const double side = to_double(dot(only->normal, d)) * turned > 0 ? 1 : -1;
-            if (to_double(length(quad(side) * QVec(only->normal) - QVec(normal))) > 1e-6)
+            if (to_double(length(quad(side) * QVec(only->normal) - QVec(normal))) > 1e-6 &&
+                !oracle_.has_normal(only->solid, QVec(ray.origin) + quad(t) * d, normal, only->tolerance * speed))
                 wrong << "the normal at " << t << " is not the surface's; ";
         };
         for (const Partition& p : found.partitions) {

@@ -174,6 +174,19 @@ public:
         return answer;
     }
 
+    /// Is it the normal, to either side, of some surface of the solid that runs within `reach` millimetres of the
+    /// point? On an edge that of either face will do.
+    bool has_normal(std::size_t solid, const QVec& point, const QVec& normal, quad reach) const {
+        const ImplicitSolid* s = solids_[solid].implicit.get();
+        for (std::size_t k = 0; s != nullptr && k < s->surfaces.size(); ++k) {
+            const QVec n = s->normal(k, point), local = s->to_local.point(point);
+            if (smaller(length(n - normal), length(n + normal)) > quad(1e-6)) continue;
+            const quad slope = length(s->to_local.transposed(s->surfaces[k]->gradient(local)));
+            if (absolute(s->surfaces[k]->value(local)) <= slope * reach) return true;
+        }
+        return false;
+    }
+
 private:
     struct Sure {
         std::size_t index = 0;  ///< of the solid, or of the region

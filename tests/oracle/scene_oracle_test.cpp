@@ -1,7 +1,7 @@
 // The oracle of whole scenes against answers that can be read off the numbers.
 #include "catch.hpp"
 
-#include "oracle/scene_oracle.hpp"
+#include "oracle/scene_judge.hpp"
 #include "oracle/shapes.hpp"
 
 using namespace csgrt;
@@ -182,4 +182,27 @@ TEST_CASE("scene oracle: what is said in double to pass a solid by does", "[orac
         }
     CHECK(passed > 1000);
     CHECK(met > 500);
+}
+
+TEST_CASE("scene judge: on an edge the normal of either face will do, and no other", "[oracle]") {
+    Scene scene;  // a roof whose ridge is the y axis
+    scene.objects = {
+        Solid{"roof",
+              Arb{{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {0, -1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 1, 0}}}},
+              {}},
+        combination("r", true, {leaf("roof")})};
+    const SceneOracle oracle(scene, {"r"});
+    RegionInfo region;
+    region.path = "/r";
+    const SceneJudge judge(oracle, {region}, 0);
+    const auto fault = [&](const Vec3& normal) {
+        const RayPartitions found{{{5, 6, normal, {0, 0, -1}, 0, 0, 0}}, {}};
+        std::size_t ties = 0;
+        return judge.judge({{0, 0.25, 5}, {0, 0, -1}}, found, ties);
+    };
+    const double h = std::sqrt(0.5);
+    CHECK(fault({h, 0, h}).empty());
+    CHECK(fault({-h, 0, h}).empty());
+    CHECK(fault({0.6, 0, 0.8}).find("not the surface's") != std::string::npos);
+    CHECK(fault({0, -1, 0}).find("not the surface's") != std::string::npos);
 }

@@ -26,6 +26,7 @@ Reach reach_of(const AnySolid& solid) {
 struct SceneSolid {
     std::function<Answer(const Ray&)> answer;
     Reach reach = {};
+    std::shared_ptr<const ImplicitSolid> implicit = {};  ///< if it is one
 
     Answer operator()(const Ray& ray) const { return answer(ray); }
 };
@@ -80,7 +81,8 @@ inline Answer along(const ExactSolid& solid, const Ray& ray) {
 
 inline SceneSolid scene_solid(ImplicitSolid&& implicit) {
     const auto solid = std::make_shared<ImplicitSolid>(std::move(implicit));
-    return {[solid](const Ray& ray) { return intersect(*solid, ray); }, solid->bounded ? reach_of(*solid) : Reach{}};
+    const Reach reach = solid->bounded ? reach_of(*solid) : Reach{};
+    return {[solid](const Ray& ray) { return intersect(*solid, ray); }, reach, solid};
 }
 
 /// `skin`: how thick along the ray triangles without thickness are, millimetres.
