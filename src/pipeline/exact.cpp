@@ -46,6 +46,11 @@ std::uint64_t Exact::held() const {
     return sum;
 }
 
+void Exact::release() {
+    for (Buffer* buffer : {&places_, &counts_, &results_}) *buffer = Buffer(device_, buffer->name());
+    release_counted();
+}
+
 void Exact::release_counted() {
     for (Buffer* buffer : {&candidates_, &ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
 }

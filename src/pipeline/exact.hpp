@@ -27,12 +27,12 @@ public:
 
     static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
     std::uint64_t held() const;
-    /// Gives back what holds segments and partitions: memory that another use of the budget wants.
-    void release_counted();
+    void release();  ///< gives all its memory back: another use of the budget wants it
 
 private:
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set; returns the last sum.
     kernel::RayCount scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times);
+    void release_counted();  // what holds segments and partitions
     bool reserve_counted(const kernel::RayCount& total);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
                                             const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,

@@ -15,13 +15,18 @@ std::vector<std::string> defines(const Device& device, const CompiledScene& scen
 }  // namespace
 
 FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
-    : program_(device, assemble_program({"first_hits.cl"}), defines(device, scene, settings),
+    : device_(device),
+      program_(device, assemble_program({"first_hits.cl"}), defines(device, scene, settings),
                settings.precision != Precision::double_),
       cull_blocks_(program_.kernel("cull_blocks")),
       first_hits_(program_.kernel("first_hits")),
       blocks_(device, "blocks"),
       overflows_(device, "count of rays without room", sizeof(cl_uint)),
       overflown_(device, "rays without room") {}
+
+void FirstHits::release() {
+    for (Buffer* buffer : {&blocks_, &overflown_}) *buffer = Buffer(device_, buffer->name());
+}
 
 std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays,
                                           PipelineCounts& counts) {

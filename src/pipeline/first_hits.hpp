@@ -15,8 +15,10 @@ public:
 
     static constexpr std::uint64_t ray_bytes = 5;  ///< that it needs itself, at most
     std::uint64_t held() const { return blocks_.size() + overflown_.size(); }
+    void release();  ///< gives all its memory back
 
 private:
+    Device& device_;
     Program program_;
     Kernel cull_blocks_, first_hits_;
     Buffer blocks_, overflows_, overflown_;

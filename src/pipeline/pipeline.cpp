@@ -63,6 +63,13 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
 
+// For what a tile's rays need, whatever they hit: what the last call left may be in the way.
+void Pipeline::make_room(std::uint64_t bytes) {
+    if (bytes <= device_.available() + tile_.picture.size()) return;
+    if (exact_) exact_->release();
+    if (first_hits_) first_hits_->release();
+}
+
 // `row`: tiles are whole numbers of these, or parts of one.
 void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t row, const Progress& progress,
                              const std::function<bool(const Tile&)>& work) {
@@ -136,6 +143,7 @@ void Pipeline::read_picture(const kernel::Frame& frame, const std::vector<float*
 // Into the picture of the tile that they are of.
 void Pipeline::draw_picked(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, PipelineCounts& counts) {
     for_each_tile(numbers.size(), fitting(Exact::ray_bytes + sizeof(std::uint32_t)), 1, nullptr, [&](const Tile& tile) {
+        make_room(tile.rays * (sizeof(std::uint32_t) + Exact::ray_bytes));
         tile_.rays.reserve(tile.rays * sizeof(std::uint32_t));
         tile_.rays.upload(numbers.data() + tile.first, tile.rays * sizeof(std::uint32_t));
         frame.picked = 1;
@@ -154,7 +162,9 @@ void Pipeline::render(const PreparedFrame& prepared, const std::vector<float*>& 
     const std::uint64_t bytes = pixel_bytes(prepared.frame) + (every ? Exact::ray_bytes : FirstHits::ray_bytes);
     for_each_tile(prepared.rays, fitting(bytes), row_of_blocks(prepared.frame), progress, [&](const Tile& tile) {
         const kernel::Frame frame = frame_of(prepared, tile);
-        tile_.picture.reserve(std::uint64_t{frame.columns} * frame.rows * pixel_bytes(frame));
+        const std::uint64_t picture = std::uint64_t{frame.columns} * frame.rows * pixel_bytes(frame);
+        make_room(picture + tile.rays * bytes);
+        tile_.picture.reserve(picture);
         upload(frame);
         if (every) {
             if (!exact().run(buffers_, tile_, tile.rays, true, counts)) return false;
@@ -177,6 +187,7 @@ std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const 
     tile_.picture = Buffer(device_, tile_.picture.name());
     exact();
     for_each_tile(rays.size(), fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
+        make_room(tile.rays * (bytes + Exact::ray_bytes));
         tile_.rays.reserve(tile.rays * bytes);
         tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);
         upload(frame_of(prepared, tile));

@@ -35,6 +35,7 @@ private:
     Exact& exact();
     FirstHits& first_hits();
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
+    void make_room(std::uint64_t bytes);
     void for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t row, const Progress& progress,
                        const std::function<bool(const Tile&)>& work);
     kernel::Frame frame_of(const PreparedFrame& prepared, const Tile& tile) const;

@@ -41,7 +41,7 @@ TEST_CASE("--stats holds the promised keys in their order") {
         "device",         "precision", "method",    "quartic",  "tolerance",    "contraction",     "size",     "rays",         "hits",          "segments",
         "partitions",     "used",      "allocated", "overlaps", "device_bytes", "segment_bytes", "partition_bytes",
         "tiles",          "ms",        "load",      "compile",  "build",        "count_hits",    "scan",
-        "store_segments", "weave",     "evaluate",  "shade",    "frame",        "write"};
+        "store_segments", "weave",     "evaluate",  "shade", "cull_blocks", "first_hits",    "frame",        "write"};
     const Result once = run({scene, "all.g", "--reference", "--size", "40x30", "--stats", "-"});
     REQUIRE(once.status == 0);
     CHECK(once.err.empty());
