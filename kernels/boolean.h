@@ -93,6 +93,7 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
     return values & 1u;
 }
 
+#ifdef CSGRT_LARGE_TERMS
 // The next few covered leaves of a large term, ascending: a window that moves on as they are used up.
 #define WINDOW 8
 typedef struct {
@@ -157,7 +158,7 @@ FN u32 find_leaf(window* w, cover c, u32 from, u32 end) {
 // No recursion: a stack entry is an operator whose left operand is being looked at; `negate` turns the value around that
 // the current subtree hands up. How the compiler keeps the stack short stands in shared/layout.h.
 FN u32 walk_term(cover c, u32 node, u32 end) {
-    u32 stack[CSGRT_TREE_STACK], ends[CSGRT_TREE_STACK];
+    u32 stack[TREE_STACK], ends[TREE_STACK];
     u32 depth = 0, negate = 0, value, term_end = end;
     window w;
     fill_window(&w, c, node, end);
@@ -211,12 +212,16 @@ FN u32 walk_term(cover c, u32 node, u32 end) {
     }
 }
 
+#endif
+
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     u32 size = start.end_word - start.first_word;
     if (size == 1) return 1;
     if (!within(start.needed, list->filter)) return 0;
-    if (size <= SCANNED_WORDS) return scan_term(c, list, start.first_word, start.end_word);
-    return walk_term(c, start.first_word, start.end_word);
+#ifdef CSGRT_LARGE_TERMS
+    if (size > SCANNED_WORDS) return walk_term(c, start.first_word, start.end_word);
+#endif
+    return scan_term(c, list, start.first_word, start.end_word);
 }
 
 FN SolidFilter all_solids(void) {

@@ -78,9 +78,11 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
-// The number of the tile's ray `id`; picked ones are listed in place of rays.
+// The number of the tile's ray `id`. Of a picture the numbers are listed in place of rays: one by one, or by blocks.
 FN u32 number_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 id) {
-    return f->picked ? ((GLOBAL const u32*)rays)[id] : f->first_ray + id;
+    GLOBAL const u32* numbers = (GLOBAL const u32*)rays;
+    if (f->listed) return id;
+    return f->picked ? numbers[id] : numbers[id / (BLOCK * BLOCK)] * (BLOCK * BLOCK) + id % (BLOCK * BLOCK);
 }
 
 // The ray of a number: from the list of rays if there is one, else through a pixel. Returns 0 if there is no such ray.

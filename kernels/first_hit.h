@@ -145,11 +145,11 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
 #define IS_PATIENT(steps) 1
 #endif
 
-#define RAY_MISSES 0
-#define RAY_HITS 1
-#define RAY_OVERFLOWS 2
+#define RAY_MISSES 0u
+#define RAY_HITS 1u
+#define RAY_OVERFLOWS 2u
 
-FN int first_hit(GLOBAL const Frame* f, scene_tables s, ray3 r, front* w) {
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, ray3 r, front* w) {
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     u32 left[WALK_STACK];       // boxes left over,

@@ -84,11 +84,11 @@ FN Pixel hit_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mate
     return p;
 }
 
-// Stores what is seen of a pixel in the channels' planes.
-FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, pixel_position at, Pixel p) {
-    const size_t size = (size_t)f->columns * f->rows;
+// Stores what is seen of the tile's ray `id`, channel by channel.
+FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, u32 id, Pixel p) {
+    const size_t size = f->ray_count;
     u32 i;
-    picture += (size_t)f->columns * (at.y - f->first_row) + (at.x - f->first_column);
+    picture += id;
     if (f->channels & CHANNEL_COLOR)
         for (i = 0; i < 4; ++i, picture += size) *picture = p.rgba[i];
     if (f->channels & CHANNEL_DISTANCE) {

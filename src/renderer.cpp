@@ -7,6 +7,7 @@
 
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
+#include "kernel_geometry.hpp"
 #include "pipeline/pipeline.hpp"
 #include "reference/reference.hpp"
 
@@ -199,17 +200,18 @@ void Renderer::render(const View& view, Image& image) {
     image.height = view.height;
     image.names.clear();
     image.channels.resize(wanted.size());
-    std::vector<float*> planes;
+    const kernel::Pixel background = kernel::background_pixel(&prepared.frame);
+    std::vector<ChannelPlane> planes;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         image.names.emplace_back(wanted[i]->name);
         image.channels[i].resize(std::size_t{prepared.frame.width} * prepared.frame.height);
-        planes.push_back(image.channels[i].data());
+        planes.push_back({image.channels[i].data(), wanted[i]->value(background)});
     }
     if (impl.reference) {
         ReferenceCounts counts;
         const std::vector<kernel::Pixel> pixels = impl.reference->render(prepared, impl.settings.progress, counts);
         for (std::size_t c = 0; c < wanted.size(); ++c)
-            for (std::size_t i = 0; i < pixels.size(); ++i) planes[c][i] = wanted[c]->value(pixels[i]);
+            for (std::size_t i = 0; i < pixels.size(); ++i) planes[c].pixels[i] = wanted[c]->value(pixels[i]);
         impl.take(counts);
     } else {
         PipelineCounts counts;

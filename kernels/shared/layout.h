@@ -73,8 +73,8 @@ typedef u32 PlaneRef;
 #define TREE_SHIFT 29
 #define TREE_MASK 0x1fffffffu
 
-// The walk pushes only on the way into a left child, and the compiler puts the child that needs the deeper stack second,
-// so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
+// The walk of a large term pushes only on the way into a left child, and the compiler puts the child that needs the deeper
+// stack second, so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
 #define TREE_STACK 30
 
 #define REGION_UNION_ONLY 1u  // the tree holds unions only: any of its segments claims
@@ -159,9 +159,8 @@ typedef struct {
     u32 first_ray, ray_count;  // this tile
     u32 solid_count, unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: evaluation stops at the first claimed partition
-    u32 picked;            // 1: the tile's rays are those whose numbers are listed
+    u32 picked;            // 1: the tile's rays are those whose numbers are listed; 0: the blocks of them are
     u32 channels;          // of the picture: CHANNEL_x bits
-    u32 first_row, rows, first_column, columns;  // of the pixels that the tile's rays lie in
 } Frame;
 
 // Rays are numbered in blocks of 8 x 8 pixels, so that the work-items of a group look at neighbours.
@@ -219,7 +218,7 @@ typedef struct {
     u32 depth, partitions, overlap;
 } Pixel;
 
-// The picture: a plane of columns x rows floats for each channel, in this order.
+// The picture: for each channel, in this order, a float of each of the tile's rays.
 #define CHANNEL_COLOR 1u     // R G B A
 #define CHANNEL_DISTANCE 2u  // Z
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z

@@ -72,10 +72,7 @@ void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Compiled
     compiled.bounds = empty_box;
     for (FlatRegion& region : flat.regions) {
         const LinearTree tree = linearize(region.tree, compiled.trees);
-        if (!tree.union_only) {
-            compiled.operators |= tree.operators;
-            compiled.tree_stack = std::max(compiled.tree_stack, tree.stack);
-        }
+        if (!tree.union_only) compiled.operators |= tree.operators;
 
         const Finish& f = region.info.finish;
         const Vec3& color = region.info.color;
@@ -203,6 +200,7 @@ void list_leaves(CompiledScene& compiled) {
                [&](const auto& call) {
                    for (const Term& term : terms) {
                        if (term.end - term.first <= SCANNED_WORDS) continue;
+                       compiled.has_large_terms = true;
                        for (std::uint32_t node = term.first; node < term.end; ++node)
                            if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF) call(solid_at(node), node);
                    }

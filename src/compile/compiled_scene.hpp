@@ -51,7 +51,7 @@ struct CompiledScene {
     std::uint32_t solid_types = 0;  ///< bit SOLID_x: the scene has such solids
     std::uint32_t operators = 0;    ///< bit OP_x: trees that need a walk have such operators
     std::uint32_t instances = 0;    ///< leaves over all trees
-    std::uint32_t tree_stack = 0;   ///< the deepest stack that any walk needs, <= TREE_STACK
+    bool has_large_terms = false;   ///< of more than SCANNED_WORDS words
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4, tolerance = 0;
     std::uint64_t hash = 0;          ///< FNV-1a over everything that crosses the bus: the same scene, the same number

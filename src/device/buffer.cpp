@@ -73,6 +73,19 @@ void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
     transfer_out(target, bytes, offset, true);
 }
 
+Buffer::Mapping Buffer::map(std::size_t bytes) const {
+    check_range(bytes, 0);
+    if (bytes == 0) return {device_->queue(), nullptr, nullptr};
+    cl_int code = CL_SUCCESS;
+    void* data = clEnqueueMapBuffer(device_->queue(), get(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr, nullptr, &code);
+    check(code, "clEnqueueMapBuffer (" + name_ + ")");
+    return {device_->queue(), get(), data};
+}
+
+Buffer::Mapping::~Mapping() {
+    if (data_) clEnqueueUnmapMemObject(queue_, memory_, data_, 0, nullptr, nullptr);
+}
+
 Event Buffer::queue_upload(const void* source, std::size_t bytes, std::size_t offset) {
     return transfer_in(source, bytes, offset, false);
 }

@@ -55,6 +55,10 @@ public:
         return values;
     }
 
+    /// The first `bytes`, where the host can read them: in place if the device is the host's own processor.
+    class Mapping;
+    Mapping map(std::size_t bytes) const;
+
     /// The same without the wait: the host's memory must stay as it is until the event, or the queue, is done.
     Event queue_upload(const void* source, std::size_t bytes, std::size_t offset = 0);
     Event queue_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
@@ -70,6 +74,21 @@ private:
     std::string name_;
     std::size_t size_ = 0;
     Handle<cl_mem, clReleaseMemObject> memory_;
+};
+
+class Buffer::Mapping {
+public:
+    Mapping(cl_command_queue queue, cl_mem memory, void* data) : queue_(queue), memory_(memory), data_(data) {}
+    Mapping(const Mapping&) = delete;
+    Mapping& operator=(const Mapping&) = delete;
+    ~Mapping();
+
+    const void* data() const noexcept { return data_; }
+
+private:
+    cl_command_queue queue_;
+    cl_mem memory_;
+    void* data_;
 };
 
 /// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through a copy of the

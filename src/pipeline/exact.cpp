@@ -6,7 +6,7 @@
 
 namespace csgrt {
 namespace kernel {
-#define CSGRT_TREE_STACK TREE_STACK
+#define CSGRT_LARGE_TERMS
 #include "../../kernels/boolean.h"
 }  // namespace kernel
 

@@ -1,4 +1,4 @@
-// The first hits of a tile, in two kernels: cull blocks -> first hits. Nothing is stored but the picture.
+// The first hits of a tile, in one kernel. Nothing is stored but the picture.
 #pragma once
 
 #include "pipeline/stages.hpp"
@@ -13,15 +13,15 @@ public:
     /// their pixels are not drawn.
     std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, PipelineCounts& counts);
 
-    static constexpr std::uint64_t ray_bytes = 5;  ///< that it needs itself, at most
-    std::uint64_t held() const { return blocks_.size() + overflown_.size(); }
+    static constexpr std::uint64_t ray_bytes = 4;  ///< that it needs itself, at most
+    std::uint64_t held() const { return overflown_.size(); }
     void release();  ///< gives all its memory back
 
 private:
     Device& device_;
     Program program_;
-    Kernel cull_blocks_, first_hits_;
-    Buffer blocks_, overflows_, overflown_;
+    Kernel first_hits_;
+    Buffer overflows_, overflown_;
 };
 
 }  // namespace csgrt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include "kernel_geometry.hpp"
 
@@ -9,7 +10,6 @@ namespace csgrt {
 namespace {
 
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
-constexpr std::uint32_t block_rays = BLOCK * BLOCK;
 
 template <class Make>
 double timed(const Make& make) {
@@ -29,10 +29,6 @@ std::uint64_t pixel_bytes(const kernel::Frame& frame) {
     add(CHANNEL_IDS, 2);
     add(CHANNEL_COUNTS, 3);
     return floats * sizeof(float);
-}
-
-std::uint64_t row_of_blocks(const kernel::Frame& frame) {
-    return (std::uint64_t{frame.width} + BLOCK - 1) / BLOCK * block_rays;
 }
 
 }  // namespace
@@ -65,18 +61,19 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
 
 // For what a tile's rays need, whatever they hit: what the last call left may be in the way.
 void Pipeline::make_room(std::uint64_t bytes) {
-    if (bytes <= device_.available() + tile_.picture.size()) return;
+    if (bytes <= device_.available() + tile_.picture.size() + tile_.rays.size()) return;
+    tile_.rays = Buffer(device_, tile_.rays.name());
     if (exact_) exact_->release();
     if (first_hits_) first_hits_->release();
 }
 
-// `row`: tiles are whole numbers of these, or parts of one.
-void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t row, const Progress& progress,
+// `unit`: tiles are whole numbers of these, or parts of one.
+void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t unit, const Progress& progress,
                              const std::function<bool(const Tile&)>& work) {
     std::uint64_t first = 0;
     while (first < rays) {
-        size = size >= row ? size / row * row : size;
-        const std::uint64_t most = first % row == 0 && size >= row ? size : std::min(size, row - first % row);
+        size = size >= unit ? size / unit * unit : size;
+        const std::uint64_t most = first % unit == 0 && size >= unit ? size : std::min(size, unit - first % unit);
         const Tile tile{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(most, rays - first))};
         if (!work(tile)) {
             if (tile.rays == 1)
@@ -92,26 +89,6 @@ void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64
     }
 }
 
-kernel::Frame Pipeline::frame_of(const PreparedFrame& prepared, const Tile& tile) const {
-    kernel::Frame frame = prepared.frame;
-    frame.first_ray = tile.first;
-    frame.ray_count = tile.rays;
-    if (frame.listed) {
-        frame.first_ray = 0;  // the device holds this tile's part of the list only
-        return frame;
-    }
-    const auto row = static_cast<std::uint32_t>(row_of_blocks(frame));
-    frame.first_row = tile.first / row * BLOCK;
-    frame.rows = std::min((tile.first + tile.rays - 1) / row * BLOCK + BLOCK, frame.height) - frame.first_row;
-    frame.columns = frame.width;
-    if (tile.rays < row) {  // part of a row
-        frame.first_column = tile.first % row / block_rays * BLOCK;
-        frame.columns = std::min<std::uint32_t>(((tile.first + tile.rays - 1) % row / block_rays + 1) * BLOCK, frame.width) -
-                        frame.first_column;
-    }
-    return frame;
-}
-
 void Pipeline::upload(const kernel::Frame& frame) {
     const std::vector<std::byte> bytes = kernels_.frame(frame);
     tile_.frame.reserve(bytes.size());
@@ -124,57 +101,94 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
     if (!lights.empty()) tile_.lights.upload(lights);
 }
 
-void Pipeline::read_picture(const kernel::Frame& frame, const std::vector<float*>& planes) {
-    const std::size_t width = frame.width, size = std::size_t{frame.columns} * frame.rows;
-    if (frame.columns == frame.width && frame.ray_count % row_of_blocks(frame) == 0) {
-        for (std::size_t i = 0; i < planes.size(); ++i)
-            tile_.picture.read(planes[i] + frame.first_row * width, size * sizeof(float), i * size * sizeof(float));
-        return;
-    }
-    const auto values = tile_.picture.read<float>(planes.size() * size);
-    for (std::uint32_t ray = frame.first_ray; ray < frame.first_ray + frame.ray_count; ++ray) {
-        const kernel::pixel_position at = kernel::pixel_of(ray, frame.width, frame.height);
-        if (!at.inside) continue;
-        const std::size_t from = std::size_t{at.y - frame.first_row} * frame.columns + (at.x - frame.first_column);
-        for (std::size_t i = 0; i < planes.size(); ++i) planes[i][at.y * width + at.x] = values[i * size + from];
-    }
+// The numbers of the tile's blocks that may see anything.
+std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
+    frame.first_ray = tile.first;
+    frame.ray_count = tile.rays;
+    upload(frame);
+    return cull_->run(buffers_, tile_, frame, counts);
 }
 
-// Into the picture of the tile that they are of.
-void Pipeline::draw_picked(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, PipelineCounts& counts) {
-    for_each_tile(numbers.size(), fitting(Exact::ray_bytes + sizeof(std::uint32_t)), 1, nullptr, [&](const Tile& tile) {
-        make_room(tile.rays * (sizeof(std::uint32_t) + Exact::ray_bytes));
-        tile_.rays.reserve(tile.rays * sizeof(std::uint32_t));
-        tile_.rays.upload(numbers.data() + tile.first, tile.rays * sizeof(std::uint32_t));
-        frame.picked = 1;
-        frame.ray_count = tile.rays;
-        upload(frame);
-        return exact().run(buffers_, tile_, tile.rays, true, counts);
+// Makes the frame's tile one of these rays, or blocks of them.
+bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each) {
+    frame.first_ray = 0;
+    frame.ray_count = static_cast<std::uint32_t>(numbers.size()) * rays_each;
+    frame.picked = rays_each == 1;
+    if (numbers.empty()) return false;
+    const std::uint64_t picture = frame.ray_count * pixel_bytes(frame), list = numbers.size() * sizeof(std::uint32_t);
+    make_room(picture + list + frame.ray_count * (frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes));
+    tile_.picture.reserve(picture);
+    tile_.rays.reserve(list);
+    tile_.rays.upload(numbers);
+    upload(frame);
+    return true;
+}
+
+// In place on the host's own processor, else through memory that the device copies to at full speed.
+void Pipeline::read_picture(std::size_t bytes, const std::function<void(const float*)>& work) {
+    if (device_.info().type == "cpu") {
+        work(static_cast<const float*>(tile_.picture.map(bytes).data()));
+        return;
+    }
+    if (!pinned_ || pinned_->size() < bytes) {
+        pinned_.reset();
+        pinned_.emplace(device_, "picture", bytes);
+    }
+    tile_.picture.read(pinned_->data(), bytes);
+    work(static_cast<const float*>(pinned_->data()));
+}
+
+// Rays of a picture the exact way, one by one.
+void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const std::vector<ChannelPlane>& planes,
+                            PipelineCounts& counts) {
+    const std::uint64_t bytes = pixel_bytes(frame) + sizeof(std::uint32_t) + Exact::ray_bytes;
+    const bool counted = frame.every_partition;
+    frame.every_partition = 1;
+    for_each_tile(numbers.size(), fitting(bytes), 1, nullptr, [&](const Tile& tile) {
+        const auto begin = numbers.begin() + tile.first;
+        const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
+        list_rays(frame, picked, 1);
+        if (!exact().run(buffers_, tile_, frame.ray_count, true, counts)) return false;
+        read_picture(frame.ray_count * pixel_bytes(frame), [&](const float* values) { put_rays(frame, picked, values, planes); });
+        if (counted) exact().add_results(tile.rays, counts);
+        return true;
     });
 }
 
-void Pipeline::render(const PreparedFrame& prepared, const std::vector<float*>& planes, const Progress& progress,
+// false: the tile does not fit the memory.
+bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts) {
+    const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
+    const std::vector<std::uint32_t> seen = seen_blocks(frame, tile, counts);
+    if (!list_rays(frame, seen, block_rays)) {
+        put_blocks(frame, first, end, seen, nullptr, planes);
+        return true;
+    }
+    std::vector<std::uint32_t> overflown;
+    if (frame.every_partition) {
+        if (!exact().run(buffers_, tile_, frame.ray_count, true, counts)) return false;
+        exact().add_results(frame.ray_count, counts);
+    } else {
+        overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
+    }
+    read_picture(frame.ray_count * pixel_bytes(frame),
+                 [&](const float* values) { put_blocks(frame, first, end, seen, values, planes); });
+    draw_exactly(frame, overflown, planes, counts);
+    return true;
+}
+
+void Pipeline::render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress,
                       PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
     upload_lights(prepared);
-    tile_.rays = Buffer(device_, tile_.rays.name());
+    if (!cull_) build_ms_ += timed([&] { cull_.emplace(device_, settings_); });
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
-    const std::uint64_t bytes = pixel_bytes(prepared.frame) + (every ? Exact::ray_bytes : FirstHits::ray_bytes);
-    for_each_tile(prepared.rays, fitting(bytes), row_of_blocks(prepared.frame), progress, [&](const Tile& tile) {
-        const kernel::Frame frame = frame_of(prepared, tile);
-        const std::uint64_t picture = std::uint64_t{frame.columns} * frame.rows * pixel_bytes(frame);
-        make_room(picture + tile.rays * bytes);
-        tile_.picture.reserve(picture);
-        upload(frame);
-        if (every) {
-            if (!exact().run(buffers_, tile_, tile.rays, true, counts)) return false;
-            exact().add_results(tile.rays, counts);
-        } else {
-            const std::vector<std::uint32_t> overflown = first_hits().run(buffers_, tile_, tile.rays, counts);
-            if (!overflown.empty()) draw_picked(frame, overflown, counts);
-        }
-        read_picture(frame, planes);
+    const std::uint64_t bytes = pixel_bytes(prepared.frame) + sizeof(std::uint32_t) + (every ? Exact::ray_bytes : FirstHits::ray_bytes);
+    for_each_tile(prepared.rays, fitting(bytes), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
+        if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);
+        std::vector<std::uint32_t> numbers(tile.rays);
+        std::iota(numbers.begin(), numbers.end(), tile.first);
+        draw_exactly(prepared.frame, numbers, planes, counts);
         return true;
     });
 }
@@ -190,7 +204,9 @@ std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const 
         make_room(tile.rays * (bytes + Exact::ray_bytes));
         tile_.rays.reserve(tile.rays * bytes);
         tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);
-        upload(frame_of(prepared, tile));
+        kernel::Frame frame = prepared.frame;
+        frame.ray_count = tile.rays;
+        upload(frame);
         if (!exact().run(buffers_, tile_, tile.rays, false, counts)) return false;
         const auto claims = exact().claims(tile.rays, counts);
         for (std::uint32_t i = 0; i < tile.rays; ++i)

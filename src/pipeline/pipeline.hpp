@@ -1,14 +1,17 @@
-// CompiledScene + Frame -> a picture or partitions. Rays go through in tiles (ranges of their numbers), each the short way
-// (first_hits.hpp) if only the first hits are wanted, else the exact way (exact.hpp). A tile that does not fit the memory
-// is halved, down to one ray. Nothing a ray computes depends on its tile.
+// CompiledScene + Frame -> a picture or partitions. Rays go through in tiles (ranges of their numbers): of a picture the
+// blocks that see nothing are left out (cull.hpp), the rays of the others go the short way (first_hits.hpp) if only the first
+// hits are wanted, else the exact way (exact.hpp), and their pixels into the image (picture.hpp). A tile that does not fit
+// the memory is halved, down to one ray. Nothing a ray computes depends on its tile.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "pipeline/cull.hpp"
 #include "pipeline/exact.hpp"
 #include "pipeline/first_hits.hpp"
+#include "pipeline/picture.hpp"
 
 namespace csgrt {
 
@@ -19,9 +22,9 @@ public:
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     using Progress = std::function<bool(double)>;
-    /// Fills the planes of the frame's channels, each width x height, by row from the top left.
+    /// Fills the planes of the frame's channels.
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
-    void render(const PreparedFrame& prepared, const std::vector<float*>& planes, const Progress& progress, PipelineCounts& counts);
+    void render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress, PipelineCounts& counts);
     std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, const Progress& progress,
                                      PipelineCounts& counts);
 
@@ -36,13 +39,16 @@ private:
     FirstHits& first_hits();
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
     void make_room(std::uint64_t bytes);
-    void for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t row, const Progress& progress,
+    void for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t unit, const Progress& progress,
                        const std::function<bool(const Tile&)>& work);
-    kernel::Frame frame_of(const PreparedFrame& prepared, const Tile& tile) const;
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
-    void read_picture(const kernel::Frame& frame, const std::vector<float*>& planes);
-    void draw_picked(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, PipelineCounts& counts);
+    std::vector<std::uint32_t> seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
+    bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each);
+    bool draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts);
+    void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const std::vector<ChannelPlane>& planes,
+                      PipelineCounts& counts);
+    void read_picture(std::size_t bytes, const std::function<void(const float*)>& work);
 
     Device& device_;
     const CompiledScene& scene_;
@@ -50,8 +56,10 @@ private:
     Settings settings_;
     SceneBuffers buffers_;
     TileBuffers tile_;
+    std::optional<Cull> cull_;
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
+    std::optional<PinnedMemory> pinned_;  // as large as any picture yet; a GPU's only
     double build_ms_ = 0;
 };
 

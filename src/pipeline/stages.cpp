@@ -1,7 +1,5 @@
 #include "pipeline/stages.hpp"
 
-#include <algorithm>
-
 namespace csgrt {
 
 SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables)
@@ -18,13 +16,18 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const Hos
       materials(device, "materials", scene.materials),
       nodes(device, "bounding volumes", tables.nodes) {}
 
-std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
-    std::vector<std::string> defines = {
-            "CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
-            "CSGRT_TREE_STACK=" + std::to_string(std::max(1u, scene.tree_stack)),
-            "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
+std::vector<std::string> precision_defines(const Settings& settings) {
+    std::vector<std::string> defines;
     if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
     if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
+    return defines;
+}
+
+std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
+    std::vector<std::string> defines = precision_defines(settings);
+    defines.push_back("CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u");
+    defines.push_back("CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic)));
+    if (scene.has_large_terms) defines.push_back("CSGRT_LARGE_TERMS");
     return defines;
 }
 

@@ -13,13 +13,15 @@ namespace csgrt {
 
 inline constexpr std::size_t work_group = 64;  // work-items: one size for all kernels, so that each is compiled once
 
+inline constexpr std::uint32_t block_rays = BLOCK * BLOCK;
+
 /// The compiled scene on the device.
 struct SceneBuffers {
     SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
     Buffer solids, reals, planes, plane_refs, words, inner_nodes, starts, leaves, regions, trees, materials, nodes;
 };
 
-/// One tile on the device: its frame, the rays that are listed or picked for it, and its part of the picture.
+/// One tile on the device: its frame; its rays, or their numbers, or those of their blocks; and what is seen along them.
 struct TileBuffers {
     explicit TileBuffers(Device& device)
         : frame(device, "frame"), lights(device, "lights"), rays(device, "rays"), picture(device, "picture") {}
@@ -35,7 +37,8 @@ struct PipelineCounts {
     double cull_blocks = 0, first_hits = 0;
 };
 
-/// The options that a program for this scene is compiled with.
+/// The options that a program is compiled with: all that its precision asks for, and those for this scene, too.
+std::vector<std::string> precision_defines(const Settings& settings);
 std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings);
 
 }  // namespace csgrt

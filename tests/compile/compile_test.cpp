@@ -37,7 +37,7 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(c.instances == 4);
     CHECK(c.solid_types == (1u << SOLID_ARB | 1u << SOLID_TGC | 1u << SOLID_ELL | 1u << SOLID_HALF));
     CHECK(c.operators == 1u << OP_DIFFERENCE);
-    CHECK(c.tree_stack == 1);
+    CHECK(!c.has_large_terms);
     // Ground, base of the plate and of the hole are one plane; so are the tops.
     CHECK(c.planes.size() == 6);
 

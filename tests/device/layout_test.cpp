@@ -29,7 +29,7 @@ using namespace csgrt;
     FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
-    FIELD(Frame, first_row) FIELD(Frame, rows) FIELD(Frame, first_column) FIELD(Frame, columns) RECORD(RayRecord) \
+    RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
     FIELD(RayRecord, dz) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \

@@ -4,11 +4,14 @@
 
 #include <bit>
 #include <cstddef>
+#include <limits>
+#include <numeric>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "kernel_geometry.hpp"
+#include "pipeline/picture.hpp"
 
 namespace csgrt::kernel {
 
@@ -18,12 +21,13 @@ using std::size_t;
 
 #define __kernel [[maybe_unused]] static inline
 #define __global
-#define CSGRT_TREE_STACK TREE_STACK
+#define CSGRT_LARGE_TERMS
 // NOLINTBEGIN
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wzero-as-null-pointer-constant"
 #include "../../kernels/traverse.h"
+#include "../../kernels/0_cull_blocks.cl"
 #include "../../kernels/1_count_hits.cl"
 #include "../../kernels/2_store_segments.cl"
 #include "../../kernels/3_weave.cl"
@@ -38,7 +42,7 @@ inline u32 atomic_inc(u32* place) { return (*place)++; }
 // NOLINTEND
 #undef __kernel
 #undef __global
-#undef CSGRT_TREE_STACK
+#undef CSGRT_LARGE_TERMS
 
 }  // namespace csgrt::kernel
 
@@ -55,6 +59,29 @@ struct HostRun {
     std::vector<float> picture;  ///< the frame's channels, plane by plane
 };
 
+/// The numbers of all of a picture's rays.
+inline std::vector<std::uint32_t> all_numbers(const kernel::Frame& frame) {
+    std::vector<std::uint32_t> numbers(frame.listed ? 0 : frame.ray_count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
+}
+
+/// The planes of the first channels, background where no ray was.
+inline std::vector<float> picture_of(const kernel::Frame& frame, const std::vector<std::uint32_t>& numbers,
+                                     const std::vector<float>& values, std::size_t channels) {
+    const std::size_t size = std::size_t{frame.width} * frame.height;
+    std::vector<float> picture(channels * size);
+    std::vector<ChannelPlane> planes;
+    for (std::size_t i = 0; i < channels; ++i) {
+        planes.push_back({picture.data() + i * size, 0});
+        if (i < 3) planes.back().background = frame.background[i];
+        if (i == 4) planes.back().background = std::numeric_limits<float>::infinity();
+        std::fill_n(planes.back().pixels, size, planes.back().background);
+    }
+    put_rays(frame, numbers, values.data(), planes);
+    return picture;
+}
+
 /// Runs all kernels; `rays` empty: the frame's camera.
 inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
                            const std::vector<kernel::RayRecord>& rays = {}) {
@@ -62,8 +89,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     Frame frame = prepared.frame;
     frame.first_ray = 0;
     frame.ray_count = static_cast<u32>(prepared.rays);
-    frame.columns = frame.width;
-    frame.rows = frame.height;
+    frame.picked = 1;
+    const std::vector<u32> numbers = all_numbers(frame);
+    const RayRecord* listed = rays.empty() ? reinterpret_cast<const RayRecord*>(numbers.data()) : rays.data();
     const std::size_t count = frame.ray_count;
     HostRun run;
     const auto each = [&](const auto& work) {
@@ -80,15 +108,15 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         return sum;
     };
     std::vector<RayCount> places(count + 1);
-    each([&] { find_candidates(&frame, scene.nodes.data(), rays.data(), places.data()); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), listed, places.data()); });
     std::vector<Candidate> candidates(scan(places).segments);
-    each([&] { list_candidates(&frame, scene.nodes.data(), rays.data(), places.data(), candidates.data()); });
+    each([&] { list_candidates(&frame, scene.nodes.data(), listed, places.data(), candidates.data()); });
     const auto each_of = [&](std::size_t size, const auto& work) {
         for (global_id = 0; global_id < size; ++global_id) work(static_cast<u32>(size));
     };
     each_of(candidates.size(), [&](u32 size) {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data());
+                   scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data());
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
@@ -98,15 +126,15 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
     run.results.resize(count);
-    run.picture.resize(std::size_t{13} * frame.width * frame.height);
+    std::vector<float> values(13 * count);
     each_of(candidates.size(), [&](u32 size) {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data(), run.offsets.data(),
+                       scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), run.offsets.data(),
                        run.ends.data(), run.nodes.data());
     });
     each_of(run.ends.size(), [&](u32 size) { order_ends(run.offsets.data(), run.ends.data(), size, run.nodes.data()); });
     each([&] {
-        kernel::weave(&frame, rays.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
+        kernel::weave(&frame, listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
                       run.results.data());
     });
     each_of(run.nodes.size(), [&](u32 size) {
@@ -117,9 +145,10 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(), rays.data(),
-                  run.picture.data());
+                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(), listed,
+                  values.data());
         });
+        run.picture = picture_of(frame, numbers, values, 13);
     }
     return run;
 }
@@ -130,18 +159,21 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     Frame frame = prepared.frame;
     frame.first_ray = 0;
     frame.ray_count = static_cast<u32>(prepared.rays);
-    frame.columns = frame.width;
-    frame.rows = frame.height;
-    picture.assign(std::size_t{10} * frame.width * frame.height, 0);
+    frame.picked = 1;
+    std::vector<u32> numbers = all_numbers(frame);
     std::vector<unsigned char> blocks(frame.ray_count / (BLOCK * BLOCK));
     std::vector<u32> overflown(frame.ray_count);
     u32 overflows = 0;
     for (global_id = 0; global_id < blocks.size(); ++global_id) cull_blocks(&frame, scene.nodes.data(), blocks.data());
+    std::erase_if(numbers, [&](u32 number) { return !blocks[number / (BLOCK * BLOCK)]; });
+    frame.ray_count = static_cast<u32>(numbers.size());
+    std::vector<float> values(10 * numbers.size());
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
-                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.data(),
-                   &overflows, overflown.data(), picture.data());
+                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(),
+                   reinterpret_cast<const RayRecord*>(numbers.data()), &overflows, overflown.data(), values.data());
+    picture = picture_of(frame, numbers, values, 10);
     return overflows;
 }
 

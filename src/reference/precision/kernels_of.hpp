@@ -135,10 +135,6 @@ k::Frame convert_frame(const kernel::Frame& f) {
     frame.every_partition = f.every_partition;
     frame.picked = f.picked;
     frame.channels = f.channels;
-    frame.first_row = f.first_row;
-    frame.rows = f.rows;
-    frame.first_column = f.first_column;
-    frame.columns = f.columns;
     return frame;
 }
 

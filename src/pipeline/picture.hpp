@@ -1,0 +1,26 @@
+// What the kernels leave of a tile's rays -> the planes of an image.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "kernel_host.hpp"
+
+namespace csgrt {
+
+/// One channel of an image: width x height floats, by row from the top left, and its value where nothing is seen.
+struct ChannelPlane {
+    float* pixels = nullptr;
+    float background = 0;
+};
+
+/// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, ascending; `values`: for
+/// each plane the floats of their rays, block by block. The others get the background.
+void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
+                const float* values, std::span<const ChannelPlane> planes);
+
+/// The same for single rays.
+void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
+              std::span<const ChannelPlane> planes);
+
+}  // namespace csgrt
