@@ -1,43 +1,57 @@
-// Kernel 0: which blocks of a picture can see anything at all. The rays of the others are never made.
-#include "camera.h"
-#include "shared/slab.h"
+// Kernel 0: which blocks of a picture can see anything at all; the rays of the others are never made. And which leaves of
+// the hierarchy each of them meets, from front to back: found once for 64 rays, which are put to little else.
+#include "blocks.h"
 
-// How far the rays of a block are from the ray through its middle, at most, within the scene's sphere.
-static real block_spread(GLOBAL const Frame* f) {
-    wide3 u = make_wide3(f->u[0], f->u[1], f->u[2]), v = make_wide3(f->v[0], f->v[1], f->v[2]);
-    wide3 w = make_wide3(f->w[0], f->w[1], f->w[2]);
-    wide across = (wide)(BLOCK / 2) * (wide_sqrt(wide_dot(u, u)) + wide_sqrt(wide_dot(v, v)));
-    if (f->perspective) {
-        wide3 to = wide_subtract(frame_center(f), make_wide3(f->eye[0], f->eye[1], f->eye[2]));
-        across = across * (wide_sqrt(wide_dot(to, to)) + f->radius) / wide_sqrt(wide_dot(w, w));
+// Keeps the nearest leaves in order, and before what distance none is missing.
+static void list_leaf(__global BlockLeaf* list, u32 count, BlockLeaf leaf) {
+    u32 i = count;
+    if (i == LISTED_LEAVES - 1) {
+        const BlockLeaf last = list[i - 1];
+        if (leaf.entry >= last.entry) {
+            list[i].entry = fmin(list[i].entry, leaf.entry);
+            return;
+        }
+        list[i].entry = fmin(list[i].entry, last.entry);
+        --i;
+    } else {
+        list[i + 1] = list[i];
     }
-    return REAL(across) * REAL(1.001);
+    for (; i > 0; --i) {
+        const BlockLeaf before = list[i - 1];
+        if (before.entry <= leaf.entry) break;
+        list[i] = before;
+    }
+    list[i] = leaf;
 }
 
-// A work-item is a block: 1 if one of its rays may meet a solid.
-__kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* blocks) {
-    u32 id = (u32)get_global_id(0), i = 0, met = frame->unbounded_count > 0;
-    pixel_position at;
+// A work-item is a block: 1 if one of its rays may meet a solid. `leaves`: LISTED_LEAVES a block; 0: they are not wanted.
+__kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* blocks,
+                          __global BlockLeaf* leaves) {
+    u32 id = (u32)get_global_id(0), i = 0, count = 0;
+    BlockLeaf end;
+    beam b;
     if (id >= frame->ray_count / (BLOCK * BLOCK)) return;
-    at = pixel_of(frame->first_ray + id * BLOCK * BLOCK, frame->width, frame->height);
-    at.x += BLOCK / 2;
-    at.y += BLOCK / 2;
-    if (!met) {
-        ray3 r = geometry_ray(frame, camera_ray(frame, at));
-        real spread = block_spread(frame), reach = REAL(frame->radius) + spread;
-        slab_ray s = make_slab_ray(offset_from(frame_center(frame), r.o), r.d, reach, t_min_along(frame, r));
-        float pad = (float)(spread + reach * REAL(0x1p-19));
-        while (s.hits_sphere && !met && i < frame->node_count) {
-            BvhNode node = nodes[i];
-            u32 k, hit;
-            for (k = 0; k < 3; ++k) {
-                node.low[k] = node.low[k] - pad;
-                node.high[k] = node.high[k] + pad;
+    end.node = NONE;
+    end.entry = BOX_MISSED;
+    if (leaves) {
+        leaves += (size_t)id * LISTED_LEAVES;
+        leaves[0] = end;
+    }
+    b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + id);
+    while (b.slabs.hits_sphere && i < frame->node_count) {
+        const BvhNode node = nodes[i];
+        const float at = beam_entry(b, node);
+        i = at < BOX_MISSED ? i + 1 : node.skip;
+        if (at < BOX_MISSED && node.leaf) {
+            if (leaves) {
+                BlockLeaf leaf;
+                leaf.node = i - 1;
+                leaf.entry = entry_from_center(b, at);
+                list_leaf(leaves, count, leaf);
             }
-            hit = box_is_hit(s, node);
-            met = hit && node.leaf;
-            i = hit ? i + 1 : node.skip;
+            if (count < LISTED_LEAVES - 1) ++count;
+            if (!leaves) break;
         }
     }
-    blocks[id] = (unsigned char)met;
+    blocks[id] = count > 0 || frame->unbounded_count > 0;
 }

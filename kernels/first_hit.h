@@ -1,24 +1,22 @@
 // The first claimed partition of a ray, without the others: front to back, in the ray's own memory.
 //
-// The hierarchy is walked nearest box first. What is still unseen lies behind the nearest box that is left over, so every
-// event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim ends
-// the walk. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
+// The leaves that the ray's block may meet come nearest first (blocks.h). What is still unseen lies behind the next of them,
+// so every event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim
+// ends it all. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
 //
-//   boxes      |--seen--|   |--seen--|      |--unseen--|
+//   leaves     |--seen--|   |--seen--|      |--unseen--|
 //   ends        i     o  i    i   o         :       o  o
 //   events      1     2  3    4   5         : these may be joined by others yet
 #ifndef CSGRT_FIRST_HIT_H
 #define CSGRT_FIRST_HIT_H
 
+#include "blocks.h"
 #include "boolean.h"
-#include "camera.h"
 #include "geometry/collect.h"
-#include "shared/slab.h"
 
 #ifndef PENDING
 #define PENDING 32u     // segments that a ray holds at a time; their cover is one word
 #endif
-#define WALK_STACK 64u  // boxes left over at a time
 
 // The segments that have begun or will begin, and their ends not yet passed, in order of distance.
 typedef struct {
@@ -94,7 +92,7 @@ FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
 }
 
 // Passes all events that nothing can join that comes at `horizon` or later. 1: the first partition to be seen is known.
-FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, real horizon) {
+FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizon) {
     u32 done = 0, i, found = 0;
     while (done < w->count && !found) {
         const real t = w->ends[w->order[done]].t;
@@ -102,7 +100,7 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
         u32 end = done, in_end = NONE, out_end = NONE;
         SolidFilter changed;
         changed.even = changed.odd = 0;
-        if (!all && !(horizon - t > tolerance)) break;
+        if (!(horizon - t > tolerance)) break;
         do {
             w->open ^= 1u << (w->order[end] >> 1);
             changed = with(changed, filter_of(w->ends[w->order[end]].solid));
@@ -149,48 +147,29 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, int all, re
 #define RAY_HITS 1u
 #define RAY_OVERFLOWS 2u
 
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, ray3 r, front* w) {
+// `leaves`: those of the ray's block.
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* leaves, ray3 r, front* w) {
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
-    slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
-    u32 left[WALK_STACK];       // boxes left over,
-    float nearest[WALK_STACK];  // and where the nearest of this and those before it is entered
-    u32 depth = 0, at = 0, i;
+    const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
+    u32 i;
     w->count = w->used = w->open = w->from_within = w->steps = 0;
     w->region = NONE;
     for (i = 0; i < f->unbounded_count; ++i)
         if (!take_solid(w, s.g, i, r, t_min)) return RAY_OVERFLOWS;
-    if (slabs.hits_sphere && f->node_count > 0 && box_is_hit(slabs, s.nodes[0])) {
-        for (;;) {
-            BvhNode node = s.nodes[at];
-            if (!node.leaf) {
-                const u32 right = s.nodes[at + 1].skip;
-                const float first = box_entry(slabs, s.nodes[at + 1]), second = box_entry(slabs, s.nodes[right]);
-                const float behind = fmax(first, second);
-                if (behind < BOX_MISSED) {
-                    if (depth == WALK_STACK) return RAY_OVERFLOWS;
-                    left[depth] = first <= second ? right : at + 1;
-                    nearest[depth] = depth > 0 ? fmin(nearest[depth - 1], behind) : behind;
-                    ++depth;
-                }
-                if (first < BOX_MISSED || second < BOX_MISSED) {
-                    at = first <= second ? at + 1 : right;
-                    continue;
-                }
-            } else {
-                u32 solid = node.leaf >> BVH_LEAF_SHIFT;
-                const u32 end = solid + (node.leaf & BVH_LEAF_MASK);
-                for (; solid < end; ++solid)
-                    if (!take_solid(w, s.g, solid, r, t_min)) return RAY_OVERFLOWS;
-                if (depth > 0 && w->count > 0 &&
-                    advance(w, s, tolerance, t_min, 0, distance_before(slabs, nearest[depth - 1])))
-                    return RAY_HITS;
-                if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
-            }
-            if (depth == 0) break;
-            at = left[--depth];
+    for (;; ++leaves) {
+        const BlockLeaf leaf = *leaves;
+        if (w->count > 0 && advance(w, s, tolerance, t_min, horizon_along(f, r, leaf.entry))) return RAY_HITS;
+        if (leaf.node == NONE) return leaf.entry < BOX_MISSED ? RAY_OVERFLOWS : RAY_MISSES;
+        if (slabs.hits_sphere) {
+            const BvhNode node = s.nodes[leaf.node];
+            u32 solid = node.leaf >> BVH_LEAF_SHIFT;
+            const u32 end = solid + (node.leaf & BVH_LEAF_MASK);
+            if (!box_is_hit(slabs, node)) continue;
+            for (; solid < end; ++solid)
+                if (!take_solid(w, s.g, solid, r, t_min)) return RAY_OVERFLOWS;
+            if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
         }
     }
-    return advance(w, s, tolerance, t_min, 1, REAL(0)) ? RAY_HITS : RAY_MISSES;
 }
 
 #endif

@@ -170,6 +170,15 @@ typedef struct {
     wide ox, oy, oz, dx, dy, dz;
 } RayRecord;
 
+// 0 cull blocks -> first hits: the leaves of the hierarchy that a block's rays may meet, nearest first, then an entry without
+// a leaf.
+typedef struct {
+    u32 node;     // NONE: no more are listed
+    float entry;  // no ray of the block comes there before this distance, less that of the scene's center;
+                  // without a leaf: there is nothing from here on that was not listed; BOX_MISSED: nothing at all
+} BlockLeaf;
+#define LISTED_LEAVES 64u  // entries of a block
+
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
 // 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.

@@ -3,15 +3,23 @@
 namespace csgrt {
 
 Cull::Cull(Device& device, const Settings& settings)
-    : program_(device, assemble_program({"0_cull_blocks.cl"}), precision_defines(settings), settings.precision != Precision::double_),
+    : device_(device),
+      program_(device, assemble_program({"0_cull_blocks.cl"}), precision_defines(settings), settings.precision != Precision::double_),
       cull_blocks_(program_.kernel("cull_blocks")),
-      seen_(device, "blocks") {}
+      seen_(device, "blocks"),
+      leaves_(device, "blocks' leaves") {}
+
+void Cull::release() {
+    for (Buffer* buffer : {&seen_, &leaves_}) *buffer = Buffer(device_, buffer->name());
+}
 
 std::vector<std::uint32_t> Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame,
                                      PipelineCounts& counts) {
     const std::uint32_t count = frame.ray_count / block_rays, first = frame.first_ray / block_rays;
     seen_.reserve(count);
-    const Event cull = cull_blocks_.launch(count, work_group, tile.frame, scene.nodes, seen_);
+    if (frame.every_partition) leaves_ = Buffer(device_, leaves_.name());
+    else leaves_.reserve(std::size_t{count} * LISTED_LEAVES * sizeof(kernel::BlockLeaf));
+    const Event cull = cull_blocks_.launch(count, work_group, tile.frame, scene.nodes, seen_, leaves_);
     const auto seen = seen_.read<unsigned char>(count);
     counts.cull_blocks += milliseconds(cull);
     std::vector<std::uint32_t> numbers;

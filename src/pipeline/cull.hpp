@@ -1,4 +1,4 @@
-// Which blocks of a tile can see anything: kernel 0.
+// Which blocks of a tile can see anything, and what: kernel 0.
 #pragma once
 
 #include "pipeline/stages.hpp"
@@ -10,13 +10,21 @@ public:
     Cull(Device& device, const Settings& settings);
 
     /// The numbers of a picture's blocks, out of those of the frame's tile, that may see a solid; ascending. Waits.
+    /// If only first hits are wanted, lists every block's leaves, too.
     std::vector<std::uint32_t> run(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame,
                                    PipelineCounts& counts);
 
+    const Buffer& leaves() const { return leaves_; }
+    static constexpr std::uint64_t list_bytes = LISTED_LEAVES * sizeof(kernel::BlockLeaf) / block_rays;  ///< a ray
+    std::uint64_t held() const { return seen_.size() + leaves_.size(); }
+    void release();  ///< gives all its memory back
+
 private:
+    Device& device_;
     Program program_;
     Kernel cull_blocks_;
     Buffer seen_;  // a byte a block
+    Buffer leaves_;
 };
 
 }  // namespace csgrt

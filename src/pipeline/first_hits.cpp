@@ -26,14 +26,14 @@ void FirstHits::release() {
     overflown_ = Buffer(device_, overflown_.name());
 }
 
-std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays,
-                                          PipelineCounts& counts) {
+std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers& tile, const Buffer& block_leaves,
+                                          std::uint32_t rays, PipelineCounts& counts) {
     const SceneBuffers& s = scene;
     overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
     overflows_.queue_fill(0, sizeof(cl_uint));
     const Event draw = first_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                           s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
-                                          tile.lights, tile.rays, overflows_, overflown_, tile.picture);
+                                          tile.lights, block_leaves, tile.rays, overflows_, overflown_, tile.picture);
     const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();
     counts.first_hits += milliseconds(draw);
     return overflown_.read<std::uint32_t>(overflows);

@@ -11,7 +11,8 @@ public:
 
     /// Draws the tile's rays; waits. Returns the numbers of those that hold more segments at a time than the kernel does:
     /// their pixels are not drawn.
-    std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, PipelineCounts& counts);
+    std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, const Buffer& block_leaves, std::uint32_t rays,
+                                   PipelineCounts& counts);
 
     static constexpr std::uint64_t ray_bytes = 4;  ///< that it needs itself, at most
     std::uint64_t held() const { return overflown_.size(); }

@@ -54,7 +54,7 @@ FirstHits& Pipeline::first_hits() {
 // Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
 std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     const std::uint64_t held = tile_.picture.size() + tile_.rays.size() + (exact_ ? exact_->held() : 0) +
-                               (first_hits_ ? first_hits_->held() : 0);
+                               (first_hits_ ? first_hits_->held() : 0) + (cull_ ? cull_->held() : 0);
     const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
@@ -103,7 +103,6 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
 
 // The numbers of the tile's blocks that may see anything.
 std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
-    frame.first_ray = tile.first;
     frame.ray_count = tile.rays;
     upload(frame);
     return cull_->run(buffers_, tile_, frame, counts);
@@ -111,7 +110,6 @@ std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile
 
 // Makes the frame's tile one of these rays, or blocks of them.
 bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each) {
-    frame.first_ray = 0;
     frame.ray_count = static_cast<std::uint32_t>(numbers.size()) * rays_each;
     frame.picked = rays_each == 1;
     if (numbers.empty()) return false;
@@ -158,6 +156,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
 // false: the tile does not fit the memory.
 bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
+    frame.first_ray = tile.first;
     const std::vector<std::uint32_t> seen = seen_blocks(frame, tile, counts);
     if (!list_rays(frame, seen, block_rays)) {
         put_blocks(frame, first, end, seen, nullptr, planes);
@@ -168,7 +167,7 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<Cha
         if (!exact().run(buffers_, tile_, frame.ray_count, true, counts)) return false;
         exact().add_results(frame.ray_count, counts);
     } else {
-        overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
+        overflown = first_hits().run(buffers_, tile_, cull_->leaves(), frame.ray_count, counts);
     }
     read_picture(frame.ray_count * pixel_bytes(frame),
                  [&](const float* values) { put_blocks(frame, first, end, seen, values, planes); });
@@ -182,7 +181,7 @@ void Pipeline::render(const PreparedFrame& prepared, const std::vector<ChannelPl
     upload_lights(prepared);
     if (!cull_) build_ms_ += timed([&] { cull_.emplace(device_, settings_); });
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
-    const std::uint64_t bytes = pixel_bytes(prepared.frame) + sizeof(std::uint32_t) + (every ? Exact::ray_bytes : FirstHits::ray_bytes);
+    const std::uint64_t bytes = pixel_bytes(prepared.frame) + sizeof(std::uint32_t) + (every ? Exact::ray_bytes : FirstHits::ray_bytes + Cull::list_bytes);
     for_each_tile(prepared.rays, fitting(bytes), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
         if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);

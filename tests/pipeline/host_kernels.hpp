@@ -164,14 +164,16 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     std::vector<unsigned char> blocks(frame.ray_count / (BLOCK * BLOCK));
     std::vector<u32> overflown(frame.ray_count);
     u32 overflows = 0;
-    for (global_id = 0; global_id < blocks.size(); ++global_id) cull_blocks(&frame, scene.nodes.data(), blocks.data());
+    std::vector<BlockLeaf> leaves(blocks.size() * LISTED_LEAVES);
+    for (global_id = 0; global_id < blocks.size(); ++global_id)
+        cull_blocks(&frame, scene.nodes.data(), blocks.data(), leaves.data());
     std::erase_if(numbers, [&](u32 number) { return !blocks[number / (BLOCK * BLOCK)]; });
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
-                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(),
+                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), leaves.data(),
                    reinterpret_cast<const RayRecord*>(numbers.data()), &overflows, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return overflows;

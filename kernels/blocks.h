@@ -1,0 +1,67 @@
+// A block's rays as one: the ray through its middle, so thick that it holds them all within the scene's sphere.
+//
+// A point of one of them and the point of the middle ray that is as far from the eye (parallel rays: from the picture
+// plane) are apart by the beam's `spread` at most. So where the middle ray enters a box that is larger by that much,
+// no ray of the block has entered the box itself yet.
+#ifndef CSGRT_BLOCKS_H
+#define CSGRT_BLOCKS_H
+
+#include "camera.h"
+#include "shared/slab.h"
+
+typedef struct {
+    slab_ray slabs;
+    float pad;     // by which boxes grow
+    wide start;    // of the middle ray's own parameter, from the eye
+    wide to_center;
+} beam;
+
+// How far the scene's center is: from the eye, or from the picture plane.
+FN wide distance_of_center(GLOBAL const Frame* f) {
+    wide3 to = wide_subtract(frame_center(f), make_wide3(f->eye[0], f->eye[1], f->eye[2]));
+    return f->perspective ? wide_sqrt(wide_dot(to, to)) : wide_dot(to, make_wide3(f->w[0], f->w[1], f->w[2]));
+}
+
+FN beam make_beam(GLOBAL const Frame* f, u32 block) {
+    wide3 u = make_wide3(f->u[0], f->u[1], f->u[2]), v = make_wide3(f->v[0], f->v[1], f->v[2]);
+    wide3 w = make_wide3(f->w[0], f->w[1], f->w[2]);
+    wide across = (wide)(BLOCK / 2) * (wide_sqrt(wide_dot(u, u)) + wide_sqrt(wide_dot(v, v)));
+    pixel_position at = pixel_of(block * BLOCK * BLOCK, f->width, f->height);
+    real spread, reach;
+    ray3 r;
+    beam b;
+    at.x += BLOCK / 2;
+    at.y += BLOCK / 2;
+    r = geometry_ray(f, camera_ray(f, at));
+    b.to_center = distance_of_center(f);
+    if (f->perspective) across = across * (b.to_center + f->radius) / wide_sqrt(wide_dot(w, w));
+    spread = REAL(across) * REAL(1.001);
+    reach = REAL(f->radius) + spread;
+    b.slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, reach, t_min_along(f, r));
+    b.pad = (float)(spread + reach * REAL(0x1p-19));
+    b.start = (wide)distance_along(r, 0);
+    return b;
+}
+
+// As box_entry, before any of the beam's rays.
+FN float beam_entry(beam b, BvhNode node) {
+    u32 k;
+    for (k = 0; k < 3; ++k) {
+        node.low[k] = node.low[k] - b.pad;
+        node.high[k] = node.high[k] + b.pad;
+    }
+    return box_entry(b.slabs, node);
+}
+
+// A box that is entered before t_min may hold a segment that begins even earlier.
+FN float entry_from_center(beam b, float at) {
+    if (at <= b.slabs.t_min) return -BOX_MISSED;
+    return (float)(b.start + (wide)distance_before(b.slabs, at) - b.to_center) - b.pad;
+}
+
+// The same for one of its rays, in the ray's own parameter.
+FN real horizon_along(GLOBAL const Frame* f, ray3 r, float entry) {
+    return entry < BOX_MISSED ? REAL((wide)entry + distance_of_center(f) - (wide)distance_along(r, 0)) : REAL_INFINITY;
+}
+
+#endif
