@@ -59,9 +59,7 @@ FN float entry_from_center(beam b, float at) {
     return (float)(b.start + (wide)distance_before(b.slabs, at) - b.to_center) - b.pad;
 }
 
-// The same for one of its rays, in the ray's own parameter.
-FN real horizon_along(GLOBAL const Frame* f, ray3 r, float entry) {
-    return entry < BOX_MISSED ? REAL((wide)entry + distance_of_center(f) - (wide)distance_along(r, 0)) : REAL_INFINITY;
-}
+// What is added to it for the parameter of one of the beam's rays.
+FN wide offset_along(GLOBAL const Frame* f, ray3 r) { return distance_of_center(f) - (wide)distance_along(r, 0); }
 
 #endif

@@ -147,10 +147,16 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizo
 #define RAY_HITS 1u
 #define RAY_OVERFLOWS 2u
 
+FN float due_at(const front* w, real tolerance, wide offset) {
+    return w->count > 0 ? (float)((wide)(w->ends[w->order[0]].t + tolerance) - offset) : BOX_MISSED;
+}
+
 // `leaves`: those of the ray's block.
 FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* leaves, ray3 r, front* w) {
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
+    const wide offset = offset_along(f, r);
+    float due = BOX_MISSED;  // about where the first event is complete
     u32 i;
     w->count = w->used = w->open = w->from_within = w->steps = 0;
     w->region = NONE;
@@ -158,8 +164,12 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* 
         if (!take_solid(w, s.g, i, r, t_min)) return RAY_OVERFLOWS;
     for (;; ++leaves) {
         const BlockLeaf leaf = *leaves;
-        if (w->count > 0 && advance(w, s, tolerance, t_min, horizon_along(f, r, leaf.entry))) return RAY_HITS;
-        if (leaf.node == NONE) return leaf.entry < BOX_MISSED ? RAY_OVERFLOWS : RAY_MISSES;
+        if (leaf.entry > due || leaf.node == NONE) {
+            const real horizon = leaf.entry < BOX_MISSED ? REAL((wide)leaf.entry + offset) : REAL_INFINITY;
+            if (advance(w, s, tolerance, t_min, horizon)) return RAY_HITS;
+            if (leaf.node == NONE) return leaf.entry < BOX_MISSED ? RAY_OVERFLOWS : RAY_MISSES;
+            due = due_at(w, tolerance, offset);
+        }
         if (slabs.hits_sphere) {
             const BvhNode node = s.nodes[leaf.node];
             u32 solid = node.leaf >> BVH_LEAF_SHIFT;
@@ -168,6 +178,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* 
             for (; solid < end; ++solid)
                 if (!take_solid(w, s.g, solid, r, t_min)) return RAY_OVERFLOWS;
             if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
+            due = due_at(w, tolerance, offset);
         }
     }
 }

@@ -22,7 +22,7 @@ constexpr std::size_t bins = 16;
 constexpr std::size_t few = 8;  // boxes that are cut anywhere
 constexpr std::size_t most_in_leaf = 4;
 constexpr std::size_t task_size = 16'384;             // boxes that are done in one piece
-constexpr double cost_of_box = 1, cost_of_solid = 3;  // a solid takes about three times as long as a box
+constexpr double cost_of_box = 1, cost_of_solid = 12;  // a solid takes some twelve times as long as a box
 constexpr std::uint32_t none = 0xffffffff;
 
 /// Four, so that a compiler makes one instruction of them. The last one of `low` and `high` is the box's number, in two
