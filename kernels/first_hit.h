@@ -157,13 +157,17 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* 
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
     float due = BOX_MISSED;  // about where the first event is complete
-    u32 i;
+    u32 solid = 0, end = f->unbounded_count;
     w->count = w->used = w->open = w->from_within = w->steps = 0;
     w->region = NONE;
-    for (i = 0; i < f->unbounded_count; ++i)
-        if (!take_solid(w, s.g, i, r, t_min)) return RAY_OVERFLOWS;
     for (;; ++leaves) {
         const BlockLeaf leaf = *leaves;
+        if (solid < end) {
+            for (; solid < end; ++solid)
+                if (!take_solid(w, s.g, solid, r, t_min)) return RAY_OVERFLOWS;
+            if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
+            due = due_at(w, tolerance, offset);
+        }
         if (leaf.entry > due || leaf.node == NONE) {
             const real horizon = leaf.entry < BOX_MISSED ? REAL((wide)leaf.entry + offset) : REAL_INFINITY;
             if (advance(w, s, tolerance, t_min, horizon)) return RAY_HITS;
@@ -172,13 +176,9 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* 
         }
         if (slabs.hits_sphere) {
             const BvhNode node = s.nodes[leaf.node];
-            u32 solid = node.leaf >> BVH_LEAF_SHIFT;
-            const u32 end = solid + (node.leaf & BVH_LEAF_MASK);
             if (!box_is_hit(slabs, node)) continue;
-            for (; solid < end; ++solid)
-                if (!take_solid(w, s.g, solid, r, t_min)) return RAY_OVERFLOWS;
-            if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
-            due = due_at(w, tolerance, offset);
+            solid = node.leaf >> BVH_LEAF_SHIFT;
+            end = solid + (node.leaf & BVH_LEAF_MASK);
         }
     }
 }

@@ -37,7 +37,7 @@ FN wide3 affine_center(GLOBAL const real* p, ray3 r) {
 }
 #endif
 
-FN local_ray to_local(GLOBAL const real* p, ray3 r) {
+INLINE_FN local_ray to_local(GLOBAL const real* p, ray3 r) {
     local_ray l;
     offset3 from = offset_from(affine_center(p, r), r.o);
     vec3 o = affine_linear(p, leading(from));

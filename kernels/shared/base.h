@@ -33,6 +33,8 @@ typedef uint u32;
 #define ENDS __global
 #endif
 #define FN static
+// What is so often called with so much that a call takes longer than its work.
+#define INLINE_FN static inline __attribute__((always_inline))
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
 FN real real_fma(real a, real b, real c) { return fma(a, b, c); }
@@ -46,6 +48,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #define GLOBAL
 #define ENDS
 #define FN [[maybe_unused]] static inline
+#define INLINE_FN FN
 FN real real_sqrt(real x) { return host::root(x); }
 FN real real_fma(real a, real b, real c) { return host::fma(a, b, c); }
 FN real real_abs(real x) { return x < 0 ? -x : x; }

@@ -177,7 +177,7 @@ typedef struct {
     float entry;  // no ray of the block comes there before this distance, less that of the scene's center;
                   // without a leaf: there is nothing from here on that was not listed; BOX_MISSED: nothing at all
 } BlockLeaf;
-#define LISTED_LEAVES 64u  // entries of a block
+#define LISTED_LEAVES 128u  // entries of a block
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
