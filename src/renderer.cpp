@@ -8,7 +8,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "kernel_geometry.hpp"
-#include "pipeline/pipeline.hpp"
+#include "pipeline/pipelines.hpp"
 #include "reference/reference.hpp"
 
 namespace csgrt {
@@ -95,8 +95,7 @@ struct Renderer::Impl {
     CompiledScene scene;
     std::string title;
     std::unique_ptr<ReferenceKernels> kernels;
-    std::unique_ptr<Device> device;
-    std::unique_ptr<Pipeline> pipeline;
+    std::unique_ptr<Pipelines> pipelines;
     std::optional<Reference> reference;
     Statistics statistics;
     double build_ms = 0;  // of the device, without its kernels
@@ -125,7 +124,7 @@ struct Renderer::Impl {
         statistics.segment_bytes = c.segment_bytes;
         statistics.partition_bytes = c.partition_bytes;
         statistics.tiles = c.tiles;
-        statistics.device_bytes = device->allocated();
+        statistics.device_bytes = pipelines->device_bytes();
         statistics.ms.count_hits = c.count_hits;
         statistics.ms.scan = c.scan;
         statistics.ms.store_segments = c.store_segments;
@@ -134,7 +133,7 @@ struct Renderer::Impl {
         statistics.ms.shade = c.shade;
         statistics.ms.cull_blocks = c.cull_blocks;
         statistics.ms.first_hits = c.first_hits;
-        statistics.ms.build = build_ms + pipeline->build_ms();
+        statistics.ms.build = build_ms + pipelines->build_ms();
     }
     void take(const ReferenceCounts& c) {
         statistics.hits = c.hits;
@@ -170,11 +169,10 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
         return;
     }
     start = Clock::now();
-    impl.device = std::make_unique<Device>(settings.device, settings.max_memory);
-    impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene, *impl.kernels, settings);
+    impl.pipelines = std::make_unique<Pipelines>(impl.scene, *impl.kernels, settings);
     impl.build_ms = milliseconds_since(start);
     impl.statistics.ms.build = impl.build_ms;
-    impl.statistics.device = impl.device->info().name;
+    impl.statistics.device = impl.pipelines->name();
     impl.statistics.method = "five kernels, exact counts";
 }
 
@@ -215,7 +213,7 @@ void Renderer::render(const View& view, Image& image) {
         impl.take(counts);
     } else {
         PipelineCounts counts;
-        impl.pipeline->render(prepared, planes, impl.settings.progress, counts);
+        impl.pipelines->render(prepared, planes, impl.settings.progress, counts);
         impl.take(counts);
     }
     image.attributes.clear();
@@ -256,7 +254,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
         impl.take(counts);
     } else {
         PipelineCounts counts;
-        answers = impl.pipeline->shoot(prepared, rays, impl.settings.progress, counts);
+        answers = impl.pipelines->shoot(prepared, rays, impl.settings.progress, counts);
         impl.take(counts);
     }
     impl.statistics.ms.frame = milliseconds_since(start);

@@ -25,7 +25,9 @@ CSGRT_API std::vector<DeviceInfo> devices();
 
 struct Settings {
     bool reference = false;       ///< the CPU reference in place of a device
-    std::string device;           ///< "", "cpu", "gpu", a number, or part of a name
+    /// "" (a GPU if there is one), "cpu", "gpu", a number, or part of a name; several share the work of a call:
+    /// "gpus", all there are, or such choices with commas between them, "0,1".
+    std::string device;
     std::uint64_t max_memory = 0; ///< bytes of device memory; 0: what the device can give
     Precision precision = Precision::double_;
     Quartic quartic = Quartic::bracketed;
@@ -90,8 +92,8 @@ struct SolidInfo {
     std::uint32_t piece = 0;  ///< a pipe is several solids: 0 is the first
 };
 
-/// Figures of the last call. Times in milliseconds; those of the kernels are the device's own. Segments and partitions are
-/// not counted where only first hits were wanted, but for rays that needed the exact way.
+/// Figures of the last call. Times in milliseconds; those of the kernels are the device's own, of several devices their sum.
+/// Segments and partitions are not counted where only first hits were wanted, but for rays that needed the exact way.
 struct Statistics {
     std::string device, precision, method;
     std::string quartic;   ///< as in quartic_names
@@ -111,7 +113,7 @@ struct Statistics {
     } ms;
 };
 
-/// A compiled scene on one device. Not copyable; one thread at a time.
+/// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time.
 class CSGRT_API Renderer {
 public:
     /// Validates, compiles and uploads `objects` of `scene` (empty: its top objects).

@@ -31,8 +31,9 @@ void define_scene(Options& options, SceneArguments& arguments) {
 /// Returns the option of the reference's threads.
 Option& define_settings(Options& options, Settings& settings) {
     auto& device =
-        options.text("--device", "NAME|cpu|gpu|N",
-                     "OpenCL device: part of its name, its type, or its number in 'csgrt devices'", settings.device);
+        options.text("--device", "NAME|cpu|gpu|N|gpus",
+                     "OpenCL device: part of its name, its type, or its number in 'csgrt devices'; several, with commas, or all "
+                     "'gpus' share the work", settings.device);
     device.excludes = "--reference";
     options.flag("--reference", "compute with the CPU reference in place of an OpenCL device", settings.reference);
     auto& threads =

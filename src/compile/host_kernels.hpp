@@ -24,7 +24,7 @@ public:
     virtual std::vector<std::byte> lights(const std::vector<kernel::LightRecord>& lights) const = 0;
     /// Throws Error (usage) for a ray whose numbers do not fit the precision.
     virtual void check(const std::vector<Ray>& rays) const = 0;
-    virtual std::vector<std::byte> rays(const std::vector<Ray>& rays) const = 0;
+    virtual std::vector<std::byte> rays(std::span<const Ray> rays) const = 0;
     virtual std::size_t ray_bytes() const = 0;
     virtual std::size_t end_bytes() const = 0;
     virtual std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const = 0;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <mutex>
+#include <sstream>
 
 #include "device/cache_folder.hpp"
 #include "device/opencl.hpp"
@@ -138,6 +139,23 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     const std::string which = choice.empty() ? "" : by_type ? " of the type " + wanted : " has \"" + choice + "\" in its name";
     refuse(devices, without_fp64 ? "no OpenCL device" + which + (choice.empty() || by_type ? " has" : " and") + " double precision"
                                  : "no OpenCL device" + which + (by_type ? " was found" : ""));
+}
+
+std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, const std::string& choice) {
+    std::vector<std::size_t> chosen;
+    if (lower(choice) == "gpus") {
+        for (std::size_t i = 0; i < devices.size(); ++i)
+            if (devices[i].type == "gpu" && devices[i].fp64) chosen.push_back(i);
+        if (chosen.empty()) refuse(devices, "no OpenCL device of the type gpu was found that has double precision");
+        return chosen;
+    }
+    std::istringstream parts(choice);
+    for (std::string part; std::getline(parts, part, ',') || chosen.empty();) {
+        chosen.push_back(choose_device(devices, part));
+        if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1)
+            refuse(devices, "\"" + choice + "\" means OpenCL device " + std::to_string(chosen.back()) + " twice");
+    }
+    return chosen;
 }
 
 std::vector<DeviceInfo> devices() {

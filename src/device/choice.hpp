@@ -22,4 +22,8 @@ std::vector<FoundDevice> find_devices();
 /// The index of the device that `choice` means (see Device). Throws Error (no_device) that lists what there is.
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice);
 
+/// The same where `choice` may mean several: "gpus", all with double precision, or choices with commas between them.
+/// None is there twice: that is an error, too.
+std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, const std::string& choice);
+
 }  // namespace csgrt

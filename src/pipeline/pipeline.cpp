@@ -68,13 +68,13 @@ void Pipeline::make_room(std::uint64_t bytes) {
 }
 
 // `unit`: tiles are whole numbers of these, or parts of one.
-void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t unit, const Progress& progress,
+void Pipeline::for_each_tile(RayRange range, std::uint64_t size, std::uint64_t unit, const Progress& progress,
                              const std::function<bool(const Tile&)>& work) {
-    std::uint64_t first = 0;
-    while (first < rays) {
+    std::uint64_t first = range.first;
+    while (first < range.end) {
         size = size >= unit ? size / unit * unit : size;
         const std::uint64_t most = first % unit == 0 && size >= unit ? size : std::min(size, unit - first % unit);
-        const Tile tile{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(most, rays - first))};
+        const Tile tile{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(most, range.end - first))};
         if (!work(tile)) {
             if (tile.rays == 1)
                 throw Error(Status::out_of_memory,
@@ -84,7 +84,7 @@ void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64
             continue;
         }
         first += tile.rays;
-        if (progress && !progress(static_cast<double>(first) / static_cast<double>(rays)))
+        if (progress && !progress(static_cast<double>(first - range.first) / static_cast<double>(range.end - range.first)))
             throw Error(Status::interrupted, "interrupted");
     }
 }
@@ -142,7 +142,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
     const std::uint64_t bytes = pixel_bytes(frame) + sizeof(std::uint32_t) + Exact::ray_bytes;
     const bool counted = frame.every_partition;
     frame.every_partition = 1;
-    for_each_tile(numbers.size(), fitting(bytes), 1, nullptr, [&](const Tile& tile) {
+    for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
         const auto begin = numbers.begin() + tile.first;
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1);
@@ -175,14 +175,14 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<Cha
     return true;
 }
 
-void Pipeline::render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress,
-                      PipelineCounts& counts) {
+void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::vector<ChannelPlane>& planes,
+                      const Progress& progress, PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
     upload_lights(prepared);
     if (!cull_) build_ms_ += timed([&] { cull_.emplace(device_, settings_); });
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
     const std::uint64_t bytes = pixel_bytes(prepared.frame) + sizeof(std::uint32_t) + (every ? Exact::ray_bytes : FirstHits::ray_bytes + Cull::list_bytes);
-    for_each_tile(prepared.rays, fitting(bytes), block_rays, progress, [&](const Tile& tile) {
+    for_each_tile(range, fitting(bytes), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
         if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);
         std::vector<std::uint32_t> numbers(tile.rays);
@@ -192,14 +192,13 @@ void Pipeline::render(const PreparedFrame& prepared, const std::vector<ChannelPl
     });
 }
 
-std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                           const Progress& progress, PipelineCounts& counts) {
+void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
+                     PipelineCounts& counts) {
     const std::vector<std::byte> list = kernels_.rays(rays);
     const std::size_t bytes = kernels_.ray_bytes();
-    std::vector<RayPartitions> answers(rays.size());
     tile_.picture = Buffer(device_, tile_.picture.name());
     exact();
-    for_each_tile(rays.size(), fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
+    for_each_tile({0, rays.size()}, fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
         make_room(tile.rays * (bytes + Exact::ray_bytes));
         tile_.rays.reserve(tile.rays * bytes);
         tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);
@@ -213,7 +212,6 @@ std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const 
         ++counts.tiles;
         return true;
     });
-    return answers;
 }
 
 }  // namespace csgrt

@@ -15,18 +15,26 @@
 
 namespace csgrt {
 
+/// Of a picture's rays, or of a list's.
+struct RayRange {
+    std::uint64_t first = 0, end = 0;
+};
+
+using Progress = std::function<bool(double)>;
+
 class Pipeline {
 public:
     /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same precision.
     /// All three must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    using Progress = std::function<bool(double)>;
-    /// Fills the planes of the frame's channels.
+    /// Fills the planes of the frame's channels, so far as the range goes; it begins with a block.
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
-    void render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress, PipelineCounts& counts);
-    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, const Progress& progress,
-                                     PipelineCounts& counts);
+    void render(const PreparedFrame& prepared, RayRange range, const std::vector<ChannelPlane>& planes, const Progress& progress,
+                PipelineCounts& counts);
+    /// An answer for each ray.
+    void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
+               PipelineCounts& counts);
 
     double build_ms() const { return build_ms_; }  ///< spent on compiling kernels so far
 
@@ -39,7 +47,7 @@ private:
     FirstHits& first_hits();
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
     void make_room(std::uint64_t bytes);
-    void for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t unit, const Progress& progress,
+    void for_each_tile(RayRange range, std::uint64_t size, std::uint64_t unit, const Progress& progress,
                        const std::function<bool(const Tile&)>& work);
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);

@@ -16,6 +16,26 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const Hos
       materials(device, "materials", scene.materials),
       nodes(device, "bounding volumes", tables.nodes) {}
 
+PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
+    hits += other.hits;
+    segments += other.segments;
+    partitions_used += other.partitions_used;
+    partitions_allocated += other.partitions_allocated;
+    overlaps += other.overlaps;
+    segment_bytes += other.segment_bytes;
+    partition_bytes += other.partition_bytes;
+    tiles += other.tiles;
+    count_hits += other.count_hits;
+    scan += other.scan;
+    store_segments += other.store_segments;
+    weave += other.weave;
+    evaluate += other.evaluate;
+    shade += other.shade;
+    cull_blocks += other.cull_blocks;
+    first_hits += other.first_hits;
+    return *this;
+}
+
 std::vector<std::string> precision_defines(const Settings& settings) {
     std::vector<std::string> defines;
     if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");

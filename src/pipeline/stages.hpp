@@ -35,6 +35,8 @@ struct PipelineCounts {
     std::uint32_t tiles = 0;
     double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
     double cull_blocks = 0, first_hits = 0;
+
+    PipelineCounts& operator+=(const PipelineCounts& other);
 };
 
 /// The options that a program is compiled with: all that its precision asks for, and those for this scene, too.

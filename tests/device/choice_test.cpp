@@ -87,3 +87,24 @@ TEST_CASE("without a driver there are no devices, and that is no failure", "[.no
     CHECK(devices().empty());
     CHECK(refusal(devices(), "").find("pocl-opencl-icd") != std::string::npos);
 }
+
+TEST_CASE("several devices are chosen by several choices, or as all GPUs", "[device]") {
+    using Numbers = std::vector<std::size_t>;
+    CHECK(choose_devices(several, "") == Numbers{2});
+    CHECK(choose_devices(several, "other") == Numbers{3});
+    CHECK(choose_devices(several, "3,0") == Numbers{3, 0});
+    CHECK(choose_devices(several, "cpu,gpu,other") == Numbers{0, 2, 3});
+    CHECK(choose_devices(several, "gpus") == Numbers{2, 3});
+    const auto refusal_of = [](const std::vector<DeviceInfo>& devices, const std::string& choice) -> std::string {
+        try {
+            choose_devices(devices, choice);
+            return "none";
+        } catch (const Error& error) {
+            CHECK(error.status() == Status::no_device);
+            return error.what();
+        }
+    };
+    CHECK(refusal_of(several, "gpu,2").starts_with("\"gpu,2\" means OpenCL device 2 twice\n"));
+    CHECK(refusal_of(several, "0,7").starts_with("no OpenCL device has the number 7\n"));
+    CHECK(refusal_of({several[0], several[1]}, "gpus").starts_with("no OpenCL device of the type gpu was found that has"));
+}

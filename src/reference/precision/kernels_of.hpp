@@ -168,7 +168,7 @@ public:
         const auto& records = lights_of(lights);
         return bytes_of(records.data(), records.size());
     }
-    std::vector<std::byte> rays(const std::vector<Ray>& rays) const override {
+    std::vector<std::byte> rays(std::span<const Ray> rays) const override {
         std::vector<k::RayRecord> records;
         records.reserve(rays.size());
         for (const Ray& ray : rays) {

@@ -1,0 +1,37 @@
+// One or several devices: each has the scene and a pipeline of its own, and takes the next part of a frame, or of a list of
+// rays, when it is done with the last. Nothing a ray computes depends on its device.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/pipeline.hpp"
+
+namespace csgrt {
+
+class Pipelines {
+public:
+    /// `settings.device` says which. The scene and the kernels must outlive this.
+    Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+
+    /// As Pipeline's. Progress is told by one thread at a time.
+    void render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress,
+                PipelineCounts& counts);
+    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, const Progress& progress,
+                                     PipelineCounts& counts);
+
+    std::string name() const;             ///< "A", or "A + B"
+    std::uint64_t device_bytes() const;   ///< in buffers, of all devices
+    double build_ms() const;              ///< of the device that took longest to compile its kernels
+
+private:
+    using Work = std::function<void(Pipeline&, RayRange, const Progress&, PipelineCounts&)>;
+    void share(std::uint64_t rays, const Progress& progress, PipelineCounts& counts, const Work& work);
+
+    std::vector<std::unique_ptr<Device>> devices_;
+    std::vector<std::unique_ptr<Pipeline>> pipelines_;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,62 @@
+// Several devices share a frame, or a list of rays: the same bits as from one. In a process of its own, which PoCL shows
+// the processor twice (POCL_DEVICES).
+#include "catch.hpp"
+
+#include <atomic>
+
+#include <csgrt/csgrt.hpp>
+
+#include "pipeline/same_answers.hpp"
+#include "pipeline/scenes.hpp"
+
+using namespace csgrt;
+
+TEST_CASE("two devices give what one gives", "[.two_devices]") {
+    REQUIRE(devices().size() == 2);
+    const std::string folder = test::folder("CSGRT_SCENES");
+    REQUIRE(!folder.empty());
+    for (const char* file : {"/operators.json", "/onion.json", "/overlap.json"}) {
+        INFO(file);
+        const Scene scene = load_scene(folder + file);
+        Settings settings;
+        settings.device = "0";
+        Renderer one(scene, {}, settings);
+        settings.device = "0,1";
+        Renderer two(scene, {}, settings);
+        CHECK(two.statistics().device == one.statistics().device + " + " + one.statistics().device);
+        for (const bool every : {false, true}) {
+            View view;
+            view.width = 203;  // blocks at the edges, and parts that begin within a row
+            view.height = 157;
+            view.every_partition = every;
+            test::require_same(one.render(view), two.render(view));
+            CHECK(one.statistics().segments == two.statistics().segments);
+            CHECK(one.statistics().partitions_used == two.statistics().partitions_used);
+            CHECK(two.statistics().tiles > 2);
+        }
+        const std::vector<Ray> rays = test::random_rays(one.bounds(), 3000);
+        test::require_same(one.shoot(rays), two.shoot(rays));
+        CHECK(one.statistics().hits == two.statistics().hits);
+    }
+}
+
+TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    std::atomic<bool> go_on{false};
+    std::atomic<int> told{0};
+    double last = 0;
+    Settings settings;
+    settings.device = "0,1";
+    settings.progress = [&](double fraction) {
+        ++told;
+        last = std::max(last, fraction);
+        return go_on || told < 3;
+    };
+    Renderer renderer(load_scene(folder + "/operators.json"), {}, settings);
+    View view;
+    view.width = view.height = 128;
+    CHECK_THROWS_AS(renderer.render(view), Error);
+    go_on = true;
+    renderer.render(view);
+    CHECK(last == 1);
+}
