@@ -19,6 +19,8 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+constexpr const char* exact_method = "five kernels, exact counts";
+
 struct ChannelSource {
     const char* name;
     std::uint32_t group;
@@ -173,7 +175,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.build_ms = milliseconds_since(start);
     impl.statistics.ms.build = impl.build_ms;
     impl.statistics.device = impl.pipelines->name();
-    impl.statistics.method = "five kernels, exact counts";
+    impl.statistics.method = exact_method;
 }
 
 Renderer::~Renderer() = default;
@@ -191,6 +193,7 @@ void Renderer::render(const View& view, Image& image) {
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
     impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.width, view.height);
+    if (!impl.reference) impl.statistics.method = view.every_partition ? exact_method : "first hits, front to back";
     std::vector<const ChannelSource*> wanted;
     for (const ChannelSource& source : channels)
         if (prepared.frame.channels & source.group) wanted.push_back(&source);
@@ -247,6 +250,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
         prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.statistics.tolerance);
     impl.kernels->check(rays);
     impl.start_call(rays.size(), 0, 0);
+    if (!impl.reference) impl.statistics.method = exact_method;
     std::vector<RayPartitions> answers;
     if (impl.reference) {
         ReferenceCounts counts;

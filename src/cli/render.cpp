@@ -1,4 +1,5 @@
 // csgrt SCENE: one or more frames, written as pictures and figures.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <utility>
@@ -102,6 +103,19 @@ double milliseconds_since(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+/// The pictures hold colours only, and nobody asked for figures: nothing behind the first hits is looked at.
+bool only_colors(const RenderArguments& arguments) {
+#ifdef CSGRT_HAVE_IMAGE
+    return !arguments.outputs.empty() && arguments.stats.empty() &&
+           std::all_of(arguments.outputs.begin(), arguments.outputs.end(), [&](const std::string& path) {
+               return path == "-" ? arguments.format == "png" : extension_of(path) == ".png";
+           });
+#else
+    static_cast<void>(arguments);
+    return false;
+#endif
+}
+
 /// Leaves the last frame in `image`.
 Statistics render_frames(const Scene& scene, const RenderArguments& arguments, const View& view, Image& image) {
     Progress progress;
@@ -129,6 +143,10 @@ Status run(const RenderArguments& arguments) {
     Scene scene = load_with_progress(arguments.scene);
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
+    if (only_colors(arguments)) {
+        view.every_partition = false;
+        view.channels = channel::color;
+    }
     Image image;
     Statistics statistics = render_frames(scene, arguments, view, image);
     statistics.ms.load = load;
