@@ -21,6 +21,9 @@ if(IMAGE AND NOT EXISTS ${WORK}/build/ball.exr)
     message(FATAL_ERROR "csgrt::image was built but the consumer did not find it")
 endif()
 run(${WORK}/prefix/bin/csgrt --version)
+if(IMAGE)
+    run(${WORK}/prefix/bin/csgrt compare ${WORK}/build/ball.exr ${WORK}/build/ball.exr)
+endif()
 
 # No path of the machine that built it may stand in what is installed.
 file(GLOB package ${WORK}/prefix/lib*/cmake/csgrt/*.cmake ${WORK}/prefix/lib*/*/cmake/csgrt/*.cmake)

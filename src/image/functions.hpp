@@ -1,0 +1,19 @@
+// How a program finds the functions of image.hpp that loads csgrt::image only when it wants them.
+#pragma once
+
+#include <string>
+
+#include <csgrt/image.hpp>
+
+namespace csgrt {
+
+struct ImageFunctions {
+    void (*write)(const Image& image, const std::string& path, const std::string& format);
+    Image (*read)(const std::string& path);
+};
+
+inline constexpr const char* image_functions_name = "csgrt_image_functions";
+
+}  // namespace csgrt
+
+extern "C" CSGRT_API const csgrt::ImageFunctions csgrt_image_functions;
