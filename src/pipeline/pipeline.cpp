@@ -104,6 +104,7 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
 // The numbers of the tile's blocks that may see anything.
 std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
     frame.ray_count = tile.rays;
+    make_room(tile.rays * (Cull::list_bytes + 1));
     upload(frame);
     return cull_->run(buffers_, tile_, frame, counts);
 }
