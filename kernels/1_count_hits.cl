@@ -2,28 +2,25 @@
 // to box: which solids may the ray meet. Then a work-item for each such candidate, so that no ray waits for its many solids
 // one after the other.
 //
-//   find candidates -> (scan) -> list candidates -> count hits -> sum hits -> (scan)
+//   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
 #include "camera.h"
 #include "geometry/collect.h"
 #include "traverse.h"
 
+// Once to count them (`candidates` is 0), once to list them from the ray's place on.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const RayRecord* rays,
-                              __global RayCount* counts) {
+                              __global RayCount* places, __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0);
     RayCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
+    if (candidates) {
+        if (places[id].segments == places[id + 1].segments) return;
+        candidates += places[id].segments;
+    }
     count.segments = count.words = 0;
-    if (ray_of(frame, rays, number_of(frame, rays, id), &r)) count.segments = walk(frame, nodes, r, id, 0);
-    counts[id] = count;
-}
-
-__kernel void list_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const RayRecord* rays,
-                              __global const RayCount* places, __global Candidate* candidates) {
-    u32 id = (u32)get_global_id(0);
-    ray3 r;
-    if (id >= frame->ray_count || places[id].segments == places[id + 1].segments) return;
-    if (ray_of(frame, rays, number_of(frame, rays, id), &r)) walk(frame, nodes, r, id, candidates + places[id].segments);
+    if (ray_of(frame, rays, number_of(frame, rays, id), &r)) count.segments = walk(frame, nodes, r, id, candidates);
+    if (!candidates) places[id] = count;
 }
 
 __kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,

@@ -2,10 +2,9 @@
 
 namespace csgrt {
 
-Cull::Cull(Device& device, const Settings& settings)
+Cull::Cull(Device& device, const Program& program)
     : device_(device),
-      program_(device, assemble_program({"0_cull_blocks.cl"}), precision_defines(settings), settings.precision != Precision::double_),
-      cull_blocks_(program_.kernel("cull_blocks")),
+      cull_blocks_(program.kernel("cull_blocks")),
       seen_(device, "blocks"),
       leaves_(device, "blocks' leaves") {}
 

@@ -7,7 +7,8 @@ namespace csgrt {
 
 class Cull {
 public:
-    Cull(Device& device, const Settings& settings);
+    /// `program` holds the kernel.
+    Cull(Device& device, const Program& program);
 
     /// The numbers of a picture's blocks, out of those of the frame's tile, that may see a solid; ascending. Waits.
     /// If only first hits are wanted, lists every block's leaves, too.
@@ -21,7 +22,6 @@ public:
 
 private:
     Device& device_;
-    Program program_;
     Kernel cull_blocks_;
     Buffer seen_;  // a byte a block
     Buffer leaves_;

@@ -19,10 +19,10 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       scene_(scene),
       kernels_(kernels),
       program_(device,
-               assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
+               assemble_program({"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
                defines_of(scene, settings), settings.precision != Precision::double_),
+      cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
-      list_candidates_(program_.kernel("list_candidates")),
       count_hits_(program_.kernel("count_hits")),
       sum_hits_(program_.kernel("sum_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
@@ -41,7 +41,7 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       bits_(device, "partitions' bits") {}
 
 std::uint64_t Exact::held() const {
-    std::uint64_t sum = 0;
+    std::uint64_t sum = cull_.held();
     for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &ends_, &partitions_, &bits_}) sum += buffer->size();
     return sum;
 }
@@ -104,7 +104,8 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     counts_.reserve(entries * sizeof(kernel::RayCount));
     results_.reserve(rays * sizeof(kernel::RayResult));
 
-    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, tile.rays, places_);
+    const Buffer none(device_, "no candidates");
+    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, tile.rays, places_, none);
     const cl_uint candidates = scan(places_, rays, counts).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
     if (candidates == COUNT_MAX || candidate_bytes > device_.max_buffer()) return false;
@@ -113,7 +114,7 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
         if (candidate_bytes > device_.available()) return false;
         candidates_.reserve(candidate_bytes);
     }
-    const Event list = list_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, tile.rays, places_, candidates_);
+    const Event list = find_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, tile.rays, places_, candidates_);
     const Event count = count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                            s.inner_nodes, tile.rays, candidates, candidates_);
     const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "compile/claims.hpp"
-#include "pipeline/stages.hpp"
+#include "pipeline/cull.hpp"
 
 namespace csgrt {
 
@@ -25,6 +25,7 @@ public:
     /// Adds up the last run's partitions and overlaps.
     void add_results(std::uint32_t rays, PipelineCounts& counts) const;
 
+    Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
     std::uint64_t held() const;
     void release();  ///< gives all its memory back: another use of the budget wants it
@@ -43,7 +44,8 @@ private:
     const CompiledScene& scene_;
     const HostKernels& kernels_;
     Program program_;
-    Kernel find_candidates_, list_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
+    Cull cull_;
+    Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
     Buffer places_, counts_, results_;              // one entry a ray
     Buffer candidates_, ends_, partitions_, bits_;  // by what was counted

@@ -16,8 +16,9 @@ std::vector<std::string> defines(const Device& device, const CompiledScene& scen
 
 FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
     : device_(device),
-      program_(device, assemble_program({"first_hits.cl"}), defines(device, scene, settings),
+      program_(device, assemble_program({"0_cull_blocks.cl", "first_hits.cl"}), defines(device, scene, settings),
                settings.precision != Precision::double_),
+      cull_(device, program_),
       first_hits_(program_.kernel("first_hits")),
       overflows_(device, "count of rays without room", sizeof(cl_uint)),
       overflown_(device, "rays without room") {}
@@ -26,14 +27,14 @@ void FirstHits::release() {
     overflown_ = Buffer(device_, overflown_.name());
 }
 
-std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers& tile, const Buffer& block_leaves,
-                                          std::uint32_t rays, PipelineCounts& counts) {
+std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays,
+                                          PipelineCounts& counts) {
     const SceneBuffers& s = scene;
     overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
     overflows_.queue_fill(0, sizeof(cl_uint));
     const Event draw = first_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                           s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
-                                          tile.lights, block_leaves, tile.rays, overflows_, overflown_, tile.picture);
+                                          tile.lights, cull_.leaves(), tile.rays, overflows_, overflown_, tile.picture);
     const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();
     counts.first_hits += milliseconds(draw);
     return overflown_.read<std::uint32_t>(overflows);

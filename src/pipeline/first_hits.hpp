@@ -1,7 +1,7 @@
 // The first hits of a tile, in one kernel. Nothing is stored but the picture.
 #pragma once
 
-#include "pipeline/stages.hpp"
+#include "pipeline/cull.hpp"
 
 namespace csgrt {
 
@@ -9,18 +9,19 @@ class FirstHits {
 public:
     FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the tile's rays; waits. Returns the numbers of those that hold more segments at a time than the kernel does:
+    /// Draws the tile's rays, whose blocks were culled before; waits. Returns the numbers of those that hold more segments at a time than the kernel does:
     /// their pixels are not drawn.
-    std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, const Buffer& block_leaves, std::uint32_t rays,
-                                   PipelineCounts& counts);
+    std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, PipelineCounts& counts);
 
+    Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes = 4;  ///< that it needs itself, at most
-    std::uint64_t held() const { return overflown_.size(); }
+    std::uint64_t held() const { return overflown_.size() + cull_.held(); }
     void release();  ///< gives all its memory back
 
 private:
     Device& device_;
     Program program_;
+    Cull cull_;
     Kernel first_hits_;
     Buffer overflows_, overflown_;
 };

@@ -54,7 +54,7 @@ FirstHits& Pipeline::first_hits() {
 // Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
 std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     const std::uint64_t held = tile_.picture.size() + tile_.rays.size() + (exact_ ? exact_->held() : 0) +
-                               (first_hits_ ? first_hits_->held() : 0) + (cull_ ? cull_->held() : 0);
+                               (first_hits_ ? first_hits_->held() : 0);
     const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
@@ -106,7 +106,8 @@ std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile
     frame.ray_count = tile.rays;
     make_room(tile.rays * (Cull::list_bytes + 1));
     upload(frame);
-    return cull_->run(buffers_, tile_, frame, counts);
+    Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
+    return cull.run(buffers_, tile_, frame, counts);
 }
 
 // Makes the frame's tile one of these rays, or blocks of them.
@@ -168,7 +169,7 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<Cha
         if (!exact().run(buffers_, tile_, frame.ray_count, true, counts)) return false;
         exact().add_results(frame.ray_count, counts);
     } else {
-        overflown = first_hits().run(buffers_, tile_, cull_->leaves(), frame.ray_count, counts);
+        overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
     }
     read_picture(frame.ray_count * pixel_bytes(frame),
                  [&](const float* values) { put_blocks(frame, first, end, seen, values, planes); });
@@ -180,7 +181,6 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
                       const Progress& progress, PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
     upload_lights(prepared);
-    if (!cull_) build_ms_ += timed([&] { cull_.emplace(device_, settings_); });
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
     const std::uint64_t bytes = pixel_bytes(prepared.frame) + sizeof(std::uint32_t) + (every ? Exact::ray_bytes : FirstHits::ray_bytes + Cull::list_bytes);
     for_each_tile(range, fitting(bytes), block_rays, progress, [&](const Tile& tile) {

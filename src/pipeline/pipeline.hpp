@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/cull.hpp"
 #include "pipeline/exact.hpp"
 #include "pipeline/first_hits.hpp"
 #include "pipeline/picture.hpp"
@@ -64,7 +63,6 @@ private:
     Settings settings_;
     SceneBuffers buffers_;
     TileBuffers tile_;
-    std::optional<Cull> cull_;
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
     std::optional<PinnedMemory> pinned_;  // as large as any picture yet; a GPU's only

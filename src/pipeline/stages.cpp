@@ -36,17 +36,11 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     return *this;
 }
 
-std::vector<std::string> precision_defines(const Settings& settings) {
-    std::vector<std::string> defines;
+std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
+    std::vector<std::string> defines = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
+                                        "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
     if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
     if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
-    return defines;
-}
-
-std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
-    std::vector<std::string> defines = precision_defines(settings);
-    defines.push_back("CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u");
-    defines.push_back("CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic)));
     if (scene.has_large_terms) defines.push_back("CSGRT_LARGE_TERMS");
     return defines;
 }

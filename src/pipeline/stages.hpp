@@ -39,8 +39,7 @@ struct PipelineCounts {
     PipelineCounts& operator+=(const PipelineCounts& other);
 };
 
-/// The options that a program is compiled with: all that its precision asks for, and those for this scene, too.
-std::vector<std::string> precision_defines(const Settings& settings);
+/// The options that a program for this scene is compiled with.
 std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings);
 
 }  // namespace csgrt

@@ -108,9 +108,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         return sum;
     };
     std::vector<RayCount> places(count + 1);
-    each([&] { find_candidates(&frame, scene.nodes.data(), listed, places.data()); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
-    each([&] { list_candidates(&frame, scene.nodes.data(), listed, places.data(), candidates.data()); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), listed, places.data(), candidates.data()); });
     const auto each_of = [&](std::size_t size, const auto& work) {
         for (global_id = 0; global_id < size; ++global_id) work(static_cast<u32>(size));
     };
