@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -40,6 +41,12 @@ struct Options {
     Choice choice{"scenes", "../shared/brlcad", {}};
 };
 
+/// Of this thread alone, however many share the cores.
+double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// One item, until its rays or its time are used up.
@@ -65,12 +72,12 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
         subject->prepare(device, planned);
         sums.build = since(start);
         while (sums.rays < planned && (sums.rays == 0 || since(start) < seconds)) {
-            Clock::time_point begun = Clock::now();
+            const Clock::time_point begun = Clock::now();
             const std::vector<Ray> rays = subject->rays(std::min<std::size_t>(batch, planned - sums.rays));
             if (rays.empty()) break;
             std::vector<RayPartitions> found = device.shoot(rays);
             sums.shoot += since(begun);
-            begun = Clock::now();
+            const double judging = processor_seconds();
             const std::vector<Ray> few(rays.begin(),
                                        rays.begin() + std::min<std::ptrdiff_t>(on_reference, std::ssize(rays)));
             const std::vector<RayPartitions> same = reference.shoot(few);
@@ -91,7 +98,7 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
                 ++sums.wrong;
                 tally.add_wrong(item, rays[i], verdict.wrong);
             }
-            sums.judge += since(begun);
+            sums.judge += processor_seconds() - judging;
         }
     } catch (const std::exception& error) {
         tally.add_error(item, error.what());

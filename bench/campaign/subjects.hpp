@@ -35,7 +35,7 @@ public:
     /// The next rays, at most `count`; none: there are no more.
     virtual std::vector<Ray> rays(std::size_t count) = 0;
     /// Of ray `i` of those. Changes the answer.
-    virtual Verdict judge(std::size_t i, RayPartitions& found) const = 0;
+    virtual Verdict judge(std::size_t i, RayPartitions& found) = 0;
 };
 
 /// One piece of work.

@@ -120,8 +120,8 @@ public:
     /// `objects` of the scene, empty: its top objects. Air regions are left out. `skip_unsupported`: solids of unknown
     /// types are empty sets.
     explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {},
-                         bool skip_unsupported = false)
-        : scene_(scene), skip_unsupported_(skip_unsupported) {
+                         bool skip_unsupported = false, bool quick = false)
+        : scene_(scene), skip_unsupported_(skip_unsupported), quick_(quick) {
         for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
             for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
         regions_of_.resize(solids_.size());
@@ -277,7 +277,7 @@ private:
         Expression outer, bores;
         for (PipePart& part : parts) {
             (part.bore ? bores : outer).operands.push_back({Operator::leaf, {}, solids_.size()});
-            solids_.push_back(scene_solid(std::move(part.solid)));
+            solids_.push_back(scene_solid(std::move(part.solid), quick_));
         }
         return bores.operands.empty() ? outer : apply(Operator::difference, outer, bores);
     }
@@ -287,7 +287,7 @@ private:
         if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
         if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
         const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 0.001;
-        solids_.push_back(scene_solid(solid.shape, place, skin));
+        solids_.push_back(scene_solid(solid.shape, place, skin, quick_));
         return {Operator::leaf, {}, solids_.size() - 1};
     }
 
@@ -363,7 +363,7 @@ private:
     }
 
     const Scene& scene_;
-    const bool skip_unsupported_;
+    const bool skip_unsupported_, quick_;
     std::vector<SceneSolid> solids_;
     std::vector<OracleRegion> regions_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid

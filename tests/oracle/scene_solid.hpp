@@ -9,6 +9,7 @@
 #include "extruded.hpp"
 #include "intersect.hpp"
 #include "mesh_answer.hpp"
+#include "quick.hpp"
 #include "reach.hpp"
 #include "revolved.hpp"
 #include "solids/all.hpp"
@@ -79,14 +80,20 @@ inline Answer along(const ExactSolid& solid, const Ray& ray) {
     return answer;
 }
 
-inline SceneSolid scene_solid(ImplicitSolid&& implicit) {
+/// `quick`: let quick.hpp answer where it can.
+inline SceneSolid scene_solid(ImplicitSolid&& implicit, bool quick) {
     const auto solid = std::make_shared<ImplicitSolid>(std::move(implicit));
     const Reach reach = solid->bounded ? reach_of(*solid) : Reach{};
-    return {[solid](const Ray& ray) { return intersect(*solid, ray); }, reach, solid};
+    if (!quick) return {[solid](const Ray& ray) { return intersect(*solid, ray); }, reach, solid};
+    const auto answer = [solid, filter = QuickSolid(solid)](const Ray& ray) {
+        std::optional<Answer> certain = filter(ray);
+        return certain ? std::move(*certain) : intersect(*solid, ray);
+    };
+    return {answer, reach, solid};
 }
 
 /// `skin`: how thick along the ray triangles without thickness are, millimetres.
-inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double skin) {
+inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double skin, bool quick) {
     const auto exact = [](ExactSolid solid) -> SceneSolid {
         const Reach reach = reach_of(solid);
         return {[solid = std::move(solid)](const Ray& ray) { return along(solid, ray); }, reach};
@@ -105,7 +112,7 @@ inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double s
     if (const auto* ebm = std::get_if<Ebm>(&shape)) return exact(celled(*ebm, place));
     if (const auto* extrude = std::get_if<Extrude>(&shape)) return exact(extruded(*extrude, place));
     if (const auto* revolve = std::get_if<Revolve>(&shape)) return exact(revolved(*revolve, place));
-    return scene_solid(implicit(shape, place));
+    return scene_solid(implicit(shape, place), quick);
 }
 
 }  // namespace csgrt::oracle

@@ -14,6 +14,7 @@
 #include "line.hpp"
 #include "polynomial.hpp"
 #include "quad.hpp"
+#include "rough.hpp"
 
 namespace csgrt::oracle {
 
@@ -46,6 +47,12 @@ public:
     virtual Polynomial along(const QVec& origin, const QVec& direction) const = 0;
     /// Instead of `along` where f is no polynomial; else null. It must not outlive the surface.
     virtual std::unique_ptr<Line> line(const QVec&, const QVec&) const { return nullptr; }
+
+    // For quick.hpp: the same function with other numbers.
+    virtual bool is_polynomial() const { return false; }
+    virtual PolynomialOf<Rough> rough_along(const Triple<Rough>&, const Triple<Rough>&) const { return {}; }
+    virtual PolynomialOf<Twofold> fine_along(const Triple<Twofold>&, const Triple<Twofold>&) const { return {}; }
+    virtual Triple<Rough> rough_gradient(const Triple<Rough>&) const { return {}; }
 };
 
 template <class F>
@@ -58,10 +65,26 @@ public:
         return f_(Jet(p.x, {1, 0, 0}), Jet(p.y, {0, 1, 0}), Jet(p.z, {0, 0, 1})).gradient;
     }
     Polynomial along(const QVec& o, const QVec& d) const override {
-        return f_(Polynomial::linear(o.x, d.x), Polynomial::linear(o.y, d.y), Polynomial::linear(o.z, d.z));
+        return along_line<Polynomial>(o, d);
+    }
+    bool is_polynomial() const override { return true; }
+    PolynomialOf<Rough> rough_along(const Triple<Rough>& o, const Triple<Rough>& d) const override {
+        return along_line<PolynomialOf<Rough>>(o, d);
+    }
+    PolynomialOf<Twofold> fine_along(const Triple<Twofold>& o, const Triple<Twofold>& d) const override {
+        return along_line<PolynomialOf<Twofold>>(o, d);
+    }
+    Triple<Rough> rough_gradient(const Triple<Rough>& p) const override {
+        const Rough no(0.0), one(1.0);
+        return f_(RoughJet{p.x, {one, no, no}}, RoughJet{p.y, {no, one, no}}, RoughJet{p.z, {no, no, one}}).gradient;
     }
 
 private:
+    template <class P, class V>
+    P along_line(const V& o, const V& d) const {
+        return f_(P::linear(o.x, d.x), P::linear(o.y, d.y), P::linear(o.z, d.z));
+    }
+
     F f_;
 };
 

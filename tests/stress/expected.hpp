@@ -19,8 +19,9 @@ struct Expected {
 /// Of one scene, which must outlive it.
 class ExpectedAnswers {
 public:
-    explicit ExpectedAnswers(const stress::StressScene& made) : made_(made) {
-        if (made.known.empty()) truth_.emplace(made.scene, made.objects);
+    /// `quick`: as of the scene oracle.
+    explicit ExpectedAnswers(const stress::StressScene& made, bool quick = false) : made_(made) {
+        if (made.known.empty()) truth_.emplace(made.scene, made.objects, quick);
     }
 
     Expected operator()(std::size_t ray) const {

@@ -32,7 +32,9 @@ struct Truth {
 
 class TrueScene {
 public:
-    TrueScene(const Scene& scene, const std::vector<std::string>& objects) : oracle_(scene, objects) {
+    /// `quick`: as of the scene oracle.
+    TrueScene(const Scene& scene, const std::vector<std::string>& objects, bool quick = false)
+        : oracle_(scene, objects, false, quick) {
         for (const oracle::OracleRegion& region : oracle_.regions()) {
             const std::string name = region.path.substr(region.path.rfind('/') + 1);
             const auto at = std::find(objects.begin(), objects.end(), name);
