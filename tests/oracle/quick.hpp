@@ -5,16 +5,17 @@
 // may shift every one. What is not certain by a margin of its own error gives no answer: an end beside an edge or a
 // rim, a root that is nearly double, a surface within the doubt of another, a face that the ray runs in. So a quick
 // answer is never a tie, its intervals are those of the 113-bit path, and its ends are refined to some 100 bits. What
-// is a double in an Answer (tolerances, cosines, normals) is right to some 10^-9 of itself, normals to 4 10^-15.
+// is a double in an Answer is right to some 10^-8 of itself (tolerances, cosines), normals to 4 10^-15.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "intersect.hpp"
+#include "quick_pieces.hpp"
 #include "rough_roots.hpp"
 
 namespace csgrt::oracle {
@@ -23,145 +24,46 @@ class QuickSolid {
 public:
     explicit QuickSolid(std::shared_ptr<const ImplicitSolid> solid) : solid_(std::move(solid)) {
         const ImplicitSolid& s = *solid_;
-        matrix_ = {triple<Twofold>(s.to_local.x), triple<Twofold>(s.to_local.y), triple<Twofold>(s.to_local.z)};
+        if (s.surfaces.size() == 1) hull_ = s.surfaces[0]->pieces();
+        pieces_ = quick_pieces(s, hull_);
+        columns_ = {triple<Rough>(s.to_local.x), triple<Rough>(s.to_local.y), triple<Rough>(s.to_local.z)};
+        fine_columns_ = {triple<Twofold>(s.to_local.x), triple<Twofold>(s.to_local.y), triple<Twofold>(s.to_local.z)};
         origin_ = triple<Twofold>(s.to_local.origin);
         center_ = triple<Twofold>(s.center);
-        columns_ = {triple<Rough>(s.to_local.x), triple<Rough>(s.to_local.y), triple<Rough>(s.to_local.z)};
-        const QAffine rows = componentwise_absolute(s.to_local);
-        largest_ = to_double(larger(larger(rows.x.x + rows.y.x + rows.z.x, rows.x.y + rows.y.y + rows.z.y),
-                                    rows.x.z + rows.y.z + rows.z.z));
-        farthest_ = to_double(larger(larger(rows.origin.x, rows.origin.y), rows.origin.z));
-        usable_ =
-            std::isfinite(largest_) && std::isfinite(farthest_) && s.size > 0 && (s.bounded ? s.radius > 0 : true);
-        for (std::size_t k = 0; k < s.surfaces.size() && usable_; ++k) add(k);
-        if (!s.bounded) usable_ = usable_ && planes_.size() == 1 && curves_.empty();
+        const QAffine most = componentwise_absolute(s.to_local);
+        const QVec rows = most.direction({1, 1, 1});
+        largest_ = to_double(larger(larger(rows.x, rows.y), rows.z));
+        farthest_ = to_double(larger(larger(most.origin.x, most.origin.y), most.origin.z));
     }
+    QuickSolid(const QuickSolid&) = delete;
+    QuickSolid& operator=(const QuickSolid&) = delete;
 
     std::optional<Answer> operator()(const Ray& ray) const {
-        if (!usable_) return {};
         Path path;
-        if (!begin(ray, path)) return {};
-        if (path.passes_by) return nothing(path);
-        Ends ends;
-        if (!between_planes(path, ends)) return {};
-        if (ends.misses) return nothing(path);
-        Intervals found{{ends.in, ends.out}};
-        for (const Curve& curve : curves_) {
-            if (!cut(path, curve, found)) return {};
-            if (found.empty()) return nothing(path);
+        if (pieces_.empty() || !begin(ray, path)) return {};
+        Answer answer;
+        answer.delta = path.delta;
+        if (path.passes_by) return answer;
+        Intervals found, within;
+        for (const QuickPiece& piece : pieces_) {
+            within.clear();
+            if (!between_planes(path, piece, within)) return {};
+            for (const QuickCurve& curve : piece.curves)
+                if (!within.empty() && !cut(path, curve, within)) return {};
+            if (!unite(within, found)) return {};
         }
-        Answer answer = nothing(path);
         for (const auto& [in, out] : found)
             if (!finish(ray, path, in, out, answer)) return {};
         return answer;
     }
 
 private:
-    struct Plane {
-        std::size_t k = 0;
-        Triple<Rough> normal;
-        Rough distance;
-        Triple<Twofold> fine_normal;
-        Twofold fine_distance;
-        double rate = 0;   ///< by how much its function changes, at most, when a point moves by 1 mm
-        double steep = 0;  ///< its gradient's length in the world
-        Vec3 outward;
-        std::size_t same = 0;  ///< the first plane that is the same one
-    };
-    struct Curve {
-        std::size_t k = 0;
-        double noise = 0;     ///< that counts where it changes sign: quartics'
-        double blur = 0;      ///< that counts where it is
-        double steepest = 0;  ///< the longest component of its gradient in the world near the solid, and more
-    };
-    /// The ray in a parameter s: t = closest + s unit, as in intersect.hpp.
-    struct Path {
-        Twofold closest;
-        double unit = 1, speed = 1, delta = 0, reach = 0;
-        Triple<Twofold> fine_origin, fine_direction;
-        Triple<Rough> origin, direction;
-        bool passes_by = false;
-    };
-    struct Bound {
-        Rough at;
-        double width = 0;        ///< rounding may shift it by this
-        int surface = -1;        ///< -1: none, it is infinite or a ball's
-        Triple<Rough> gradient;  ///< of a curved surface, in the world
-        double slope = 0;        ///< of a curved surface's function along s
+    using Path = detail::QuickPath;
+    using Bound = detail::QuickBound;
+    using Intervals = detail::QuickIntervals;
 
-        /// Farther along than `other` by more than they may be off, for certain?
-        bool is_beyond(const Bound& other) const {
-            return at.v - other.at.v > 1.000001 * (at.off + other.at.off + width + other.width);
-        }
-        bool may_be(const Bound& other) const { return !is_beyond(other) && !other.is_beyond(*this); }
-    };
-    using Intervals = std::vector<std::pair<Bound, Bound>>;
-    struct Ends {
-        Bound in, out;
-        bool misses = false;
-    };
+    // ---- Each of these returns false if something is not certain ----
 
-    static double length_of(const Triple<Rough>& v) { return std::sqrt(v.x.v * v.x.v + v.y.v * v.y.v + v.z.v * v.z.v); }
-    static Answer nothing(const Path& path) {
-        Answer answer;
-        answer.delta = path.delta;
-        return answer;
-    }
-
-    void add(std::size_t k) {
-        const Surface& surface = *solid_->surfaces[k];
-        const QAffine& back = solid_->to_local;
-        if (!surface.is_polynomial()) {
-            usable_ = false;
-            return;
-        }
-        if (surface.along({}, {1, 1, 1}).degree == 1) {
-            Plane plane;
-            const QVec n = surface.gradient({});
-            const quad distance = -surface.value({});
-            plane.k = k;
-            plane.normal = triple<Rough>(n);
-            plane.distance = Rough(distance);
-            plane.fine_normal = triple<Twofold>(n);
-            plane.fine_distance = Twofold(distance);
-            quad most = 0;
-            for (const QVec& axis : {back.x, back.y, back.z}) most = larger(most, absolute(dot(n, axis)));
-            plane.rate = 1.75 * to_double(most);
-            plane.steep = to_double(length(back.transposed(n)));
-            plane.outward = to_vec3(solid_->normal(k, solid_->center));
-            plane.same = k;
-            for (const Plane& other : planes_)
-                if (is_same(surface, *solid_->surfaces[other.k])) plane.same = std::min(plane.same, other.same);
-            usable_ = usable_ && plane.steep > 0;
-            planes_.push_back(plane);
-            return;
-        }
-        Curve curve;
-        curve.k = k;
-        curve.blur = to_double(solid_->noise(k));
-        if (surface.along({}, {1, 1, 1}).degree > 2) curve.noise = curve.blur;
-        // Where it is asked about it is within 1.5 radii. Its components are cubic at most, so what 27 points do not
-        // show is less than three times what they do.
-        for (const double x : {-1, 0, 1})
-            for (const double y : {-1, 0, 1})
-                for (const double z : {-1, 0, 1}) {
-                    const QVec p = solid_->center + quad(1.5 * solid_->radius) * QVec(x, y, z);
-                    const QVec g = back.transposed(surface.gradient(back.point(p)));
-                    for (const quad component : {g.x, g.y, g.z})
-                        curve.steepest = std::max(curve.steepest, 3 * to_double(absolute(component)));
-                }
-        usable_ = usable_ && std::isfinite(curve.steepest) && curve.steepest > 0;
-        curves_.push_back(curve);
-    }
-    /// Up to the rounding of 113 bits. Arbs have their box's planes, which most often are their faces'.
-    static bool is_same(const Surface& a, const Surface& b) {
-        const QVec n = a.gradient({});
-        const quad tiny(1e-30);
-        return length(n - b.gradient({})) <= tiny * length(n) &&
-               absolute(a.value({}) - b.value({})) <= tiny * absolute(a.value({}));
-    }
-
-    /// False: not certain.
     bool begin(const Ray& ray, Path& path) const {
         const ImplicitSolid& s = *solid_;
         const Triple<Twofold> o = triple<Twofold>(ray.origin), d = triple<Twofold>(ray.direction);
@@ -180,11 +82,13 @@ private:
             const double miss = std::sqrt(dot(off, off).high), most = s.radius + margin * path.delta;
             path.passes_by = miss > 1.000000001 * most;
             if (path.passes_by) return true;
-            if (miss > 0.999999999 * most) return false;
+            if (!(miss < 0.999999999 * most)) return false;
         }
-        path.fine_origin = at.x * matrix_[0] + at.y * matrix_[1] + at.z * matrix_[2] + origin_;
-        const Triple<Twofold> step = Twofold(path.unit) * d;
-        path.fine_direction = step.x * matrix_[0] + step.y * matrix_[1] + step.z * matrix_[2];
+        const auto turned = [&](const Triple<Twofold>& v) {
+            return v.x * fine_columns_[0] + v.y * fine_columns_[1] + v.z * fine_columns_[2];
+        };
+        path.fine_origin = turned(at) + origin_;
+        path.fine_direction = turned(Twofold(path.unit) * d);
         // What rounding of some 2^-100 leaves of what cancels.
         const double far = std::abs(ray.origin.x) + std::abs(ray.origin.y) + std::abs(ray.origin.z) + way;
         const double left = 1e-29 * (largest_ * (far + span) + farthest_);
@@ -196,126 +100,106 @@ private:
         return std::isfinite(left);
     }
 
-    /// The stretch between all planes; whose ends are unlike any other plane's for certain. False: not certain.
-    bool between_planes(const Path& path, Ends& ends) const {
-        ends.in.at = Rough(-path.reach);
-        ends.out.at = Rough(path.reach);
-        std::array<std::pair<Bound, const Plane*>, 40> met;
+    /// The stretch between all planes, if there is one; the same planes decide its ends however rounding shifts them.
+    bool between_planes(const Path& path, const QuickPiece& piece, Intervals& within) const {
+        Bound in = Bound::none(-path.reach), out = Bound::none(path.reach);
+        std::array<Bound, 40> met;
         std::size_t count = 0;
-        const Plane *in = nullptr, *out = nullptr;
-        for (const Plane& plane : planes_) {
+        for (const QuickPlane& plane : piece.planes) {
             const Rough at_zero = dot(plane.normal, path.origin) - plane.distance;
             const Rough rate = dot(plane.normal, path.direction);
             const double doubt = margin * plane.rate * path.delta;
             // Wholly on one side, as far as the solid reaches?
             if (solid_->bounded && at_zero.least() > 1.000001 * (rate.most() * path.reach + doubt)) {
-                if (at_zero.v > 0) {
-                    ends.misses = true;
-                    return true;
-                }
+                if (at_zero.v > 0) return true;
                 continue;
             }
             if (!(rate.least() > 1e8 * rate.off) || count == met.size()) return false;
-            // An unbounded one that is nearly parallel may be met anywhere.
+            // An unbounded solid that the ray nearly runs along may be met anywhere.
             if (!solid_->bounded && !(rate.least() > 1e3 * doubt)) return false;
-            Bound bound;
+            Bound& bound = met[count++];
             bound.at = -at_zero / rate;
             bound.width = doubt / std::abs(rate.v) * (solid_->bounded ? 1 : 1 + std::abs(bound.at.v));
-            bound.surface = static_cast<int>(plane.k);
+            bound.plane = &plane;
             bound.slope = rate.v;
-            met[count++] = {bound, &plane};
-            if (rate.v < 0 && bound.at.v > ends.in.at.v) ends.in = bound, in = &plane;
-            if (rate.v > 0 && bound.at.v < ends.out.at.v) ends.out = bound, out = &plane;
+            if (rate.v < 0 && bound.at.v > in.at.v) in = bound;
+            if (rate.v > 0 && bound.at.v < out.at.v) out = bound;
         }
-        if (ends.in.is_beyond(ends.out)) {
-            ends.misses = true;
-            return true;
-        }
-        if (!ends.out.is_beyond(ends.in)) return false;
+        if (in.is_beyond(out)) return true;
+        if (!out.is_beyond(in)) return false;
         for (std::size_t i = 0; i < count; ++i) {
-            const auto& [bound, plane] = met[i];
-            const Bound& end = bound.slope < 0 ? ends.in : ends.out;
-            const Plane* decides = bound.slope < 0 ? in : out;
-            if (decides == nullptr) {  // the ball's end comes first
+            const Bound &bound = met[i], &end = bound.slope < 0 ? in : out;
+            if (end.plane == nullptr) {
                 if (bound.may_be(end)) return false;
-                continue;
+            } else if (bound.plane->same != end.plane->same) {
+                const double ahead = std::abs(end.at.v - bound.at.v), off = end.at.off + bound.at.off;
+                if (!(ahead > 1.000001 * (std::abs(end.width - bound.width) + off))) return false;
             }
-            if (plane == decides) continue;
-            if (plane->same == decides->same) {
-                // The first of the two stands for both.
-                if (plane->k < decides->k) (bound.slope < 0 ? ends.in : ends.out).surface = static_cast<int>(plane->k);
-                continue;
-            }
-            // Whichever way both are shifted, the same one decides.
-            const double ahead = std::abs(end.at.v - bound.at.v);
-            if (!(ahead > 1.000001 * (std::abs(end.width - bound.width) + end.at.off + bound.at.off))) return false;
         }
-        return true;
+        return within.add(in, out);
     }
 
-    /// What is left of the intervals within one more surface. False: not certain.
-    bool cut(const Path& path, const Curve& curve, Intervals& found) const {
-        const Surface& surface = *solid_->surfaces[curve.k];
-        const PolynomialOf<Rough> f = surface.rough_along(path.origin, path.direction);
-        const double doubt = 2 * margin * (1.75 * curve.steepest * path.delta + curve.noise);
-        const RoughRoots roots(f, -path.reach, path.reach, doubt);
+    /// What of the intervals is within one more surface.
+    bool cut(const Path& path, const QuickCurve& curve, Intervals& within) const {
+        const PolynomialOf<Rough> f = curve.surface->rough_along(path.origin, path.direction);
+        const double noise = curve.noise * (hull_.empty() ? 1 : curve.longest);
+        const RoughRoots roots(f, -path.reach, path.reach, 2 * margin * (1.75 * curve.steepest * path.delta + noise));
         if (!roots.certain()) return false;
         std::array<Bound, Polynomial::max_degree> bounds;
         for (std::size_t i = 0; i < roots.count(); ++i) {
-            Bound& b = bounds[i];
-            b.at = roots[i].at;
-            b.slope = roots[i].slope;
-            b.surface = static_cast<int>(curve.k);
-            const Triple<Rough> g = surface.rough_gradient(path.origin + b.at * path.direction);
-            b.gradient = {dot(columns_[0], g), dot(columns_[1], g), dot(columns_[2], g)};
-            const Triple<Rough>& w = b.gradient;
-            const double most = std::max({std::abs(w.x.v), std::abs(w.y.v), std::abs(w.z.v)});
-            const double off = std::max({w.x.off, w.y.off, w.z.off});
-            // Where the gradient all but vanishes, more than it counts.
-            if (!(most > 1e-6 * curve.steepest) || !(off < 1e-9 * most)) return false;
-            const double e = margin * (1.75 * most * path.delta + curve.noise);
-            if (e >= std::abs(b.slope) * path.reach * 0.9e-3) return false;
-            b.width = e / std::abs(b.slope);
-            if (i > 0 && !b.is_beyond(bounds[i - 1])) return false;
+            if (!root(path, curve, roots[i], bounds[i])) return false;
+            if (i > 0 && !bounds[i].is_beyond(bounds[i - 1])) return false;
         }
-        Intervals left;
+        const Intervals before = within;
+        within.clear();
         bool inside = roots.begins_inside();
-        Bound from{};
-        from.at = Rough(-2 * path.reach);
-        for (std::size_t i = 0; i <= roots.count(); ++i) {
-            Bound to{};
-            to.at = Rough(2 * path.reach);
-            if (i < roots.count()) to = bounds[i];
-            for (const auto& [in, out] : found) {
-                if (!inside) continue;
-                // What compares ends must be certain of each.
-                if (from.may_be(out) || to.may_be(in)) return false;
+        for (std::size_t i = 0; i <= roots.count(); ++i, inside = !inside) {
+            if (!inside) continue;
+            const Bound from = i > 0 ? bounds[i - 1] : Bound::none(-2 * path.reach);
+            const Bound to = i < roots.count() ? bounds[i] : Bound::none(2 * path.reach);
+            for (const auto& [in, out] : before) {
+                if (from.may_be(out) || in.may_be(to)) return false;
                 if (from.is_beyond(out) || in.is_beyond(to)) continue;
                 if (from.may_be(in) || to.may_be(out)) return false;
-                left.push_back({from.is_beyond(in) ? from : in, out.is_beyond(to) ? to : out});
+                if (!within.add(from.is_beyond(in) ? from : in, out.is_beyond(to) ? to : out)) return false;
             }
-            from = to;
-            inside = !inside;
         }
-        found = std::move(left);
+        return true;
+    }
+    bool root(const Path& path, const QuickCurve& curve, const RoughRoot& found, Bound& bound) const {
+        bound.at = found.at;
+        bound.slope = found.slope;
+        bound.curve = &curve;
+        const Triple<Rough> local = curve.surface->rough_gradient(path.origin + found.at * path.direction);
+        const Triple<Rough> g{dot(columns_[0], local), dot(columns_[1], local), dot(columns_[2], local)};
+        bound.gradient = g;
+        const double most = std::max({std::abs(g.x.v), std::abs(g.y.v), std::abs(g.z.v)});
+        // Where the gradient all but vanishes more than it counts.
+        if (!(most > 1e-6 * curve.steepest) || !(std::max({g.x.off, g.y.off, g.z.off}) < 1e-9 * most)) return false;
+        // A hull's function has a gradient of length 1 in its own frame.
+        const double scale = hull_.empty() ? 1 : length_of(local);
+        bound.blur = curve.blur * scale;
+        const double doubt = margin * (1.75 * most * path.delta + curve.noise * scale);
+        bound.width = doubt / std::abs(bound.slope);
+        return bound.width < 0.9e-3 * path.reach;
+    }
+
+    /// Adds to a union that is convex: one interval, if any.
+    static bool unite(const Intervals& more, Intervals& found) {
+        if (more.empty()) return true;
+        if (found.empty()) {
+            found = more;
+            return true;
+        }
+        if (found.count > 1 || more.count > 1) return false;
+        auto& [in, out] = found.all[0];
+        const auto& [from, to] = more.all[0];
+        if (!to.is_beyond(in) || !out.is_beyond(from) || in.may_be(from) || out.may_be(to)) return false;
+        if (in.is_beyond(from)) in = from;
+        if (to.is_beyond(out)) out = to;
         return true;
     }
 
-    const Plane* plane_of(int surface) const {
-        for (const Plane& plane : planes_)
-            if (static_cast<int>(plane.k) == surface) return &plane;
-        return nullptr;
-    }
-    /// One Newton step with a residual of 106 bits: from some 50 right bits to 100.
-    Twofold refine(const Path& path, const Bound& bound) const {
-        if (const Plane* plane = plane_of(bound.surface))
-            return (plane->fine_distance - dot(plane->fine_normal, path.fine_origin)) /
-                   dot(plane->fine_normal, path.fine_direction);
-        const Surface& surface = *solid_->surfaces[static_cast<std::size_t>(bound.surface)];
-        const Twofold rest = surface.fine_along(path.fine_origin, path.fine_direction)(Twofold(bound.at.v));
-        return Twofold(bound.at.v) - rest / Twofold(bound.slope);
-    }
-    /// False: not certain.
     bool finish(const Ray& ray, const Path& path, const Bound& in, const Bound& out, Answer& answer) const {
         const ImplicitSolid& s = *solid_;
         const double moved = precision * s.condition * s.size + margin * answer.delta;
@@ -324,44 +208,26 @@ private:
         for (const bool is_in : {true, false}) {
             const Bound& bound = is_in ? in : out;
             End& end = is_in ? interval.in : interval.out;
-            if (bound.surface < 0) {
+            if (bound.plane == nullptr && bound.curve == nullptr) {
                 if (s.bounded) return false;
                 end.t = is_in ? -HUGE_VAL : HUGE_VAL;
                 continue;
             }
-            const auto k = static_cast<std::size_t>(bound.surface);
-            const Twofold t = path.closest + refine(path, bound) * Twofold(path.unit);
+            const Twofold t = path.closest + refined(path, bound) * Twofold(path.unit);
+            const quad exact = t.exactly(), width = bound.width * path.unit;
             end.t = t.high;
-            double steep = 0;
-            if (const Plane* plane = plane_of(bound.surface)) {
-                steep = plane->steep;
-                end.normal = plane->outward;
-            } else {
-                const Triple<Rough>& g = bound.gradient;
-                steep = length_of(g);
-                const double off = std::max({g.x.off, g.y.off, g.z.off});
-                if (off <= 2e-15 * steep) {
-                    end.normal = {g.x.v / steep, g.y.v / steep, g.z.v / steep};
-                } else {
-                    end.normal = to_vec3(s.normal(k, QVec(ray.origin) + t.exactly() * QVec(ray.direction)));
-                }
-                double doubt = 0;
-                for (const Curve& curve : curves_)
-                    if (curve.k == k) doubt = curve.blur;
-                end.blur = doubt < steep * s.size ? doubt / steep : s.size;
-            }
             const double span = path.unit * path.speed;
+            const double steep = bound.plane != nullptr ? bound.plane->steep : length_of(bound.gradient);
             end.cosine = std::abs(bound.slope) / (steep * span);
+            end.normal = bound.plane != nullptr ? bound.plane->outward : normal(ray, bound, steep, exact);
+            end.blur = bound.blur < steep * s.size ? bound.blur / steep : s.size;
             const double other = bound.width * span * moved / (margin * answer.delta);
             double along_ray = std::max((moved + end.blur) / end.cosine, other);
             if (s.bounded) along_ray = std::min(along_ray, s.size);
             end.tolerance = along_ray / path.speed + 4 * double_epsilon * std::abs(end.t);
             if (!std::isfinite(end.t) || !(end.cosine > 0)) return false;
-            const quad exact = t.exactly(), width = bound.width * path.unit;
-            oracle::Bound& inner_end = is_in ? inner.in : inner.out;
-            oracle::Bound& outer_end = is_in ? outer.in : outer.out;
-            inner_end = {is_in ? exact + width : exact - width, bound.surface};
-            outer_end = {is_in ? exact - width : exact + width, bound.surface};
+            (is_in ? inner.in : inner.out) = {is_in ? exact + width : exact - width, 0};
+            (is_in ? outer.in : outer.out) = {is_in ? exact - width : exact + width, 0};
         }
         answer.intervals.push_back(interval);
         answer.inner.push_back(inner);
@@ -369,14 +235,32 @@ private:
         return true;
     }
 
+    // ---- Once it is certain ----
+
+    /// One Newton step with a residual of 106 bits: from some 50 right bits to 100.
+    static Twofold refined(const Path& path, const Bound& bound) {
+        if (const QuickPlane* plane = bound.plane)
+            return (plane->fine_distance - dot(plane->fine_normal, path.fine_origin)) /
+                   dot(plane->fine_normal, path.fine_direction);
+        const Twofold at(bound.at.v);
+        return at - bound.curve->surface->fine_along(path.fine_origin, path.fine_direction)(at) / Twofold(bound.slope);
+    }
+    Vec3 normal(const Ray& ray, const Bound& bound, double steep, quad t) const {
+        const Triple<Rough>& g = bound.gradient;
+        if (std::max({g.x.off, g.y.off, g.z.off}) <= 2e-15 * steep)
+            return {g.x.v / steep, g.y.v / steep, g.z.v / steep};
+        const QVec local = solid_->to_local.point(QVec(ray.origin) + t * QVec(ray.direction));
+        return to_vec3(unit(solid_->to_local.transposed(bound.curve->surface->gradient(local))));
+    }
+    static double length_of(const Triple<Rough>& v) { return std::sqrt(v.x.v * v.x.v + v.y.v * v.y.v + v.z.v * v.z.v); }
+
     std::shared_ptr<const ImplicitSolid> solid_;
-    std::array<Triple<Twofold>, 3> matrix_;  ///< columns of to_local
-    std::array<Triple<Rough>, 3> columns_;
+    std::vector<Piece> hull_;
+    std::vector<QuickPiece> pieces_;
+    std::array<Triple<Rough>, 3> columns_;  ///< of to_local
+    std::array<Triple<Twofold>, 3> fine_columns_;
     Triple<Twofold> origin_, center_;
-    double largest_ = 0, farthest_ = 0;  ///< the largest sum of a row, of the translation
-    std::vector<Plane> planes_;
-    std::vector<Curve> curves_;
-    bool usable_ = true;
+    double largest_ = 0, farthest_ = 0;  ///< the largest sum of a row of to_local, and of its translation
 };
 
 }  // namespace csgrt::oracle

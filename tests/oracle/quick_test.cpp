@@ -17,8 +17,8 @@ using namespace csgrt::oracle;
 
 namespace {
 
-constexpr std::array kinds{Kind::ell, Kind::tgc, Kind::arb, Kind::arbn, Kind::half, Kind::tor,
-                           Kind::ehy, Kind::epa, Kind::rpc, Kind::rhc,  Kind::eto,  Kind::hyp};
+constexpr std::array kinds{Kind::ell, Kind::tgc, Kind::arb, Kind::arbn, Kind::half, Kind::tor, Kind::ehy,
+                           Kind::epa, Kind::rpc, Kind::rhc, Kind::eto,  Kind::hyp,  Kind::part};
 
 double apart(const Vec3& a, const Vec3& b) { return to_double(length(QVec(a) - QVec(b))); }
 

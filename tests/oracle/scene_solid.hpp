@@ -85,8 +85,8 @@ inline SceneSolid scene_solid(ImplicitSolid&& implicit, bool quick) {
     const auto solid = std::make_shared<ImplicitSolid>(std::move(implicit));
     const Reach reach = solid->bounded ? reach_of(*solid) : Reach{};
     if (!quick) return {[solid](const Ray& ray) { return intersect(*solid, ray); }, reach, solid};
-    const auto answer = [solid, filter = QuickSolid(solid)](const Ray& ray) {
-        std::optional<Answer> certain = filter(ray);
+    const auto answer = [solid, filter = std::make_shared<QuickSolid>(solid)](const Ray& ray) {
+        std::optional<Answer> certain = (*filter)(ray);
         return certain ? std::move(*certain) : intersect(*solid, ray);
     };
     return {answer, reach, solid};

@@ -53,7 +53,10 @@ public:
     virtual PolynomialOf<Rough> rough_along(const Triple<Rough>&, const Triple<Rough>&) const { return {}; }
     virtual PolynomialOf<Twofold> fine_along(const Triple<Twofold>&, const Triple<Twofold>&) const { return {}; }
     virtual Triple<Rough> rough_gradient(const Triple<Rough>&) const { return {}; }
+    /// If f is no polynomial, but the distance to a convex union of sets that polynomials bound: these; else none.
+    virtual std::vector<std::vector<std::unique_ptr<Surface>>> pieces() const { return {}; }
 };
+using Piece = std::vector<std::unique_ptr<Surface>>;
 
 template <class F>
 class SurfaceOf final : public Surface {
@@ -99,6 +102,12 @@ public:
     Polynomial along(const QVec&, const QVec&) const override { throw std::logic_error("f is no polynomial"); }
     std::unique_ptr<Line> line(const QVec& o, const QVec& d) const override {
         return std::make_unique<CurvedLine<F>>(f_, o, d);
+    }
+    std::vector<Piece> pieces() const override {
+        if constexpr (requires(const F& f) { f.pieces_of_hull(); })
+            return f_.pieces_of_hull();
+        else
+            return {};
     }
 
 private:
