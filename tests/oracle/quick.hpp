@@ -255,7 +255,7 @@ private:
     static double length_of(const Triple<Rough>& v) { return std::sqrt(v.x.v * v.x.v + v.y.v * v.y.v + v.z.v * v.z.v); }
 
     std::shared_ptr<const ImplicitSolid> solid_;
-    std::vector<Piece> hull_;
+    std::vector<SurfaceSet> hull_;
     std::vector<QuickPiece> pieces_;
     std::array<Triple<Rough>, 3> columns_;  ///< of to_local
     std::array<Triple<Twofold>, 3> fine_columns_;

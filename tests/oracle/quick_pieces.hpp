@@ -139,7 +139,7 @@ struct QuickIntervals {
 }  // namespace detail
 
 /// None: quick.hpp cannot answer for such a solid. `hull` keeps the surfaces of one that is a union.
-inline std::vector<QuickPiece> quick_pieces(const ImplicitSolid& solid, const std::vector<Piece>& hull) {
+inline std::vector<QuickPiece> quick_pieces(const ImplicitSolid& solid, const std::vector<SurfaceSet>& hull) {
     std::vector<QuickPiece> pieces;
     bool usable = true;
     const auto add = [&](const Surface& surface, double noise, bool is_hull) {
@@ -158,7 +158,7 @@ inline std::vector<QuickPiece> quick_pieces(const ImplicitSolid& solid, const st
         const double steepest = piece.curves.back().steepest;
         usable = usable && std::isfinite(steepest) && steepest > 0;
     };
-    for (const Piece& piece : hull) {
+    for (const SurfaceSet& piece : hull) {
         pieces.emplace_back();
         for (const auto& surface : piece) add(*surface, to_double(solid.noise(0)), true);
     }

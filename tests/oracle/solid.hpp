@@ -56,7 +56,7 @@ public:
     /// If f is no polynomial, but the distance to a convex union of sets that polynomials bound: these; else none.
     virtual std::vector<std::vector<std::unique_ptr<Surface>>> pieces() const { return {}; }
 };
-using Piece = std::vector<std::unique_ptr<Surface>>;
+using SurfaceSet = std::vector<std::unique_ptr<Surface>>;
 
 template <class F>
 class SurfaceOf final : public Surface {
@@ -103,7 +103,7 @@ public:
     std::unique_ptr<Line> line(const QVec& o, const QVec& d) const override {
         return std::make_unique<CurvedLine<F>>(f_, o, d);
     }
-    std::vector<Piece> pieces() const override {
+    std::vector<SurfaceSet> pieces() const override {
         if constexpr (requires(const F& f) { f.pieces_of_hull(); })
             return f_.pieces_of_hull();
         else

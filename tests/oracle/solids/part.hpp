@@ -38,21 +38,21 @@ struct PartFunction {
     double settled() const { return 1e-30; }
 
     /// The hull: both balls, and the frustum between the circles where the cone touches them.
-    std::vector<Piece> pieces_of_hull() const {
+    std::vector<SurfaceSet> pieces_of_hull() const {
         const quad s = h > 0 ? (r_v - r_h) / h : quad(0), cosine2 = (1 - s) * (1 + s);
         const auto ball = [](quad z, quad r) {
-            Piece piece;
+            SurfaceSet piece;
             piece.push_back(std::make_unique<SurfaceOf<PartBall>>(PartBall{z, r}));
             return piece;
         };
-        std::vector<Piece> all;
+        std::vector<SurfaceSet> all;
         if (!(cosine2 > 0) || !(h > 0)) {
             all.push_back(r_v >= r_h ? ball(0, r_v) : ball(h, r_h));
             return all;
         }
         if (r_v > 0) all.push_back(ball(0, r_v));
         if (r_h > 0) all.push_back(ball(h, r_h));
-        Piece frustum;
+        SurfaceSet frustum;
         frustum.push_back(std::make_unique<SurfaceOf<PlaneFunction>>(PlaneFunction{{0, 0, -1}, -s * r_v}));
         frustum.push_back(std::make_unique<SurfaceOf<PlaneFunction>>(PlaneFunction{{0, 0, 1}, h + s * r_h}));
         const quad cosine = root(cosine2);
