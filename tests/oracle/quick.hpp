@@ -5,7 +5,7 @@
 // may shift every one. What is not certain by a margin of its own error gives no answer: an end beside an edge or a
 // rim, a root that is nearly double, a surface within the doubt of another, a face that the ray runs in. So a quick
 // answer is never a tie, its intervals are those of the 113-bit path, and its ends are refined to some 100 bits. What
-// is a double in an Answer is right to some 10^-8 of itself (tolerances, cosines), normals to 4 10^-15.
+// is a double in an Answer is right to some 10^-8 of itself (tolerances, cosines), normals to `normals_off`.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,8 @@
 #include "rough_roots.hpp"
 
 namespace csgrt::oracle {
+
+inline constexpr double normals_off = 1e-14;  ///< by what a quick answer's normals may differ from the true ones
 
 class QuickSolid {
 public:
@@ -70,6 +72,7 @@ private:
         const Triple<Twofold> to_center = center_ - o;
         const Twofold square = dot(d, d);
         if (!(square.high > 1e-200 && square.high < 1e200)) return false;
+        path.way = ray.direction;
         path.closest = dot(to_center, d) / square;
         path.speed = std::sqrt(square.high);
         const Triple<Twofold> at = o + path.closest * d, off = center_ - at;
@@ -111,6 +114,10 @@ private:
             const double doubt = margin * plane.rate * path.delta;
             // Wholly on one side, as far as the solid reaches?
             if (solid_->bounded && at_zero.least() > 1.000001 * (rate.most() * path.reach + doubt)) {
+                if (at_zero.v > 0) return true;
+                continue;
+            }
+            if (!solid_->bounded && at_zero.least() > 1.000001 * doubt && runs_along(path, plane)) {
                 if (at_zero.v > 0) return true;
                 continue;
             }
@@ -235,6 +242,12 @@ private:
         return true;
     }
 
+    /// Do zeros keep the ray parallel to the plane, whatever is rounded?
+    static bool runs_along(const Path& path, const QuickPlane& plane) {
+        const Vec3 &n = plane.outward, &d = path.way;
+        return (n.x == 0 || d.x == 0) && (n.y == 0 || d.y == 0) && (n.z == 0 || d.z == 0);
+    }
+
     // ---- Once it is certain ----
 
     /// One Newton step with a residual of 106 bits: from some 50 right bits to 100.
@@ -247,7 +260,7 @@ private:
     }
     Vec3 normal(const Ray& ray, const Bound& bound, double steep, quad t) const {
         const Triple<Rough>& g = bound.gradient;
-        if (std::max({g.x.off, g.y.off, g.z.off}) <= 2e-15 * steep)
+        if (std::max({g.x.off, g.y.off, g.z.off}) <= 0.7 * normals_off * steep)
             return {g.x.v / steep, g.y.v / steep, g.z.v / steep};
         const QVec local = solid_->to_local.point(QVec(ray.origin) + t * QVec(ray.direction));
         return to_vec3(unit(solid_->to_local.transposed(bound.curve->surface->gradient(local))));

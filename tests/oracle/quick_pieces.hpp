@@ -92,6 +92,7 @@ namespace detail {
 /// The ray in a parameter s: t = closest + s unit, as in intersect.hpp.
 struct QuickPath {
     Twofold closest;
+    Vec3 way;  ///< the ray's direction
     double unit = 1, speed = 1, delta = 0, reach = 0;
     Triple<Twofold> fine_origin, fine_direction;
     Triple<Rough> origin, direction;

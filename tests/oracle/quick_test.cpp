@@ -51,7 +51,7 @@ std::string contradiction(const Ray& ray, const Answer& quick, const Answer& ful
             if (a.t != b.t && !(std::abs(a.t - b.t) <= 4 * double_epsilon * std::abs(b.t) + 1e-26 * scale / speed))
                 wrong << "an end is off by " << a.t - b.t << "; ";
             if (!std::isfinite(b.t)) continue;
-            if (apart(a.normal, b.normal) > 5e-15) wrong << "a normal is off by " << apart(a.normal, b.normal) << "; ";
+            if (apart(a.normal, b.normal) > normals_off) wrong << "a normal is off by " << apart(a.normal, b.normal) << "; ";
             if (std::abs(a.cosine - b.cosine) > 1e-7 * b.cosine) wrong << "cosine " << a.cosine << "; ";
             if (std::abs(a.tolerance - b.tolerance) > 1e-4 * b.tolerance)
                 wrong << "tolerance " << a.tolerance << ", not " << b.tolerance << "; ";

@@ -37,7 +37,7 @@ struct PartFunction {
     int pieces() const { return 1; }
     double settled() const { return 1e-30; }
 
-    /// The hull: both balls, and the frustum between the circles where the cone touches them.
+    /// The hull: the frustum between the circles where the cone touches both balls, and these, which meet it.
     std::vector<SurfaceSet> pieces_of_hull() const {
         const quad s = h > 0 ? (r_v - r_h) / h : quad(0), cosine2 = (1 - s) * (1 + s);
         const auto ball = [](quad z, quad r) {
@@ -50,14 +50,14 @@ struct PartFunction {
             all.push_back(r_v >= r_h ? ball(0, r_v) : ball(h, r_h));
             return all;
         }
-        if (r_v > 0) all.push_back(ball(0, r_v));
-        if (r_h > 0) all.push_back(ball(h, r_h));
         SurfaceSet frustum;
         frustum.push_back(std::make_unique<SurfaceOf<PlaneFunction>>(PlaneFunction{{0, 0, -1}, -s * r_v}));
         frustum.push_back(std::make_unique<SurfaceOf<PlaneFunction>>(PlaneFunction{{0, 0, 1}, h + s * r_h}));
         const quad cosine = root(cosine2);
         frustum.push_back(std::make_unique<SurfaceOf<PartCone>>(PartCone{r_v / cosine, -s / cosine}));
         all.push_back(std::move(frustum));
+        if (r_v > 0) all.push_back(ball(0, r_v));
+        if (r_h > 0) all.push_back(ball(h, r_h));
         return all;
     }
     /// The z of the best ball's centre.
