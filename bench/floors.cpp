@@ -41,13 +41,13 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     for (const kernel::RayResult& result : run.results) partitions += result.partitions;
     Floor floor;
     floor.workload = workload;
-    floor.boxes = per_ray(kernel::counted.boxes) / 2;  // two walks, one to count, one to store
-    floor.solids = per_ray(kernel::counted.solids) / 2;
+    floor.boxes = per_ray(kernel::counted.boxes) / 2;  // two walks, one to count, one to list
+    floor.solids = per_ray(run.candidates);
     floor.words = per_ray(kernel::counted.words);
     floor.segments = per_ray(run.ends.size()) / 2;
     floor.partitions = per_ray(partitions);
     floor.bytes = per_ray(bytes_of(run.offsets) + bytes_of(run.ends) + bytes_of(run.nodes) + bytes_of(run.bits) +
-                          bytes_of(run.results) + bytes_of(run.pixels));
+                          bytes_of(run.results) + bytes_of(run.picture));
     return floor;
 }
 

@@ -9,25 +9,40 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
                     __global const BvhNode* inner_nodes,
                     __global const RegionRecord* regions, __global const MaterialRecord* materials,
                     __global const LightRecord* lights, __global const RayCount* offsets,
-                    __global const End* all_ends, __global const PartitionNode* all_nodes,
-                    __global const RayResult* results, __global Pixel* pixels) {
+                    __global const End* ends, __global const PartitionNode* nodes,
+                    __global RayResult* results, __global const RayRecord* rays, __global float* picture) {
     u32 id = (u32)get_global_id(0);
     RayResult result;
     Pixel pixel;
+    pixel_position at;
     ray3 r;
     if (id >= frame->ray_count) return;
-    if (!ray_of(frame, 0, frame->first_ray + id, &r)) return;
+    at = pixel_of(number_of(frame, rays, id), frame->width, frame->height);
+    if (!at.inside) return;
+    r = geometry_ray(frame, camera_ray(frame, at));
     result = results[id];
+    nodes += 2 * (size_t)offsets[id].segments;
+    ends += 2 * (size_t)offsets[id].segments;
+    {
+        // The first claimed partition that does not end before t_min.
+        const real t_min = t_min_along(frame, r);
+        u32 next = result.first;
+        result.first = NONE;
+        for (; next != NONE; next = nodes[next].next) {
+            const u32 region = nodes[next].region;
+            result.overlaps += region >> 31;
+            if (result.first == NONE && (region & ~OVERLAP) != NONE && ends[nodes[next].out_end].t > t_min)
+                result.first = next;
+        }
+    }
     if (result.first == NONE) {
         pixel = background_pixel(frame);
     } else {
-        size_t base = 2 * (size_t)offsets[id].segments;
-        PartitionNode partition = all_nodes[base + result.first];
-        End end = all_ends[base + partition.in_end];
+        PartitionNode partition = nodes[result.first];
+        End end = ends[partition.in_end];
         u32 region = partition.region & ~OVERLAP;
         Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
-        vec3 n;
-        n = normal_at(g, solids[end.solid], r, end.t, end.surface);
+        vec3 n = normal_at(g, solids[end.solid], r, end.t, end.surface);
         if (partition.in_end & 1u) n = scale(n, REAL(-1));
         pixel = hit_pixel(frame, lights, materials[regions[region].material], r, end.t, n);
         pixel.region = region + 1;
@@ -36,5 +51,6 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = result.partitions;
     pixel.overlap = result.overlaps;
-    pixels[id] = pixel;
+    results[id] = result;
+    put_pixel(frame, picture, at, pixel);
 }

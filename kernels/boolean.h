@@ -1,24 +1,64 @@
-// The walk through a region's linearized tree for one partition: no recursion, and a right subtree whose value cannot
-// matter is skipped. A stack entry is a node whose left child is being looked at; `negate` turns the value around that
-// the current subtree hands up to it. How the compiler keeps the stack short stands in shared/layout.h.
+// Which region claims a partition.
+//
+// A region's tree is a union of terms (Goldfeather et al. 1986 have the name); a term that is no leaf is an intersection, a
+// difference or a xor. A term can only be true where one of the leaves that start it is covered (StartRecord), so only
+// terms are looked at that some solid of the partition starts, however large the region is.
+//
+//   region   (a + b - c) u (d - e) u f
+//   starts    a or b        d        f       cover {c, d}: only d - e is evaluated
 #ifndef CSGRT_BOOLEAN_H
 #define CSGRT_BOOLEAN_H
 
 #include "shared/layout.h"
 
-// A ray's segments, and the bits that say which of them cover the partition. Ends are sorted by solid.
+// A ray's segments, and the bits that say which of them cover the partition.
 typedef struct {
-    GLOBAL const End* ends;
-    GLOBAL const u32* bits;
+    ENDS const End* ends;
+    ENDS const u32* bits;
     u32 segments;
+    GLOBAL const SolidRecord* solids;
+    GLOBAL const StartRecord* starts;
+    GLOBAL const u32* leaves;
+    GLOBAL const u32* trees;
 } cover;
 
 FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 31u) & 1u; }
 
-// Is one of the solid's segments among those that cover the partition?
-FN u32 covered_by(cover c, u32 solid) {
+// The solids that cover a partition: all of them if they are few, and a filter that most others do not pass.
+#define FEW 32u
+typedef struct {
+    u32 count;  // more than FEW: they are not listed
+    SolidFilter filter;
+    u32 solids[FEW];
+} covered_solids;
+
+FN covered_solids list_covered(cover c) {
+    covered_solids list;
+    u32 word, words = words_of(c.segments);
+    list.count = list.filter.even = list.filter.odd = 0;
+    for (word = 0; word < words; ++word) {
+        u32 bits = c.bits[word];
+        while (bits) {
+            u32 lowest = bits & (0u - bits);
+            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+            bits ^= lowest;
+            list.filter = with(list.filter, filter_of(solid));
+            if (list.count < FEW) list.solids[list.count] = solid;
+            if (list.count <= FEW) ++list.count;
+        }
+    }
+    return list;
+}
+
+FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
     u32 low = 0, high = c.segments;
-    while (low < high) {
+    if (!within(filter_of(solid), list->filter)) return 0;
+    if (list->count <= FEW) {
+        for (; low < list->count; ++low)
+            if (list->solids[low] == solid) return 1;
+        return 0;
+    }
+    while (low < high) {  // many: a ray's ends stand sorted by solid in memory
         u32 middle = (low + high) >> 1;
         if (c.ends[2 * middle].solid < solid) {
             low = middle + 1;
@@ -31,34 +71,130 @@ FN u32 covered_by(cover c, u32 solid) {
     return 0;
 }
 
+// Bit 4 op + left + 2 right: the operator's value.
+#define TRUTHS                                                                                             \
+    (0xeu << 4 * OP_UNION | 0x8u << 4 * OP_INTERSECTION | 0x2u << 4 * OP_DIFFERENCE | 0x6u << 4 * OP_XOR | \
+     0x4u << 4 * OP_REVERSE_DIFFERENCE)
+
+// The value of the term in the words from `node` to `end`, from the last word on: operands come before their operators,
+// and one bit is kept of each. No step waits for another's memory.
+FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
+    u32 values = 0;
+    while (end > node) {
+        u32 word = c.trees[--end], op = word >> TREE_SHIFT;
+        if (op == OP_LEAF) {
+            values = values << 1 | is_covered(c, list, word & TREE_MASK);
+        } else if (op == OP_NOT) {
+            values ^= 1u;
+        } else {
+            values = (values >> 1 & ~1u) | (TRUTHS >> (4 * op + (values & 3u)) & 1u);
+        }
+    }
+    return values & 1u;
+}
+
+// The next few covered leaves of a large term, ascending: a window that moves on as they are used up.
+#define WINDOW 8
+typedef struct {
+    u32 nodes[WINDOW];
+    u32 count, at;
+    u32 more;  // there may be some after those kept
+} window;
+
+// Takes up a leaf that is not before the window; 0: it and all greater ones lie behind it.
+FN u32 keep(window* w, u32 node) {
+    u32 k = w->count;
+    if (k == WINDOW) {
+        w->more = 1;
+        if (node >= w->nodes[k - 1]) return 0;
+        --k;
+    } else {
+        ++w->count;
+    }
+    for (; k > 0 && w->nodes[k - 1] > node; --k) w->nodes[k] = w->nodes[k - 1];
+    w->nodes[k] = node;
+    return 1;
+}
+
+// Keeps the first leaves within [from, end) that are covered.
+FN void fill_window(window* w, cover c, u32 from, u32 end) {
+    u32 word, words = words_of(c.segments);
+    w->count = w->at = w->more = 0;
+    for (word = 0; word < words; ++word) {
+        u32 bits = c.bits[word];
+        while (bits) {
+            u32 lowest = bits & (0u - bits);
+            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+            u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
+            bits ^= lowest;
+            while (low < high) {  // to the first at or after `from`
+                u32 middle = (low + high) >> 1;
+                if (c.leaves[middle] < from) {
+                    low = middle + 1;
+                } else {
+                    high = middle;
+                }
+            }
+            for (; low < last; ++low) {
+                u32 node = c.leaves[low];
+                if (node >= end || !keep(w, node)) break;
+            }
+        }
+    }
+}
+
+// Moves to the first leaf at or after `from`, which never goes back. 0: there is none before `end`.
+FN u32 find_leaf(window* w, cover c, u32 from, u32 end) {
+    while (w->at < w->count && w->nodes[w->at] < from) ++w->at;
+    if (w->at == w->count && w->more) fill_window(w, c, from, end);
+    return w->at < w->count;
+}
+
 #define NEGATE_BIT 0x80000000u
 
-FN u32 evaluate_tree(GLOBAL const u32* trees, u32 first, cover c) {
-    u32 stack[CSGRT_TREE_STACK];
-    u32 depth = 0, node = first, negate = 0, value;
+// The same for a large term, from covered leaf to covered leaf: a subtree with all its leaves outside is empty (the
+// compiler leaves no complements), so it is never entered, and a right subtree whose value cannot matter is skipped, too.
+// No recursion: a stack entry is an operator whose left operand is being looked at; `negate` turns the value around that
+// the current subtree hands up. How the compiler keeps the stack short stands in shared/layout.h.
+FN u32 walk_term(cover c, u32 node, u32 end) {
+    u32 stack[CSGRT_TREE_STACK], ends[CSGRT_TREE_STACK];
+    u32 depth = 0, negate = 0, value, term_end = end;
+    window w;
+    fill_window(&w, c, node, end);
     for (;;) {
-        u32 word = trees[node];
-        u32 op = word >> TREE_SHIFT;
-        if (op == OP_NOT) {
-            negate ^= 1u;
-            ++node;
-            continue;
+        u32 word, op;
+        if (!find_leaf(&w, c, node, term_end) || w.nodes[w.at] >= end) {
+            value = negate;
+        } else {
+            word = c.trees[node];
+            op = word >> TREE_SHIFT;
+            if (op == OP_LEAF) {
+                value = 1u ^ negate;
+            } else {
+                u32 right = word & TREE_MASK;
+                if (w.nodes[w.at] < right) {
+                    stack[depth] = node | (negate ? NEGATE_BIT : 0u);
+                    ends[depth++] = end;
+                    negate = 0;
+                    ++node;
+                    end = right;
+                    continue;
+                }
+                // The left operand is empty.
+                if (op != OP_INTERSECTION && op != OP_DIFFERENCE) {
+                    node = right;
+                    continue;
+                }
+                value = negate;
+            }
         }
-        if (op != OP_LEAF) {
-            stack[depth++] = node | (negate ? NEGATE_BIT : 0u);
-            negate = 0;
-            ++node;
-            continue;
-        }
-        value = covered_by(c, word & TREE_MASK) ^ negate;
         for (;;) {
-            u32 entry, right, outer;
+            u32 entry, outer;
             if (depth == 0) return value;
             entry = stack[--depth];
             outer = entry & NEGATE_BIT ? 1u : 0u;
-            word = trees[entry & ~NEGATE_BIT];
+            word = c.trees[entry & ~NEGATE_BIT];
             op = word >> TREE_SHIFT;
-            right = word & TREE_MASK;
             if (op == OP_UNION && value) {
                 value = 1u ^ outer;
             } else if ((op == OP_INTERSECTION || op == OP_DIFFERENCE) && !value) {
@@ -66,12 +202,60 @@ FN u32 evaluate_tree(GLOBAL const u32* trees, u32 first, cover c) {
             } else if (op == OP_REVERSE_DIFFERENCE && value) {
                 value = outer;
             } else {
-                node = right;
+                node = word & TREE_MASK;
+                end = ends[depth];
                 negate = op == OP_DIFFERENCE ? outer ^ 1u : op == OP_XOR ? outer ^ value : outer;
                 break;
             }
         }
     }
+}
+
+FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
+    u32 size = start.end_word - start.first_word;
+    if (size == 1) return 1;
+    if (!within(start.needed, list->filter)) return 0;
+    if (size <= SCANNED_WORDS) return scan_term(c, list, start.first_word, start.end_word);
+    return walk_term(c, start.first_word, start.end_word);
+}
+
+FN SolidFilter all_solids(void) {
+    SolidFilter f;
+    f.even = f.odd = 0xffffffffu;
+    return f;
+}
+
+// The regions that claim a partition: the least, and any other. NONE: there is none.
+typedef struct {
+    u32 least, other;
+} claim;
+
+// `other`: is it wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
+FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter changed) {
+    claim found;
+    u32 word, words = words_of(c.segments);
+    found.least = found.other = NONE;
+    for (word = 0; word < words; ++word) {
+        u32 bits = c.bits[word];
+        while (bits) {
+            u32 lowest = bits & (0u - bits);
+            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+            u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
+            bits ^= lowest;
+            for (; i < end; ++i) {
+                StartRecord start = c.starts[i];
+                if (start.region >= found.least && (!other || found.other != NONE || start.region == found.least)) continue;
+                if (!meet(start.solids, changed) || !term_holds(c, list, start)) continue;
+                if (start.region < found.least) {
+                    found.other = found.least;
+                    found.least = start.region;
+                } else {
+                    found.other = start.region;
+                }
+            }
+        }
+    }
+    return found;
 }
 
 #endif

@@ -78,6 +78,11 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
+// The number of the tile's ray `id`; picked ones are listed in place of rays.
+FN u32 number_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 id) {
+    return f->picked ? ((GLOBAL const u32*)rays)[id] : f->first_ray + id;
+}
+
 // The ray of a number: from the list of rays if there is one, else through a pixel. Returns 0 if there is no such ray.
 FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r) {
     if (f->listed) {

@@ -84,4 +84,29 @@ FN Pixel hit_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mate
     return p;
 }
 
+// Stores what is seen of a pixel in the channels' planes.
+FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, pixel_position at, Pixel p) {
+    const size_t size = (size_t)f->columns * f->rows;
+    u32 i;
+    picture += (size_t)f->columns * (at.y - f->first_row) + (at.x - f->first_column);
+    if (f->channels & CHANNEL_COLOR)
+        for (i = 0; i < 4; ++i, picture += size) *picture = p.rgba[i];
+    if (f->channels & CHANNEL_DISTANCE) {
+        *picture = p.z;
+        picture += size;
+    }
+    if (f->channels & CHANNEL_NORMAL)
+        for (i = 0; i < 3; ++i, picture += size) *picture = p.normal[i];
+    if (f->channels & CHANNEL_IDS) {
+        picture[0] = (float)p.region;
+        picture[size] = (float)p.solid;
+        picture += 2 * size;
+    }
+    if (f->channels & CHANNEL_COUNTS) {
+        picture[0] = (float)p.depth;
+        picture[size] = (float)p.partitions;
+        picture[2 * size] = (float)p.overlap;
+    }
+}
+
 #endif

@@ -17,14 +17,16 @@ inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
 #include "../kernels/shared/base.h"
 #include "../kernels/shared/layout.h"
 
-static_assert(sizeof(SolidRecord) == 28);
+static_assert(sizeof(SolidRecord) == 36);
 static_assert(sizeof(PlaneRecord) == 32);
 static_assert(sizeof(RegionRecord) == 16);
 static_assert(sizeof(MaterialRecord) == 28);
 static_assert(sizeof(BvhNode) == 32 && offsetof(BvhNode, high) == 16);
 static_assert(sizeof(End) == 16 && offsetof(End, solid) == 8);
 static_assert(sizeof(PartitionNode) == 20);
-static_assert(sizeof(RayCount) == 12);
+static_assert(sizeof(Candidate) == 16);
+static_assert(sizeof(RayCount) == 8);
+static_assert(sizeof(StartRecord) == 28);
 static_assert(sizeof(RayResult) == 12);
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);

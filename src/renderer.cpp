@@ -20,22 +20,23 @@ double milliseconds_since(Clock::time_point start) {
 
 struct ChannelSource {
     const char* name;
+    std::uint32_t group;
     float (*value)(const kernel::Pixel&);
 };
 constexpr ChannelSource channels[] = {
-    {"R", [](const kernel::Pixel& p) { return p.rgba[0]; }},
-    {"G", [](const kernel::Pixel& p) { return p.rgba[1]; }},
-    {"B", [](const kernel::Pixel& p) { return p.rgba[2]; }},
-    {"A", [](const kernel::Pixel& p) { return p.rgba[3]; }},
-    {"Z", [](const kernel::Pixel& p) { return p.z; }},
-    {"N.X", [](const kernel::Pixel& p) { return p.normal[0]; }},
-    {"N.Y", [](const kernel::Pixel& p) { return p.normal[1]; }},
-    {"N.Z", [](const kernel::Pixel& p) { return p.normal[2]; }},
-    {"region", [](const kernel::Pixel& p) { return static_cast<float>(p.region); }},
-    {"solid", [](const kernel::Pixel& p) { return static_cast<float>(p.solid); }},
-    {"depth", [](const kernel::Pixel& p) { return static_cast<float>(p.depth); }},
-    {"partitions", [](const kernel::Pixel& p) { return static_cast<float>(p.partitions); }},
-    {"overlap", [](const kernel::Pixel& p) { return static_cast<float>(p.overlap); }},
+    {"R", channel::color, [](const kernel::Pixel& p) { return p.rgba[0]; }},
+    {"G", channel::color, [](const kernel::Pixel& p) { return p.rgba[1]; }},
+    {"B", channel::color, [](const kernel::Pixel& p) { return p.rgba[2]; }},
+    {"A", channel::color, [](const kernel::Pixel& p) { return p.rgba[3]; }},
+    {"Z", channel::distance, [](const kernel::Pixel& p) { return p.z; }},
+    {"N.X", channel::normal, [](const kernel::Pixel& p) { return p.normal[0]; }},
+    {"N.Y", channel::normal, [](const kernel::Pixel& p) { return p.normal[1]; }},
+    {"N.Z", channel::normal, [](const kernel::Pixel& p) { return p.normal[2]; }},
+    {"region", channel::ids, [](const kernel::Pixel& p) { return static_cast<float>(p.region); }},
+    {"solid", channel::ids, [](const kernel::Pixel& p) { return static_cast<float>(p.solid); }},
+    {"depth", channel::counts, [](const kernel::Pixel& p) { return static_cast<float>(p.depth); }},
+    {"partitions", channel::counts, [](const kernel::Pixel& p) { return static_cast<float>(p.partitions); }},
+    {"overlap", channel::counts, [](const kernel::Pixel& p) { return static_cast<float>(p.overlap); }},
 };
 
 // The camera for the picture's header, row-major, as graphics programs expect them: world to camera (x right, y up,
@@ -97,6 +98,7 @@ struct Renderer::Impl {
     std::unique_ptr<Pipeline> pipeline;
     std::optional<Reference> reference;
     Statistics statistics;
+    double build_ms = 0;  // of the device, without its kernels
 
     void start_call(std::uint64_t rays, int width, int height) {
         Statistics fresh;
@@ -129,6 +131,9 @@ struct Renderer::Impl {
         statistics.ms.weave = c.weave;
         statistics.ms.evaluate = c.evaluate;
         statistics.ms.shade = c.shade;
+        statistics.ms.cull_blocks = c.cull_blocks;
+        statistics.ms.first_hits = c.first_hits;
+        statistics.ms.build = build_ms + pipeline->build_ms();
     }
     void take(const ReferenceCounts& c) {
         statistics.hits = c.hits;
@@ -166,7 +171,8 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     start = Clock::now();
     impl.device = std::make_unique<Device>(settings.device, settings.max_memory);
     impl.pipeline = std::make_unique<Pipeline>(*impl.device, impl.scene, *impl.kernels, settings);
-    impl.statistics.ms.build = milliseconds_since(start);
+    impl.build_ms = milliseconds_since(start);
+    impl.statistics.ms.build = impl.build_ms;
     impl.statistics.device = impl.device->info().name;
     impl.statistics.method = "five kernels, exact counts";
 }
@@ -176,29 +182,41 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::render(const View& view) {
+    Image image;
+    render(view, image);
+    return image;
+}
+
+void Renderer::render(const View& view, Image& image) {
     Impl& impl = *impl_;
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
     impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.width, view.height);
-    std::vector<kernel::Pixel> pixels;
+    std::vector<const ChannelSource*> wanted;
+    for (const ChannelSource& source : channels)
+        if (prepared.frame.channels & source.group) wanted.push_back(&source);
+    image.width = view.width;
+    image.height = view.height;
+    image.names.clear();
+    image.channels.resize(wanted.size());
+    std::vector<float*> planes;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        image.names.emplace_back(wanted[i]->name);
+        image.channels[i].resize(std::size_t{prepared.frame.width} * prepared.frame.height);
+        planes.push_back(image.channels[i].data());
+    }
     if (impl.reference) {
         ReferenceCounts counts;
-        pixels = impl.reference->render(prepared, impl.settings.progress, counts);
+        const std::vector<kernel::Pixel> pixels = impl.reference->render(prepared, impl.settings.progress, counts);
+        for (std::size_t c = 0; c < wanted.size(); ++c)
+            for (std::size_t i = 0; i < pixels.size(); ++i) planes[c][i] = wanted[c]->value(pixels[i]);
         impl.take(counts);
     } else {
         PipelineCounts counts;
-        pixels = impl.pipeline->render(prepared, impl.settings.progress, counts);
+        impl.pipeline->render(prepared, planes, impl.settings.progress, counts);
         impl.take(counts);
     }
-    Image image;
-    image.width = view.width;
-    image.height = view.height;
-    for (const ChannelSource& channel : channels) {
-        std::vector<float> values(pixels.size());
-        for (std::size_t i = 0; i < pixels.size(); ++i) values[i] = channel.value(pixels[i]);
-        image.names.emplace_back(channel.name);
-        image.channels.push_back(std::move(values));
-    }
+    image.attributes.clear();
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
     image.attributes["csgrt:precision"] = impl.statistics.precision;
@@ -211,7 +229,6 @@ Image Renderer::render(const View& view) {
     }
     describe_camera(prepared, image);
     impl.statistics.ms.frame = milliseconds_since(start);
-    return image;
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {

@@ -39,11 +39,22 @@ struct Settings {
     std::function<bool(double)> progress;
 };
 
+/// Groups of a picture's channels.
+namespace channel {
+inline constexpr std::uint32_t color = 1;     ///< R G B A
+inline constexpr std::uint32_t distance = 2;  ///< Z
+inline constexpr std::uint32_t normal = 4;    ///< N.X N.Y N.Z
+inline constexpr std::uint32_t ids = 8;       ///< region, solid
+inline constexpr std::uint32_t counts = 16;   ///< depth, partitions, overlap: only with every partition
+inline constexpr std::uint32_t all = 31;
+}  // namespace channel
+
 /// What to draw.
 struct View {
     int width = 1024, height = 1024;
     Camera camera;
-    bool every_partition = true;  ///< false: evaluation stops at the first hit; `overlap` counts only up to there
+    bool every_partition = true;  ///< false: only the first hits, several times faster, without channel::counts
+    std::uint32_t channels = channel::all;  ///< the picture's, in the order of their bits
 };
 
 struct Ray {
@@ -79,7 +90,8 @@ struct SolidInfo {
     std::uint32_t piece = 0;  ///< a pipe is several solids: 0 is the first
 };
 
-/// Figures of the last call. Times in milliseconds; those of the five kernels are the device's own.
+/// Figures of the last call. Times in milliseconds; those of the kernels are the device's own. Segments and partitions are
+/// not counted where only first hits were wanted, but for rays that needed the exact way.
 struct Statistics {
     std::string device, precision, method;
     std::string quartic;   ///< as in quartic_names
@@ -91,7 +103,11 @@ struct Statistics {
     std::uint32_t tiles = 0;
     struct {
         double load = 0, compile = 0, build = 0, count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0,
-               shade = 0, frame = 0, write = 0;
+               shade = 0, cull_blocks = 0, first_hits = 0, frame = 0, write = 0;
+        /// All that the device did for the frame.
+        double device() const {
+            return count_hits + scan + store_segments + weave + evaluate + shade + cull_blocks + first_hits;
+        }
     } ms;
 };
 
@@ -106,6 +122,8 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     Image render(const View& view);
+    /// The same into a picture whose memory is used again.
+    void render(const View& view, Image& image);
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
     /// The rays of a picture, by row from the top left.

@@ -9,7 +9,7 @@
 #include "revolve.h"
 #include "solid.h"
 
-FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
+FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
     End e;
     e.solid = solid;
     e.t = in;
@@ -22,7 +22,7 @@ FN void put_segment(GLOBAL End* ends, u32 solid, real in, u32 in_surface, real o
 
 // Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
 // two a segment, in then out, by ascending distance. `index` is the solid's own.
-FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
+FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
     hits h;
     u32 count = 0;
     r = ray_at(solid, r);

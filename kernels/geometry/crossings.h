@@ -18,7 +18,7 @@
 #define LEAVES 0x80000000u  // set in End.surface of an end where the ray leaves such a solid
 
 typedef struct {
-    GLOBAL End* ends;  // where the solid's ends go; 0: they are only counted
+    ENDS End* ends;  // where the solid's ends go; 0: they are only counted
     u32 solid;
     real t_min;         // segments that end before this are not wanted
     u32 behind, ahead;  // crossings before t_min, and the others
@@ -26,7 +26,7 @@ typedef struct {
     u32 last_surface;
 } crossings;
 
-FN crossings no_crossings(u32 solid, real t_min, GLOBAL End* ends) {
+FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
     crossings c;
     c.ends = ends;
     c.solid = solid;

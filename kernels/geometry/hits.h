@@ -48,6 +48,11 @@ typedef struct {
 #define QUARTIC_OF(g) (g).quartic
 #endif
 
+// Solids of which a ray may have more than two segments.
+#define MANY_SEGMENTS                                                                                            \
+    (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_SUPERELL | 1u << SOLID_PLATE | \
+     1u << SOLID_HRT | 1u << SOLID_METABALL)
+
 // What a ray knows of the solid that it is put to.
 FN ray3 ray_at(SolidRecord solid, ray3 r) {
 #ifdef CSGRT_EYE_RELATIVE

@@ -69,7 +69,7 @@ FN mesh_walk next_triangle(mesh_walk w) {
     }
 }
 
-FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
+FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
     crossings c = no_crossings(index, t_min, ends);
     GLOBAL const u32* mesh = g.words + solid.first_word;
     u32 facing = mesh[MESH_FACING], outs = 0;

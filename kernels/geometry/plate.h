@@ -46,7 +46,7 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     return s;
 }
 
-FN u32 plate_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, GLOBAL End* ends) {
+FN u32 plate_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* extents = g.reals + words[PLATE_EXTENTS];
     GLOBAL const real* place = g.reals + solid.first_real;

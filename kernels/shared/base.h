@@ -26,6 +26,12 @@ typedef real wide;
 #endif
 typedef uint u32;
 #define GLOBAL __global
+// Where a ray's ends are: in global memory, unless a program keeps them to the work-item.
+#ifdef CSGRT_PRIVATE_ENDS
+#define ENDS __private
+#else
+#define ENDS __global
+#endif
 #define FN static
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
@@ -38,6 +44,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 // The host includes kernels/ inside a namespace that has defined `real`, `wide`, `u32` and REAL_INFINITY
 // (src/kernel_host.hpp); src/host_math.hpp has the functions for each kind of number.
 #define GLOBAL
+#define ENDS
 #define FN [[maybe_unused]] static inline
 FN real real_sqrt(real x) { return host::root(x); }
 FN real real_fma(real a, real b, real c) { return host::fma(a, b, c); }
@@ -45,6 +52,7 @@ FN real real_abs(real x) { return x < 0 ? -x : x; }
 FN real real_floor(real x) { return host::floor(x); }
 FN int real_exponent(real x) { return host::exponent(x); }
 FN real real_scaled(real x, int e) { return host::scaled(x, e); }
+FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
 // As OpenCL's: of a NaN and a number, the number.
 FN float fmin(float a, float b) { return a < b || b != b ? a : b; }
 FN float fmax(float a, float b) { return a > b || b != b ? a : b; }

@@ -46,7 +46,8 @@ typedef struct {
     u32 first_real;
     u32 first_word;                  // into words, for solids of any size: counts, indices
     u32 first_plane, plane_count;    // into plane_refs
-    u32 first_region, region_count;  // into region_lists: the regions whose trees contain this solid, ascending
+    u32 first_start, start_count;    // into starts
+    u32 first_leaf, leaf_count;      // into leaves: where it stands in terms of more than SCANNED_WORDS, ascending
     SOLID_CENTER
 } SolidRecord;
 
@@ -83,6 +84,36 @@ typedef struct {
     u32 flags;
     u32 material;
 } RegionRecord;
+
+// A set of solids, known by a bit each, which others may share: what is not in the filter is not in the set.
+typedef struct {
+    u32 even, odd;
+} SolidFilter;
+
+FN SolidFilter filter_of(u32 solid) {
+    SolidFilter f;
+    u32 bit = 1u << (solid >> 1 & 31u);
+    f.even = solid & 1u ? 0u : bit;
+    f.odd = solid & 1u ? bit : 0u;
+    return f;
+}
+FN SolidFilter with(SolidFilter a, SolidFilter b) {
+    a.even |= b.even;
+    a.odd |= b.odd;
+    return a;
+}
+FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.odd & ~b.odd); }
+FN u32 meet(SolidFilter a, SolidFilter b) { return (a.even & b.even) || (a.odd & b.odd); }
+
+// A region's tree is a union of terms. A term's starts are leaves such that some one of them is covered wherever the term
+// is: all of a union, those of A in A - B, those of either in A and B. A record for each solid and term that it starts.
+typedef struct {
+    u32 region;
+    u32 first_word, end_word;  // of the term, in trees
+    SolidFilter needed;        // solids that all cover wherever the term is
+    SolidFilter solids;        // all of the term's
+} StartRecord;
+#define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
 
 typedef struct {
     float r, g, b;
@@ -128,6 +159,9 @@ typedef struct {
     u32 first_ray, ray_count;  // this tile
     u32 solid_count, unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: evaluation stops at the first claimed partition
+    u32 picked;            // 1: the tile's rays are those whose numbers are listed
+    u32 channels;          // of the picture: CHANNEL_x bits
+    u32 first_row, rows, first_column, columns;  // of the pixels that the tile's rays lie in
 } Frame;
 
 // Rays are numbered in blocks of 8 x 8 pixels, so that the work-items of a group look at neighbours.
@@ -143,9 +177,14 @@ typedef struct {
 typedef struct {
     u32 segments;  // of the ray
     u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
-    u32 regions;   // references to regions by the ray's segments: an upper bound of the regions that may claim
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
+
+// 1 count hits -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
+typedef struct {
+    u32 ray, solid;
+    u32 count, before;  // segments: how many, and how many the ray has of earlier candidates
+} Candidate;
 
 // 2 store segments -> weave: two ends a segment, in then out, by ascending solid.
 typedef struct {
@@ -154,23 +193,24 @@ typedef struct {
     u32 surface;  // which surface of the solid; see geometry/<solid>.h
 } End;
 
-// 3 weave -> evaluate: doubly linked lists by index into the ray's own 2 * segments nodes.
+// 3 weave -> evaluate: linked lists by index into the ray's own 2 * segments nodes.
 typedef struct {
-    u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition
-    u32 next, prev;       // NONE: no more
+    u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition; NONE: the node is none
+    u32 next;             // before weaving: the end that is in this place by distance; NONE: no more
+    u32 ray;
     u32 region;           // after evaluation: the region that claimed it, or NONE; OVERLAP is set if several wanted it
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
 
-// 3 weave and 4 evaluate -> shade
+// 3 weave -> shade
 typedef struct {
-    u32 first;       // node of the first partition, then (evaluate) of the first one claimed; NONE: none
+    u32 first;       // node of the first partition, then (shade) of the first one seen; NONE: none
     u32 partitions;  // woven
     u32 overlaps;    // partitions that more than one region wanted
 } RayResult;
 
-// 5 shade -> host
+// What is seen at one pixel; what of it the host gets is in Frame.channels.
 typedef struct {
     float rgba[4];
     float z;
@@ -178,6 +218,13 @@ typedef struct {
     u32 region, solid;  // + 1; 0: nothing
     u32 depth, partitions, overlap;
 } Pixel;
+
+// The picture: a plane of columns x rows floats for each channel, in this order.
+#define CHANNEL_COLOR 1u     // R G B A
+#define CHANNEL_DISTANCE 2u  // Z
+#define CHANNEL_NORMAL 4u    // N.X N.Y N.Z
+#define CHANNEL_IDS 8u       // region, solid
+#define CHANNEL_COUNTS 16u   // depth, partitions, overlap
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }

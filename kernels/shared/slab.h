@@ -15,6 +15,7 @@ typedef struct {
     float t_min;       // in the hierarchy's own parameter
     float pad;         // single precision: by which boxes grow
     int hits_sphere;   // 0: nothing can be hit
+    real shift, length;  // the hierarchy's parameter is length * t - shift
 } slab_ray;
 
 #define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)
@@ -31,6 +32,8 @@ FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
     real pad = (radius + real_max(real_abs(o.x.hi), real_max(real_abs(o.y.hi), real_abs(o.z.hi)))) * REAL(0x1p-16);
     real reach = radius * SLAB_REACH;
     s.pad = (float)pad;
+    s.shift = shift;
+    s.length = length;
     if (sizeof(real) == 4) reach = reach + REAL(2) * pad;
     s.hits_sphere = dot3(p, p) <= reach * reach;
     s.px = (float)p.x;
@@ -45,14 +48,25 @@ FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
 
 FN float grown(float x, float pad) { return sizeof(real) == 4 ? x + pad : x; }
 
+#define BOX_MISSED 3.0e38f
+
+// Where the ray enters the box, at the latest, in the hierarchy's parameter; BOX_MISSED: it does not.
 // fmin and fmax pass a NaN by: 0 * infinity arises only for a ray within a padded face's plane, outside the true box.
-FN int box_is_hit(slab_ray s, BvhNode node) {
+FN float box_entry(slab_ray s, BvhNode node) {
     float x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
     float y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
     float z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
     float in = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), s.t_min));
     float out = fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmax(z0, z1));
-    return in <= out;
+    return in <= out ? in : BOX_MISSED;
+}
+
+FN int box_is_hit(slab_ray s, BvhNode node) { return box_entry(s, node) < BOX_MISSED; }
+
+// A distance along the ray that nothing in a box comes before which is entered at `at`. The box's padding covers the
+// rounding of its own test, not that of a far origin's distance.
+FN real distance_before(slab_ray s, float at) {
+    return (REAL(at) + s.shift - real_abs(s.shift) * BY_PRECISION(0x1p-20, 0x1p-49, 0x1p-100)) / s.length;
 }
 
 #endif

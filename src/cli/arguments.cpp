@@ -98,7 +98,7 @@ void define(Options& options, RenderArguments& arguments) {
                    arguments.elevation, -unlimited, unlimited, "an angle in degrees");
     options.number("--perspective", "DEG", "angle of view, 0 is orthographic; the scene's, or 0, if not given",
                    arguments.perspective, 0, 180, "an angle in degrees, from 0 to less than 180");
-    options.flag("--first-hit", "stop each ray at its first hit; overlaps behind it are not counted",
+    options.flag("--first-hit", "draw the first hits only, several times faster: no depth, partitions and overlap",
                  arguments.first_hit);
     define_either(options, arguments.settings);
     options.text("--stats", "FILE", "write the figures of the frame as JSON; - is standard output", arguments.stats);

@@ -19,7 +19,8 @@ constexpr std::pair<const char*, double Times::*> times[] = {
     {"build", &Times::build}, {"count_hits", &Times::count_hits},
     {"scan", &Times::scan},   {"store_segments", &Times::store_segments},
     {"weave", &Times::weave}, {"evaluate", &Times::evaluate},
-    {"shade", &Times::shade}, {"frame", &Times::frame},
+    {"shade", &Times::shade}, {"cull_blocks", &Times::cull_blocks},
+    {"first_hits", &Times::first_hits}, {"frame", &Times::frame},
     {"write", &Times::write},
 };
 

@@ -31,7 +31,8 @@ struct CompiledScene {
     std::vector<kernel::PlaneRef> plane_refs;
     std::vector<std::uint32_t> words;
     std::vector<kernel::BvhNode> inner_nodes;
-    std::vector<std::uint32_t> region_lists;
+    std::vector<kernel::StartRecord> starts;
+    std::vector<std::uint32_t> leaves;
     std::vector<kernel::RegionRecord> regions;
     std::vector<std::uint32_t> trees;
     std::vector<kernel::MaterialRecord> materials;

@@ -100,6 +100,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     frame.height = static_cast<std::uint32_t>(view.height);
     frame.perspective = camera.perspective > 0;
     frame.every_partition = view.every_partition;
+    frame.channels = view.channels & (view.every_partition ? channel::all : channel::all & ~channel::counts);
 
     result.lights = scene.lights;
     if (result.lights.empty()) {

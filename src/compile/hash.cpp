@@ -49,7 +49,8 @@ std::uint64_t hash_of(const CompiledScene& scene) {
     hash.add_all(scene.plane_refs);
     hash.add_all(scene.words);
     hash.add_all(scene.inner_nodes);
-    hash.add_all(scene.region_lists);
+    hash.add_all(scene.starts);
+    hash.add_all(scene.leaves);
     hash.add_all(scene.regions);
     hash.add_all(scene.trees);
     hash.add_all(scene.materials);

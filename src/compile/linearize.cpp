@@ -5,13 +5,15 @@
 // where p and n are lists of finished binary nodes, and perhaps the complement of that. Unions, intersections and
 // differences all come from "all of p, none of n" by de Morgan's laws, so chains of one kind become one list,
 // complements move upward until they vanish, and x - (y - z) or x + !y take no special care. A list is finished as a
-// right-deep chain with its deepest member last: left children are pushed on the walk's stack, so the chain then needs
-// as few entries as any order of its members does. Lists are linked: joining two takes no time, however long a chain of
-// the model is.
+// balanced tree, whatever chain the model has, so that the walk's way to any leaf is short. Lists are linked: joining two
+// takes no time, however long a chain of the model is.
 
 #include "compile/linearize.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <queue>
+#include <tuple>
 
 namespace csgrt {
 
@@ -86,8 +88,7 @@ private:
     std::uint32_t add_leaf(std::uint32_t solid);
     std::uint32_t add_node(std::uint32_t op, std::uint32_t left, std::uint32_t right);
     std::uint32_t add_difference(std::uint32_t from, std::uint32_t what);
-    std::uint32_t chain(std::uint32_t op, const List& list, std::uint32_t deepest);
-    std::uint32_t deepest(const List& list) const;
+    std::uint32_t join(std::uint32_t op, const List& list);
 
     std::vector<Node> nodes_;
     std::vector<Cell> cells_;
@@ -126,40 +127,31 @@ std::uint32_t Linearizer::add_difference(std::uint32_t from, std::uint32_t what)
     return add_node(OP_REVERSE_DIFFERENCE, what, from);
 }
 
-/// The cell of the member that needs the deepest stack; of equals the last.
-std::uint32_t Linearizer::deepest(const List& list) const {
-    std::uint32_t best = list.first;
+/// All members under one operator. Those with the least stacks are joined first, so that the way to each member is short
+/// and, because two equal stacks make one of one more, no tree of n leaves needs more than log2(n) entries.
+std::uint32_t Linearizer::join(std::uint32_t op, const List& list) {
+    using Member = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // stack, when it came, node
+    std::priority_queue<Member, std::vector<Member>, std::greater<>> members;
+    std::uint32_t came = 0;
     for (std::uint32_t cell = list.first; cell != none; cell = cells_[cell].next)
-        if (nodes_[cells_[cell].node].stack >= nodes_[cells_[best].node].stack) best = cell;
-    return best;
-}
-
-/// op(m0, op(m1, ... last)) over all members but the one in cell `without`, in order.
-std::uint32_t Linearizer::chain(std::uint32_t op, const List& list, std::uint32_t without) {
-    std::vector<std::uint32_t> members;
-    for (std::uint32_t cell = list.first; cell != none; cell = cells_[cell].next)
-        if (cell != without) members.push_back(cells_[cell].node);
-    std::uint32_t node = cells_[without].node;
-    for (auto member = members.rbegin(); member != members.rend(); ++member) node = add_node(op, *member, node);
-    return node;
+        members.emplace(nodes_[cells_[cell].node].stack, came++, cells_[cell].node);
+    for (;;) {
+        const std::uint32_t first = std::get<2>(members.top());
+        members.pop();
+        if (members.empty()) return first;
+        const std::uint32_t second = std::get<2>(members.top());
+        members.pop();
+        const std::uint32_t node = add_node(op, first, second);
+        members.emplace(nodes_[node].stack, came++, node);
+    }
 }
 
 std::uint32_t Linearizer::finish(const Operand& operand) {
     if (is_single(operand)) return cells_[operand.p.first].node;
-    const std::uint32_t last = deepest(operand.p);
-    switch (operand.kind) {
-        case Kind::any:
-            return chain(OP_UNION, operand.p, last);
-        case Kind::odd:
-            return chain(OP_XOR, operand.p, last);
-        case Kind::all:
-            break;
-    }
-    if (!operand.n.empty()) {
-        const std::uint32_t excluded = chain(OP_UNION, operand.n, deepest(operand.n));
-        cells_[last].node = add_difference(cells_[last].node, excluded);
-    }
-    return chain(OP_INTERSECTION, operand.p, last);
+    if (operand.kind == Kind::any) return join(OP_UNION, operand.p);
+    if (operand.kind == Kind::odd) return join(OP_XOR, operand.p);
+    const std::uint32_t all = join(OP_INTERSECTION, operand.p);
+    return operand.n.empty() ? all : add_difference(all, join(OP_UNION, operand.n));
 }
 
 /// All of the operands from `first` on, each perhaps complemented.

@@ -1,200 +1,84 @@
 #include "pipeline/pipeline.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <chrono>
 
 #include "kernel_geometry.hpp"
 
 namespace csgrt {
-namespace kernel {
-#define CSGRT_TREE_STACK TREE_STACK
-#include "../../kernels/boolean.h"
-}  // namespace kernel
-
 namespace {
 
-constexpr std::size_t group = 64;           // work-items: one size for all kernels, so that each is compiled once
-constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
-// What a ray needs on the device whatever it hits, pictured or listed, with its share of the scan's sums.
-constexpr std::uint64_t ray_bytes =
-    sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + std::max(sizeof(kernel::Pixel), sizeof(kernel::RayRecord)) + 4;
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
+constexpr std::uint32_t block_rays = BLOCK * BLOCK;
 
-std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
-    std::vector<std::string> defines = {
-            "CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
-            "CSGRT_TREE_STACK=" + std::to_string(std::max(1u, scene.tree_stack)),
-            "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
-    if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
-    if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
-    return defines;
+template <class Make>
+double timed(const Make& make) {
+    const auto start = std::chrono::steady_clock::now();
+    make();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::uint64_t pixel_bytes(const kernel::Frame& frame) {
+    std::uint64_t floats = 0;
+    const auto add = [&](std::uint32_t channels, std::uint64_t planes) {
+        if (frame.channels & channels) floats += planes;
+    };
+    add(CHANNEL_COLOR, 4);
+    add(CHANNEL_DISTANCE, 1);
+    add(CHANNEL_NORMAL, 3);
+    add(CHANNEL_IDS, 2);
+    add(CHANNEL_COUNTS, 3);
+    return floats * sizeof(float);
+}
+
+std::uint64_t row_of_blocks(const kernel::Frame& frame) {
+    return (std::uint64_t{frame.width} + BLOCK - 1) / BLOCK * block_rays;
 }
 
 }  // namespace
-
-SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables)
-    : solids(device, "solids", tables.solids),
-      reals(device, "solids' parameters", tables.reals),
-      planes(device, "planes", tables.planes),
-      plane_refs(device, "references to planes", scene.plane_refs),
-      words(device, "solids' parts", scene.words),
-      inner_nodes(device, "bounding volumes of solids' parts", tables.inner_nodes),
-      region_lists(device, "solids' regions", scene.region_lists),
-      regions(device, "regions", scene.regions),
-      trees(device, "trees", scene.trees),
-      materials(device, "materials", scene.materials),
-      nodes(device, "bounding volumes", tables.nodes) {}
-
-struct Pipeline::Tile {
-    std::uint32_t first_ray = 0, rays = 0;
-    kernel::RayCount total{};
-};
 
 Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
     : device_(device),
       scene_(scene),
       kernels_(kernels),
+      settings_(settings),
       buffers_(device, scene, kernels.tables()),
-      program_(device,
-               assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
-               defines_of(scene, settings), settings.precision != Precision::double_),
-      count_hits_(program_.kernel("count_hits")),
-      scan_blocks_(program_.kernel("scan_blocks")),
-      scan_add_(program_.kernel("scan_add")),
-      store_segments_(program_.kernel("store_segments")),
-      weave_(program_.kernel("weave")),
-      evaluate_(program_.kernel("evaluate")),
-      shade_(program_.kernel("shade")),
-      frame_(device, "frame"),
-      lights_(device, "lights"),
-      rays_(device, "rays"),
-      counts_(device, "counts"),
-      results_(device, "results"),
-      pixels_(device, "pixels"),
-      ends_(device, "segments"),
-      partitions_(device, "partitions"),
-      bits_(device, "partitions' bits"),
-      candidates_(device, "candidate regions") {}
+      tile_(device) {}
 
-// Exclusive prefix sums over the first `size` counts, level by level.
-double Pipeline::scan(std::uint32_t size) {
-    std::vector<std::uint32_t> sizes{size};
-    while (sizes.back() > 1) sizes.push_back((sizes.back() + scan_block - 1) / scan_block);
-    while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
-    std::vector<Event> events;
-    const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts_ : *sums_[i]; };
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
-        level(i + 1).reserve(sizes[i + 1] * sizeof(kernel::RayCount));
-        events.push_back(scan_blocks_.launch(sizes[i + 1] * group, group, level(i), level(i + 1), sizes[i]));
-    }
-    for (std::size_t i = sizes.size() - 1; i-- > 1;)
-        events.push_back(scan_add_.launch(sizes[i - 1], group, level(i - 1), level(i), sizes[i - 1]));
-    double sum = 0;
-    for (const Event& event : events) sum += milliseconds(event);
-    return sum;
+Exact& Pipeline::exact() {
+    if (!exact_) build_ms_ += timed([&] { exact_.emplace(device_, scene_, kernels_, settings_); });
+    return *exact_;
 }
 
-// Gives back what holds segments and partitions: memory that another use of the budget wants.
-void Pipeline::release_counted() {
-    for (Buffer* buffer : {&ends_, &partitions_, &bits_, &candidates_}) *buffer = Buffer(device_, buffer->name());
+FirstHits& Pipeline::first_hits() {
+    if (!first_hits_) build_ms_ += timed([&] { first_hits_.emplace(device_, scene_, settings_); });
+    return *first_hits_;
 }
 
-// Returns false if the tile's segments do not fit; nothing is lost then, the caller takes a smaller tile.
-bool Pipeline::run_tile(const PreparedFrame& prepared, Tile& tile, bool pictured, PipelineCounts& counts) {
-    kernel::Frame frame = prepared.frame;
-    frame.first_ray = tile.first_ray;
-    frame.ray_count = tile.rays;
-    const std::size_t entries = std::size_t{tile.rays} + 1;
-    if (tile.rays * ray_bytes > device_.available()) release_counted();
-    counts_.reserve(entries * sizeof(kernel::RayCount));
-    results_.reserve(tile.rays * sizeof(kernel::RayResult));
-    if (pictured) pixels_.reserve(tile.rays * sizeof(kernel::Pixel));
-    if (frame.listed) {  // the device holds this tile's part of the list only
-        frame.first_ray = 0;
-        const std::size_t bytes = kernels_.ray_bytes();
-        rays_.reserve(tile.rays * bytes);
-        rays_.upload(list_.data() + tile.first_ray * bytes, tile.rays * bytes);
-    }
-    const std::vector<std::byte> frame_bytes = kernels_.frame(frame);
-    frame_.reserve(frame_bytes.size());
-    frame_.upload(frame_bytes);
-
-    const SceneBuffers& s = buffers_;
-    const kernel::RayCount zero{};
-    counts_.upload(&zero, sizeof zero, tile.rays * sizeof zero);
-    const Event count = count_hits_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, s.nodes,
-                                           rays_, counts_);
-    const double scan_time = scan(static_cast<std::uint32_t>(entries));
-    counts_.read(&tile.total, sizeof tile.total, tile.rays * sizeof tile.total);
-    counts.count_hits += milliseconds(count);
-    counts.scan += scan_time;
-
-    const kernel::RayCount total = tile.total;
-    const std::uint64_t node_count = 2 * std::uint64_t{total.segments};
-    const std::uint64_t end_bytes = node_count * kernels_.end_bytes();
-    const std::uint64_t node_bytes = node_count * sizeof(kernel::PartitionNode);
-    const std::uint64_t bit_bytes = std::uint64_t{total.words} * sizeof(std::uint32_t);
-    const std::uint64_t candidate_bytes = std::uint64_t{total.regions} * sizeof(std::uint32_t);
-    const std::uint64_t largest = std::max({end_bytes, node_bytes, bit_bytes, candidate_bytes});
-    // Buffers only grow, unless that would not fit.
-    const std::uint64_t held = ends_.size() + partitions_.size() + bits_.size() + candidates_.size();
-    const std::uint64_t grown = std::max<std::uint64_t>(end_bytes, ends_.size()) +
-                                std::max<std::uint64_t>(node_bytes, partitions_.size()) +
-                                std::max<std::uint64_t>(bit_bytes, bits_.size()) +
-                                std::max<std::uint64_t>(candidate_bytes, candidates_.size());
-    if (grown > device_.available() + held) release_counted();
-    const bool saturated = total.segments >= NONE / 2 || total.words == COUNT_MAX || total.regions == COUNT_MAX;
-    if (saturated || largest > device_.max_buffer()) return false;
-    const std::uint64_t free = device_.available() + ends_.size() + partitions_.size() + bits_.size() + candidates_.size();
-    if (end_bytes + node_bytes + bit_bytes + candidate_bytes > free) return false;
-    ends_.reserve(end_bytes);
-    partitions_.reserve(node_bytes);
-    bits_.reserve(bit_bytes);
-    candidates_.reserve(candidate_bytes);
-
-    const Event store = store_segments_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.reals, s.planes,
-                                               s.plane_refs, s.words, s.inner_nodes, s.nodes, rays_, counts_, ends_);
-    const Event weave = weave_.launch(tile.rays, group, frame_, rays_, counts_, ends_, partitions_, bits_, results_);
-    const Event evaluate = evaluate_.launch(total.segments ? tile.rays : 0, group, frame_, s.solids, s.regions,
-                                            s.region_lists, s.trees, counts_, ends_, partitions_, bits_, candidates_, results_);
-    Event shade;
-    if (pictured)
-        shade = shade_.launch(tile.rays, group, frame_, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, s.regions, s.materials,
-                              lights_, counts_, ends_, partitions_, results_, pixels_);
-    counts.store_segments += milliseconds(store);
-    counts.weave += milliseconds(weave);
-    counts.evaluate += milliseconds(evaluate);
-    counts.shade += milliseconds(shade);
-
-    counts.segments += total.segments;
-    counts.hits += node_count;
-    counts.partitions_allocated += node_count;
-    counts.segment_bytes += end_bytes;
-    counts.partition_bytes += node_bytes + bit_bytes + candidate_bytes;
-    ++counts.tiles;
-    return true;
+// Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
+std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
+    const std::uint64_t held = tile_.picture.size() + tile_.rays.size() + (exact_ ? exact_->held() : 0) +
+                               (first_hits_ ? first_hits_->held() : 0);
+    const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
+    return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
 
-void Pipeline::for_each_tile(const PreparedFrame& prepared, bool pictured, const Progress& progress, PipelineCounts& counts,
-                             const std::function<void(const Tile&)>& finish) {
-    const std::vector<std::byte> lights = kernels_.lights(prepared.lights);
-    lights_.reserve(lights.size());
-    if (!lights.empty()) lights_.upload(lights);
+// For what a tile's rays need, whatever they hit: what the last call left may be in the way.
+void Pipeline::make_room(std::uint64_t bytes) {
+    if (bytes <= device_.available() + tile_.picture.size()) return;
+    if (exact_) exact_->release();
+    if (first_hits_) first_hits_->release();
+}
 
-    // A quarter of the budget goes to what every ray needs, the rest to segments and partitions.
-    if (pictured) rays_ = Buffer(device_, rays_.name());
-    if (!pictured) pixels_ = Buffer(device_, pixels_.name());
-    const std::uint64_t held = counts_.size() + results_.size() + pixels_.size() + rays_.size() + ends_.size() +
-                               partitions_.size() + bits_.size() + candidates_.size();
-    const std::uint64_t fitting = std::min((device_.available() + held) / (4 * ray_bytes), device_.max_buffer() / ray_bytes);
-    std::uint64_t size = std::max<std::uint64_t>(1, std::min({fitting, most_rays, prepared.rays}));
-
+// `row`: tiles are whole numbers of these, or parts of one.
+void Pipeline::for_each_tile(std::uint64_t rays, std::uint64_t size, std::uint64_t row, const Progress& progress,
+                             const std::function<bool(const Tile&)>& work) {
     std::uint64_t first = 0;
-    while (first < prepared.rays) {
-        Tile tile;
-        tile.first_ray = static_cast<std::uint32_t>(first);
-        tile.rays = static_cast<std::uint32_t>(std::min(size, prepared.rays - first));
-        if (!run_tile(prepared, tile, pictured, counts)) {
+    while (first < rays) {
+        size = size >= row ? size / row * row : size;
+        const std::uint64_t most = first % row == 0 && size >= row ? size : std::min(size, row - first % row);
+        const Tile tile{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(most, rays - first))};
+        if (!work(tile)) {
             if (tile.rays == 1)
                 throw Error(Status::out_of_memory,
                             "the segments of one ray do not fit the device's memory (" +
@@ -202,91 +86,117 @@ void Pipeline::for_each_tile(const PreparedFrame& prepared, bool pictured, const
             size = tile.rays / 2;
             continue;
         }
-        finish(tile);
         first += tile.rays;
-        if (progress && !progress(static_cast<double>(first) / static_cast<double>(prepared.rays)))
+        if (progress && !progress(static_cast<double>(first) / static_cast<double>(rays)))
             throw Error(Status::interrupted, "interrupted");
     }
 }
 
-std::vector<kernel::Pixel> Pipeline::render(const PreparedFrame& prepared, const Progress& progress, PipelineCounts& counts) {
-    const std::uint32_t width = prepared.frame.width, height = prepared.frame.height;
-    std::vector<kernel::Pixel> pixels(std::size_t{width} * height);
-    std::vector<kernel::Pixel> blocks;
-    for_each_tile(prepared, true, progress, counts, [&](const Tile& tile) {
-        blocks.resize(tile.rays);
-        pixels_.read(blocks.data(), tile.rays * sizeof(kernel::Pixel));
-        for (std::uint32_t i = 0; i < tile.rays; ++i) {
-            const kernel::pixel_position at = kernel::pixel_of(tile.first_ray + i, width, height);
-            if (!at.inside) continue;
-            pixels[std::size_t{at.y} * width + at.x] = blocks[i];
-            counts.partitions_used += blocks[i].partitions;
-            counts.overlaps += blocks[i].overlap;
+kernel::Frame Pipeline::frame_of(const PreparedFrame& prepared, const Tile& tile) const {
+    kernel::Frame frame = prepared.frame;
+    frame.first_ray = tile.first;
+    frame.ray_count = tile.rays;
+    if (frame.listed) {
+        frame.first_ray = 0;  // the device holds this tile's part of the list only
+        return frame;
+    }
+    const auto row = static_cast<std::uint32_t>(row_of_blocks(frame));
+    frame.first_row = tile.first / row * BLOCK;
+    frame.rows = std::min((tile.first + tile.rays - 1) / row * BLOCK + BLOCK, frame.height) - frame.first_row;
+    frame.columns = frame.width;
+    if (tile.rays < row) {  // part of a row
+        frame.first_column = tile.first % row / block_rays * BLOCK;
+        frame.columns = std::min<std::uint32_t>(((tile.first + tile.rays - 1) % row / block_rays + 1) * BLOCK, frame.width) -
+                        frame.first_column;
+    }
+    return frame;
+}
+
+void Pipeline::upload(const kernel::Frame& frame) {
+    const std::vector<std::byte> bytes = kernels_.frame(frame);
+    tile_.frame.reserve(bytes.size());
+    tile_.frame.upload(bytes);
+}
+
+void Pipeline::upload_lights(const PreparedFrame& prepared) {
+    const std::vector<std::byte> lights = kernels_.lights(prepared.lights);
+    tile_.lights.reserve(lights.size());
+    if (!lights.empty()) tile_.lights.upload(lights);
+}
+
+void Pipeline::read_picture(const kernel::Frame& frame, const std::vector<float*>& planes) {
+    const std::size_t width = frame.width, size = std::size_t{frame.columns} * frame.rows;
+    if (frame.columns == frame.width && frame.ray_count % row_of_blocks(frame) == 0) {
+        for (std::size_t i = 0; i < planes.size(); ++i)
+            tile_.picture.read(planes[i] + frame.first_row * width, size * sizeof(float), i * size * sizeof(float));
+        return;
+    }
+    const auto values = tile_.picture.read<float>(planes.size() * size);
+    for (std::uint32_t ray = frame.first_ray; ray < frame.first_ray + frame.ray_count; ++ray) {
+        const kernel::pixel_position at = kernel::pixel_of(ray, frame.width, frame.height);
+        if (!at.inside) continue;
+        const std::size_t from = std::size_t{at.y - frame.first_row} * frame.columns + (at.x - frame.first_column);
+        for (std::size_t i = 0; i < planes.size(); ++i) planes[i][at.y * width + at.x] = values[i * size + from];
+    }
+}
+
+// Into the picture of the tile that they are of.
+void Pipeline::draw_picked(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, PipelineCounts& counts) {
+    for_each_tile(numbers.size(), fitting(Exact::ray_bytes + sizeof(std::uint32_t)), 1, nullptr, [&](const Tile& tile) {
+        make_room(tile.rays * (sizeof(std::uint32_t) + Exact::ray_bytes));
+        tile_.rays.reserve(tile.rays * sizeof(std::uint32_t));
+        tile_.rays.upload(numbers.data() + tile.first, tile.rays * sizeof(std::uint32_t));
+        frame.picked = 1;
+        frame.ray_count = tile.rays;
+        upload(frame);
+        return exact().run(buffers_, tile_, tile.rays, true, counts);
+    });
+}
+
+void Pipeline::render(const PreparedFrame& prepared, const std::vector<float*>& planes, const Progress& progress,
+                      PipelineCounts& counts) {
+    const bool every = prepared.frame.every_partition;
+    upload_lights(prepared);
+    tile_.rays = Buffer(device_, tile_.rays.name());
+    every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
+    const std::uint64_t bytes = pixel_bytes(prepared.frame) + (every ? Exact::ray_bytes : FirstHits::ray_bytes);
+    for_each_tile(prepared.rays, fitting(bytes), row_of_blocks(prepared.frame), progress, [&](const Tile& tile) {
+        const kernel::Frame frame = frame_of(prepared, tile);
+        const std::uint64_t picture = std::uint64_t{frame.columns} * frame.rows * pixel_bytes(frame);
+        make_room(picture + tile.rays * bytes);
+        tile_.picture.reserve(picture);
+        upload(frame);
+        if (every) {
+            if (!exact().run(buffers_, tile_, tile.rays, true, counts)) return false;
+            exact().add_results(tile.rays, counts);
+        } else {
+            const std::vector<std::uint32_t> overflown = first_hits().run(buffers_, tile_, tile.rays, counts);
+            if (!overflown.empty()) draw_picked(frame, overflown, counts);
         }
+        read_picture(frame, planes);
+        ++counts.tiles;
+        return true;
     });
-    return pixels;
-}
-
-// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
-std::vector<std::uint32_t> Pipeline::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
-    const kernel::cover cover{ends, bits, segments};
-    std::vector<std::uint32_t> table;
-    for (std::uint32_t s = 0; s < segments; ++s) {
-        if (!kernel::covers(cover, s)) continue;
-        const kernel::SolidRecord& solid = scene_.solids[ends[2 * s].solid];
-        for (std::uint32_t i = 0; i < solid.region_count; ++i) table.push_back(scene_.region_lists[solid.first_region + i]);
-    }
-    std::sort(table.begin(), table.end());
-    table.erase(std::unique(table.begin(), table.end()), table.end());
-    std::erase_if(table, [&](std::uint32_t region) {
-        const kernel::RegionRecord& record = scene_.regions[region];
-        return !(record.flags & REGION_UNION_ONLY) && !kernel::evaluate_tree(scene_.trees.data(), record.first_word, cover);
-    });
-    return table;
-}
-
-std::vector<ClaimedPartition> Pipeline::claims_of(const std::vector<kernel::End>& ends,
-                                                  const std::vector<kernel::PartitionNode>& nodes,
-                                                  const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
-                                                  const kernel::RayCount& end, std::uint32_t first_node) const {
-    std::vector<ClaimedPartition> claims;
-    const std::uint32_t segments = end.segments - begin.segments;
-    const std::size_t base = 2 * std::size_t{begin.segments};
-    for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
-        const kernel::PartitionNode& partition = nodes[base + node];
-        const std::uint32_t region = partition.region & ~OVERLAP;
-        if (region == NONE) continue;
-        ClaimedPartition claim;
-        claim.in = ends[base + partition.in_end];
-        claim.out = ends[base + partition.out_end];
-        claim.in_leaves = partition.in_end % 2 == 1;
-        claim.out_enters = partition.out_end % 2 == 0;
-        claim.region = region;
-        if (partition.region & OVERLAP)
-            claim.claimants = claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
-        claims.push_back(std::move(claim));
-    }
-    return claims;
 }
 
 std::vector<RayPartitions> Pipeline::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
                                            const Progress& progress, PipelineCounts& counts) {
-    list_ = kernels_.rays(rays);
+    const std::vector<std::byte> list = kernels_.rays(rays);
+    const std::size_t bytes = kernels_.ray_bytes();
     std::vector<RayPartitions> answers(rays.size());
-    for_each_tile(prepared, false, progress, counts, [&](const Tile& tile) {
-        const auto offsets = counts_.read<kernel::RayCount>(std::size_t{tile.rays} + 1);
-        const auto results = results_.read<kernel::RayResult>(tile.rays);
-        const auto ends =
-            kernels_.ends(ends_.read<std::byte>(2 * std::size_t{tile.total.segments} * kernels_.end_bytes()));
-        const auto nodes = partitions_.read<kernel::PartitionNode>(2 * std::size_t{tile.total.segments});
-        const auto bits = bits_.read<std::uint32_t>(tile.total.words);
-        for (std::uint32_t i = 0; i < tile.rays; ++i) {
-            counts.partitions_used += results[i].partitions;
-            counts.overlaps += results[i].overlaps;
-            // The first claimed partition is where the list is worth reading from.
-            const auto claims = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], results[i].first);
-            answers[tile.first_ray + i] = to_partitions(kernels_, prepared.frame, rays[tile.first_ray + i], claims);
-        }
+    tile_.picture = Buffer(device_, tile_.picture.name());
+    exact();
+    for_each_tile(rays.size(), fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
+        make_room(tile.rays * (bytes + Exact::ray_bytes));
+        tile_.rays.reserve(tile.rays * bytes);
+        tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);
+        upload(frame_of(prepared, tile));
+        if (!exact().run(buffers_, tile_, tile.rays, false, counts)) return false;
+        const auto claims = exact().claims(tile.rays, counts);
+        for (std::uint32_t i = 0; i < tile.rays; ++i)
+            answers[tile.first + i] = to_partitions(kernels_, prepared.frame, rays[tile.first + i], claims[i]);
+        ++counts.tiles;
+        return true;
     });
     return answers;
 }

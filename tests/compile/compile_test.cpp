@@ -51,9 +51,14 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(c.materials[c.regions[0].material].shine == 10);
 
     for (std::uint32_t i = 0; i < c.solids.size(); ++i) {
-        REQUIRE(c.solids[i].region_count == 1);
-        const std::uint32_t region = c.region_lists[c.solids[i].first_region];
-        const auto& nodes = c.flat_trees[region].nodes;
+        const bool is_hole = c.solid_info[i].name == "hole";
+        REQUIRE(c.solids[i].start_count == (is_hole ? 0 : 1));
+        if (is_hole) continue;
+        const kernel::StartRecord& start = c.starts[c.solids[i].first_start];
+        CHECK(kernel::within(kernel::filter_of(i), start.needed));
+        CHECK(kernel::within(kernel::filter_of(i), start.solids));
+        CHECK(std::count(c.trees.begin() + start.first_word, c.trees.begin() + start.end_word, OP_LEAF << TREE_SHIFT | i) == 1);
+        const auto& nodes = c.flat_trees[start.region].nodes;
         CHECK(std::any_of(nodes.begin(), nodes.end(),
                           [&](const auto& n) { return n.op == Operator::leaf && n.solid == i; }));
     }
@@ -65,21 +70,24 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(near(c.radius, std::sqrt(25 + 25 + 4.0), 1e-9));
 }
 
-TEST_CASE("solids of several regions list them ascending, once each") {
+TEST_CASE("solids list the terms that they start") {
     Scene s = scene({ball("a"), ball("b", {0.5, 0, 0}), region("r1", {leg("a"), leg("b"), both}),
                      region("r2", {leg("b"), leg("b"), leg("a"), op(Operator::union_, 3)}), region("r3", {leg("b")}),
                      region("r4", {leg("a"), leg("b"), less})});
     const CompiledScene c = compile(s, {"r1", "r2", "r3", "r4"});
     REQUIRE(c.solids.size() == 2);
     CHECK(c.instances == 8);
-    CHECK(c.region_lists.size() == 7);
-    for (const kernel::SolidRecord& record : c.solids) {
-        const bool is_b = record.region_count == 4;
-        const std::vector<std::uint32_t> list(c.region_lists.begin() + record.first_region,
-                                              c.region_lists.begin() + record.first_region + record.region_count);
-        CHECK(list == (is_b ? std::vector<std::uint32_t>{0, 1, 2, 3} : std::vector<std::uint32_t>{0, 1, 3}));
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const kernel::SolidRecord& record = c.solids[i];
+        std::vector<std::uint32_t> starts;
+        for (std::uint32_t k = 0; k < record.start_count; ++k) starts.push_back(c.starts[record.first_start + k].region);
+        CHECK(record.leaf_count == 0);  // only in large terms
+        // One of the two starts r1, a starts r4, both r2.
+        starts.erase(std::remove(starts.begin(), starts.end(), 0u), starts.end());
+        const bool is_b = c.solid_info[i].name == "b";
+        CHECK(starts == (is_b ? std::vector<std::uint32_t>{1, 1, 2} : std::vector<std::uint32_t>{1, 3}));
     }
-    CHECK(c.solids[0].region_count + c.solids[1].region_count == 7);
+    CHECK(c.starts.size() == 6);
 }
 
 TEST_CASE("solids are numbered in the order of the hierarchy's leaves, behind the unbounded ones") {

@@ -142,7 +142,7 @@ TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it fin
         for (const FlatRegion& region : flat.regions) {
             const Box own = tree_box(region.tree, boxes);
             if (is_finite(own) && !is_empty(own)) box = united(box, own);
-            CHECK(linearize(region.tree, trees).stack <= 4);
+            CHECK(linearize(region.tree, trees).stack <= 8);
         }
         // Rounded outward to whole units there, from numbers with roundings of their own.
         const double sides[] = {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z};

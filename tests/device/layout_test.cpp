@@ -10,43 +10,35 @@
 using namespace csgrt;
 
 // One list for both sides. That nothing of layout.h is missing here is a test of its own, below.
-#define CSGRT_LAYOUT(RECORD, FIELD)                                                                                    \
-    RECORD(SolidRecord)                                                                                                \
-    FIELD(SolidRecord, type) FIELD(SolidRecord, first_real) FIELD(SolidRecord, first_word) FIELD(                      \
-        SolidRecord, first_plane) FIELD(SolidRecord, plane_count) FIELD(SolidRecord, first_region)                     \
-        FIELD(SolidRecord, region_count) RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(      \
-            PlaneRecord, nz) FIELD(PlaneRecord, d) RECORD(RegionRecord) FIELD(RegionRecord, first_word)                \
-            FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) FIELD(                                          \
-                RegionRecord, material) RECORD(MaterialRecord) FIELD(MaterialRecord, r) FIELD(MaterialRecord, g)       \
-                FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) FIELD(         \
-                    MaterialRecord, ambient) FIELD(MaterialRecord, shine) RECORD(LightRecord) FIELD(LightRecord, x)    \
-                    FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, r) FIELD(LightRecord, g) FIELD(     \
-                        LightRecord, b) RECORD(BvhNode) FIELD(BvhNode, low) FIELD(BvhNode, skip) FIELD(BvhNode, high)  \
-                        FIELD(BvhNode, leaf) RECORD(Frame) FIELD(Frame, eye) FIELD(Frame, u) FIELD(Frame, v) FIELD(    \
-                            Frame, w) FIELD(Frame, center)                                                             \
-                            FIELD(Frame, radius) FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient)     \
-                                FIELD(Frame, background) FIELD(Frame, width) FIELD(Frame, height)                      \
-                                    FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) FIELD(      \
-                                        Frame, ray_count) FIELD(Frame, solid_count)                                    \
-                                        FIELD(Frame, unbounded_count) FIELD(Frame, node_count) FIELD(                  \
-                                            Frame, light_count) FIELD(Frame, every_partition) RECORD(RayRecord)        \
-                                            FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz)             \
-                                                FIELD(RayRecord, dx) FIELD(RayRecord, dy) FIELD(RayRecord, dz)         \
-                                                    RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words)  \
-                                                        FIELD(RayCount, regions) RECORD(End) FIELD(End, t) FIELD(      \
-                                                            End, solid) FIELD(End, surface) RECORD(PartitionNode)      \
-                                                            FIELD(PartitionNode, in_end) FIELD(PartitionNode, out_end) \
-                                                                FIELD(PartitionNode, next) FIELD(                      \
-                                                                    PartitionNode, prev) FIELD(PartitionNode, region)  \
-                                                                    RECORD(RayResult) FIELD(RayResult, first)          \
-                                                                        FIELD(RayResult, partitions) FIELD(            \
-                                                                            RayResult, overlaps) RECORD(Pixel)         \
-                                                                            FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(  \
-                                                                                Pixel, normal) FIELD(Pixel, region)    \
-                                                                                FIELD(Pixel, solid)                    \
-                                                                                    FIELD(Pixel, depth)                \
-                                                                                        FIELD(Pixel, partitions)       \
-                                                                                            FIELD(Pixel, overlap)
+// clang-format off
+#define CSGRT_LAYOUT(RECORD, FIELD) \
+    RECORD(SolidRecord) FIELD(SolidRecord, type) FIELD(SolidRecord, first_real) FIELD(SolidRecord, first_word) \
+    FIELD(SolidRecord, first_plane) FIELD(SolidRecord, plane_count) FIELD(SolidRecord, first_start) \
+    FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) \
+    RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(PlaneRecord, nz) FIELD(PlaneRecord, d) \
+    RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
+    FIELD(RegionRecord, material) RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
+    RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
+    FIELD(StartRecord, needed) FIELD(StartRecord, solids) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
+    FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
+    FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) RECORD(LightRecord) FIELD(LightRecord, x) \
+    FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, r) FIELD(LightRecord, g) FIELD(LightRecord, b) \
+    RECORD(BvhNode) FIELD(BvhNode, low) FIELD(BvhNode, skip) FIELD(BvhNode, high) FIELD(BvhNode, leaf) RECORD(Frame) \
+    FIELD(Frame, eye) FIELD(Frame, u) FIELD(Frame, v) FIELD(Frame, w) FIELD(Frame, center) FIELD(Frame, radius) \
+    FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient) FIELD(Frame, background) FIELD(Frame, width) \
+    FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
+    FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
+    FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
+    FIELD(Frame, first_row) FIELD(Frame, rows) FIELD(Frame, first_column) FIELD(Frame, columns) RECORD(RayRecord) \
+    FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
+    FIELD(RayRecord, dz) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
+    FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
+    FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
+    FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, ray) FIELD(PartitionNode, region) \
+    RECORD(RayResult) FIELD(RayResult, first) FIELD(RayResult, partitions) FIELD(RayResult, overlaps) RECORD(Pixel) \
+    FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(Pixel, normal) FIELD(Pixel, region) FIELD(Pixel, solid) \
+    FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap)
+// clang-format on
 
 namespace {
 

@@ -14,7 +14,6 @@ namespace csgrt::kernel {
 
 inline thread_local std::size_t global_id = 0;
 inline std::size_t get_global_id(int) { return global_id; }
-inline u32 clz(u32 x) { return static_cast<u32>(std::countl_zero(x)); }
 using std::size_t;
 
 #define __kernel [[maybe_unused]] static inline
@@ -30,6 +29,11 @@ using std::size_t;
 #include "../../kernels/3_weave.cl"
 #include "../../kernels/4_evaluate.cl"
 #include "../../kernels/5_shade.cl"
+#define CSGRT_SOLIDS 0xffffffffu
+inline u32 atomic_inc(u32* place) { return (*place)++; }
+#include "../../kernels/first_hit.h"
+#include "../../kernels/first_hits.cl"
+#undef CSGRT_SOLIDS
 #pragma GCC diagnostic pop
 // NOLINTEND
 #undef __kernel
@@ -42,68 +46,103 @@ namespace csgrt::test {
 
 /// Everything that the kernels leave behind for one frame, or for a list of rays.
 struct HostRun {
+    std::size_t candidates = 0;
     std::vector<kernel::RayCount> offsets;
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
-    std::vector<std::uint32_t> bits, candidates;
+    std::vector<std::uint32_t> bits;
     std::vector<kernel::RayResult> results;
-    std::vector<kernel::Pixel> pixels;
+    std::vector<float> picture;  ///< the frame's channels, plane by plane
 };
 
-/// Runs all kernels; `rays` empty: the frame's camera. Pixels are in the order of the rays' numbers.
+/// Runs all kernels; `rays` empty: the frame's camera.
 inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
                            const std::vector<kernel::RayRecord>& rays = {}) {
     using namespace kernel;
     Frame frame = prepared.frame;
     frame.first_ray = 0;
     frame.ray_count = static_cast<u32>(prepared.rays);
+    frame.columns = frame.width;
+    frame.rows = frame.height;
     const std::size_t count = frame.ray_count;
     HostRun run;
     const auto each = [&](const auto& work) {
         for (global_id = 0; global_id < count; ++global_id) work();
     };
-    run.offsets.resize(count + 1);
-    each([&] {
+    const auto scan = [](std::vector<RayCount>& counts) {
+        RayCount sum{};
+        for (RayCount& c : counts) {
+            const RayCount own = c;
+            c = sum;
+            sum.segments += own.segments;
+            sum.words += own.words;
+        }
+        return sum;
+    };
+    std::vector<RayCount> places(count + 1);
+    each([&] { find_candidates(&frame, scene.nodes.data(), rays.data(), places.data()); });
+    std::vector<Candidate> candidates(scan(places).segments);
+    each([&] { list_candidates(&frame, scene.nodes.data(), rays.data(), places.data(), candidates.data()); });
+    const auto each_of = [&](std::size_t size, const auto& work) {
+        for (global_id = 0; global_id < size; ++global_id) work(static_cast<u32>(size));
+    };
+    each_of(candidates.size(), [&](u32 size) {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(), run.offsets.data());
+                   scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data());
     });
-    RayCount sum{};
-    for (RayCount& c : run.offsets) {
-        const RayCount own = c;
-        c = sum;
-        sum.segments += own.segments;
-        sum.words += own.words;
-        sum.regions += own.regions;
-    }
+    run.candidates = candidates.size();
+    run.offsets.resize(count + 1);
+    each([&] { sum_hits(&frame, places.data(), candidates.data(), run.offsets.data()); });
+    const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
-    run.candidates.resize(sum.regions);
     run.results.resize(count);
-    run.pixels.resize(count);
-    each([&] {
+    run.picture.resize(std::size_t{13} * frame.width * frame.height);
+    each_of(candidates.size(), [&](u32 size) {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), rays.data(),
-                       run.offsets.data(), run.ends.data());
+                       scene.words.data(), scene.inner_nodes.data(), rays.data(), size, candidates.data(), run.offsets.data(),
+                       run.ends.data(), run.nodes.data());
     });
+    each_of(run.ends.size(), [&](u32 size) { order_ends(run.offsets.data(), run.ends.data(), size, run.nodes.data()); });
     each([&] {
         kernel::weave(&frame, rays.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
                       run.results.data());
     });
-    each([&] {
-        evaluate(&frame, scene.solids.data(), scene.regions.data(), scene.region_lists.data(), scene.trees.data(),
-                 run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(), run.candidates.data(),
-                 run.results.data());
+    each_of(run.nodes.size(), [&](u32 size) {
+        evaluate(scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
+                 run.ends.data(), run.bits.data(), size, run.nodes.data());
     });
     if (!frame.listed) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(),
-                  run.pixels.data());
+                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(), rays.data(),
+                  run.picture.data());
         });
     }
     return run;
+}
+
+/// The first hits by their own kernels. Returns how many rays had no room.
+inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFrame& prepared, std::vector<float>& picture) {
+    using namespace kernel;
+    Frame frame = prepared.frame;
+    frame.first_ray = 0;
+    frame.ray_count = static_cast<u32>(prepared.rays);
+    frame.columns = frame.width;
+    frame.rows = frame.height;
+    picture.assign(std::size_t{10} * frame.width * frame.height, 0);
+    std::vector<unsigned char> blocks(frame.ray_count / (BLOCK * BLOCK));
+    std::vector<u32> overflown(frame.ray_count);
+    u32 overflows = 0;
+    for (global_id = 0; global_id < blocks.size(); ++global_id) cull_blocks(&frame, scene.nodes.data(), blocks.data());
+    for (global_id = 0; global_id < frame.ray_count; ++global_id)
+        first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
+                   scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
+                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.data(),
+                   &overflows, overflown.data(), picture.data());
+    return overflows;
 }
 
 }  // namespace csgrt::test

@@ -30,13 +30,24 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
             ReferenceCounts counts;
             const std::vector<kernel::Pixel> expected = Reference(compiled, *kernels, 1).render(prepared, nullptr, counts);
             CHECK(2 * run.offsets.back().segments == counts.hits);
-            std::size_t different = 0;
-            for (std::uint32_t i = 0; i < run.pixels.size(); ++i) {
-                const kernel::pixel_position at = kernel::pixel_of(i, prepared.frame.width, prepared.frame.height);
-                if (!at.inside) continue;
-                different += std::memcmp(&run.pixels[i], &expected[at.y * prepared.frame.width + at.x], sizeof(kernel::Pixel)) != 0;
-            }
-            CHECK(different == 0);
+            const auto differing = [&](const std::vector<float>& picture, bool counted) {
+                std::size_t different = 0;
+                const std::size_t size = expected.size();
+                for (std::size_t i = 0; i < size; ++i) {
+                    const kernel::Pixel& p = expected[i];
+                    const float values[] = {p.rgba[0], p.rgba[1], p.rgba[2], p.rgba[3], p.z, p.normal[0], p.normal[1], p.normal[2],
+                                            float(p.region), float(p.solid), float(p.depth), float(p.partitions), float(p.overlap)};
+                    for (std::size_t c = 0; c < (counted ? 13 : 10); ++c)
+                        different += std::memcmp(&picture[c * size + i], &values[c], sizeof(float)) != 0;
+                }
+                return different;
+            };
+            CHECK(differing(run.picture, true) == 0);
+            PreparedFrame first = prepared;
+            first.frame.every_partition = 0;
+            first.frame.channels &= ~CHANNEL_COUNTS;
+            std::vector<float> picture;
+            if (test::run_first_hits(compiled, first, picture) == 0) CHECK(differing(picture, false) == 0);
         }
     }
 }

@@ -24,17 +24,17 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     frame.ray_count = frame.listed = 1;
     const kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
     frame.tolerance = tolerance;
-    const std::vector<kernel::RayCount> offsets = {{0, 0, 0}, {segments, kernel::partitions_of(segments) * words, 0}};
+    const std::vector<kernel::RayCount> offsets = {{0, 0}, {segments, kernel::partitions_of(segments) * words}};
     std::vector<kernel::PartitionNode> nodes(ends.size());
     std::vector<std::uint32_t> bits(offsets[1].words, 0xdeadbeefu);  // memory comes as it was left
     kernel::RayResult result{};
+    for (kernel::PartitionNode& node : nodes) node.ray = 0;
+    for (kernel::global_id = 0; kernel::global_id < ends.size(); ++kernel::global_id)
+        kernel::order_ends(offsets.data(), ends.data(), static_cast<std::uint32_t>(ends.size()), nodes.data());
     kernel::global_id = 0;
     kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &result);
     Woven woven;
-    std::uint32_t before = NONE;
     for (std::uint32_t n = result.first; n != NONE; n = nodes[n].next) {
-        REQUIRE(nodes[n].prev == before);
-        before = n;
         WovenPartition p;
         p.in_end = nodes[n].in_end;
         p.out_end = nodes[n].out_end;

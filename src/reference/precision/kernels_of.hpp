@@ -55,8 +55,10 @@ real convert(double x) { return static_cast<real>(x); }
     solid.first_word = s.first_word;
     solid.first_plane = s.first_plane;
     solid.plane_count = s.plane_count;
-    solid.first_region = s.first_region;
-    solid.region_count = s.region_count;
+    solid.first_start = s.first_start;
+    solid.start_count = s.start_count;
+    solid.first_leaf = s.first_leaf;
+    solid.leaf_count = s.leaf_count;
 #ifdef CSGRT_EYE_RELATIVE
     if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
         for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
@@ -131,6 +133,12 @@ k::Frame convert_frame(const kernel::Frame& f) {
     frame.node_count = f.node_count;
     frame.light_count = f.light_count;
     frame.every_partition = f.every_partition;
+    frame.picked = f.picked;
+    frame.channels = f.channels;
+    frame.first_row = f.first_row;
+    frame.rows = f.rows;
+    frame.first_column = f.first_column;
+    frame.columns = f.columns;
     return frame;
 }
 

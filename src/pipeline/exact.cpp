@@ -1,0 +1,214 @@
+#include "pipeline/exact.hpp"
+
+#include <algorithm>
+
+#include "kernel_geometry.hpp"
+
+namespace csgrt {
+namespace kernel {
+#define CSGRT_TREE_STACK TREE_STACK
+#include "../../kernels/boolean.h"
+}  // namespace kernel
+
+namespace {
+constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
+}
+
+Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
+    : device_(device),
+      scene_(scene),
+      kernels_(kernels),
+      program_(device,
+               assemble_program({"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
+               defines_of(scene, settings), settings.precision != Precision::double_),
+      find_candidates_(program_.kernel("find_candidates")),
+      list_candidates_(program_.kernel("list_candidates")),
+      count_hits_(program_.kernel("count_hits")),
+      sum_hits_(program_.kernel("sum_hits")),
+      scan_blocks_(program_.kernel("scan_blocks")),
+      scan_add_(program_.kernel("scan_add")),
+      store_segments_(program_.kernel("store_segments")),
+      order_ends_(program_.kernel("order_ends")),
+      weave_(program_.kernel("weave")),
+      evaluate_(program_.kernel("evaluate")),
+      shade_(program_.kernel("shade")),
+      places_(device, "candidates' places"),
+      counts_(device, "counts"),
+      results_(device, "results"),
+      candidates_(device, "candidates"),
+      ends_(device, "segments"),
+      partitions_(device, "partitions"),
+      bits_(device, "partitions' bits") {}
+
+std::uint64_t Exact::held() const {
+    std::uint64_t sum = 0;
+    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &ends_, &partitions_, &bits_}) sum += buffer->size();
+    return sum;
+}
+
+void Exact::release() {
+    for (Buffer* buffer : {&places_, &counts_, &results_}) *buffer = Buffer(device_, buffer->name());
+    release_counted();
+}
+
+void Exact::release_counted() {
+    for (Buffer* buffer : {&candidates_, &ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
+}
+
+kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times) {
+    const kernel::RayCount zero{};
+    counts.upload(&zero, sizeof zero, rays * sizeof zero);
+    std::vector<std::uint32_t> sizes{rays + 1};
+    while (sizes.back() > 1) sizes.push_back((sizes.back() + scan_block - 1) / scan_block);
+    while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
+    std::vector<Event> events;
+    const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
+        level(i + 1).reserve(sizes[i + 1] * sizeof(kernel::RayCount));
+        events.push_back(scan_blocks_.launch(sizes[i + 1] * work_group, work_group, level(i), level(i + 1), sizes[i]));
+    }
+    for (std::size_t i = sizes.size() - 1; i-- > 1;)
+        events.push_back(scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
+    kernel::RayCount total;
+    counts.read(&total, sizeof total, rays * sizeof total);
+    for (const Event& event : events) times.scan += milliseconds(event);
+    return total;
+}
+
+// Makes room for the segments. Buffers only grow, unless that would not fit.
+bool Exact::reserve_counted(const kernel::RayCount& total) {
+    if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
+    const std::uint64_t nodes = 2 * std::uint64_t{total.segments};
+    const std::pair<Buffer*, std::uint64_t> wanted[] = {{&ends_, nodes * kernels_.end_bytes()},
+                                                        {&partitions_, nodes * sizeof(kernel::PartitionNode)},
+                                                        {&bits_, std::uint64_t{total.words} * sizeof(std::uint32_t)}};
+    std::uint64_t needed = 0, grown = 0, held = 0;
+    for (const auto& [buffer, bytes] : wanted) {
+        if (bytes > device_.max_buffer()) return false;
+        needed += bytes;
+        grown += std::max<std::uint64_t>(bytes, buffer->size());
+        held += buffer->size();
+    }
+    if (needed > device_.available() + held) return false;
+    if (grown > device_.available() + held)
+        for (const auto& [buffer, bytes] : wanted) *buffer = Buffer(device_, buffer->name());
+    for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
+    return true;
+}
+
+bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, bool pictured, PipelineCounts& counts) {
+    const SceneBuffers& s = scene;
+    const std::size_t entries = std::size_t{rays} + 1;
+    if (entries * ray_bytes > device_.available()) release_counted();
+    places_.reserve(entries * sizeof(kernel::RayCount));
+    counts_.reserve(entries * sizeof(kernel::RayCount));
+    results_.reserve(rays * sizeof(kernel::RayResult));
+
+    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, tile.rays, places_);
+    const cl_uint candidates = scan(places_, rays, counts).segments;
+    const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
+    if (candidates == COUNT_MAX || candidate_bytes > device_.max_buffer()) return false;
+    if (candidate_bytes > candidates_.size()) {
+        if (candidate_bytes > device_.available() + candidates_.size()) release_counted();
+        if (candidate_bytes > device_.available()) return false;
+        candidates_.reserve(candidate_bytes);
+    }
+    const Event list = list_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, tile.rays, places_, candidates_);
+    const Event count = count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                           s.inner_nodes, tile.rays, candidates, candidates_);
+    const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);
+    total_ = scan(counts_, rays, counts);
+    for (const Event* event : {&find, &list, &count, &sum}) counts.count_hits += milliseconds(*event);
+    if (!reserve_counted(total_)) return false;
+
+    const cl_uint nodes = 2 * total_.segments;
+    const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes,
+                                               s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates, candidates_, counts_,
+                                               ends_, partitions_);
+    const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, nodes, partitions_);
+    const Event weave = weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
+    const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_, bits_, nodes,
+                                            partitions_);
+    Event shade;
+    if (pictured)
+        shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
+                              s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_, tile.rays,
+                              tile.picture);
+    counts.store_segments += milliseconds(store);
+    counts.weave += milliseconds(order) + milliseconds(weave);
+    counts.evaluate += milliseconds(evaluate);
+    counts.shade += milliseconds(shade);
+
+    counts.segments += total_.segments;
+    counts.hits += nodes;
+    counts.partitions_allocated += nodes;
+    counts.segment_bytes += std::uint64_t{nodes} * kernels_.end_bytes() + candidate_bytes;
+    counts.partition_bytes += std::uint64_t{nodes} * sizeof(kernel::PartitionNode) + std::uint64_t{total_.words} * sizeof(std::uint32_t);
+    return true;
+}
+
+void Exact::add_results(std::uint32_t rays, PipelineCounts& counts) const {
+    for (const kernel::RayResult& result : results_.read<kernel::RayResult>(rays)) {
+        counts.partitions_used += result.partitions;
+        counts.overlaps += result.overlaps;
+    }
+}
+
+std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, PipelineCounts& counts) const {
+    const auto offsets = counts_.read<kernel::RayCount>(std::size_t{rays} + 1);
+    const auto results = results_.read<kernel::RayResult>(rays);
+    const auto ends = kernels_.ends(ends_.read<std::byte>(2 * std::size_t{total_.segments} * kernels_.end_bytes()));
+    const auto nodes = partitions_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
+    const auto bits = bits_.read<std::uint32_t>(total_.words);
+    std::vector<std::vector<ClaimedPartition>> claims(rays);
+    for (std::uint32_t i = 0; i < rays; ++i) {
+        counts.partitions_used += results[i].partitions;
+        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], results[i].first);
+        for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
+    }
+    return claims;
+}
+
+// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
+std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
+    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(),
+                              scene_.trees.data()};
+    const kernel::covered_solids covered = kernel::list_covered(cover);
+    std::vector<std::uint32_t> claimants;
+    for (std::uint32_t segment = 0; segment < segments; ++segment) {
+        if (!kernel::covers(cover, segment)) continue;
+        const kernel::SolidRecord& solid = scene_.solids[ends[2 * segment].solid];
+        for (std::uint32_t i = 0; i < solid.start_count; ++i) {
+            const kernel::StartRecord& start = scene_.starts[solid.first_start + i];
+            if (kernel::term_holds(cover, &covered, start)) claimants.push_back(start.region);
+        }
+    }
+    std::sort(claimants.begin(), claimants.end());
+    claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+    return claimants;
+}
+
+std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
+                                               const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
+                                               const kernel::RayCount& end, std::uint32_t first_node) const {
+    std::vector<ClaimedPartition> claims;
+    const std::uint32_t segments = end.segments - begin.segments;
+    const std::size_t base = 2 * std::size_t{begin.segments};
+    for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
+        const kernel::PartitionNode& partition = nodes[base + node];
+        const std::uint32_t region = partition.region & ~OVERLAP;
+        if (region == NONE) continue;
+        ClaimedPartition claim;
+        claim.in = ends[base + partition.in_end];
+        claim.out = ends[base + partition.out_end];
+        claim.in_leaves = partition.in_end % 2 == 1;
+        claim.out_enters = partition.out_end % 2 == 0;
+        claim.region = region;
+        if (partition.region & OVERLAP)
+            claim.claimants = claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
+        claims.push_back(std::move(claim));
+    }
+    return claims;
+}
+
+}  // namespace csgrt

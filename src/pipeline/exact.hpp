@@ -1,0 +1,54 @@
+// Every partition of a tile's rays, in five kernels:
+//
+//   count hits -> store segments -> weave -> evaluate -> shade
+//
+// Memory is counted, then allocated, never guessed.
+#pragma once
+
+#include <memory>
+
+#include "compile/claims.hpp"
+#include "pipeline/stages.hpp"
+
+namespace csgrt {
+
+class Exact {
+public:
+    Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+
+    /// Runs the kernels on the tile's rays, the last one only if they are pictured. Waits. False: the rays' segments do
+    /// not fit the memory; nothing is lost then, the caller takes a smaller tile.
+    bool run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, bool pictured, PipelineCounts& counts);
+
+    /// The claimed partitions of each ray of the last run, from the first that is seen on.
+    std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays, PipelineCounts& counts) const;
+    /// Adds up the last run's partitions and overlaps.
+    void add_results(std::uint32_t rays, PipelineCounts& counts) const;
+
+    static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
+    std::uint64_t held() const;
+    void release();  ///< gives all its memory back: another use of the budget wants it
+
+private:
+    /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set; returns the last sum.
+    kernel::RayCount scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times);
+    void release_counted();  // what holds segments and partitions
+    bool reserve_counted(const kernel::RayCount& total);
+    std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
+                                            const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
+                                            const kernel::RayCount& end, std::uint32_t first_node) const;
+    std::vector<std::uint32_t> claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const;
+
+    Device& device_;
+    const CompiledScene& scene_;
+    const HostKernels& kernels_;
+    Program program_;
+    Kernel find_candidates_, list_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
+        evaluate_, shade_;
+    Buffer places_, counts_, results_;              // one entry a ray
+    Buffer candidates_, ends_, partitions_, bits_;  // by what was counted
+    std::vector<std::unique_ptr<Buffer>> sums_;  // of the scan, a level each
+    kernel::RayCount total_{};                   // of the last run
+};
+
+}  // namespace csgrt

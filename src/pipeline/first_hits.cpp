@@ -1,0 +1,48 @@
+#include "pipeline/first_hits.hpp"
+
+#include "kernel_host.hpp"
+
+namespace csgrt {
+namespace {
+
+std::vector<std::string> defines(const Device& device, const CompiledScene& scene, const Settings& settings) {
+    std::vector<std::string> all = defines_of(scene, settings);
+    all.push_back("CSGRT_PRIVATE_ENDS");
+    if (device.info().type == "gpu") all.push_back("CSGRT_PATIENCE=24u");  // measured: bench/NOTES.md
+    return all;
+}
+
+}  // namespace
+
+FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
+    : device_(device),
+      program_(device, assemble_program({"first_hits.cl"}), defines(device, scene, settings),
+               settings.precision != Precision::double_),
+      cull_blocks_(program_.kernel("cull_blocks")),
+      first_hits_(program_.kernel("first_hits")),
+      blocks_(device, "blocks"),
+      overflows_(device, "count of rays without room", sizeof(cl_uint)),
+      overflown_(device, "rays without room") {}
+
+void FirstHits::release() {
+    for (Buffer* buffer : {&blocks_, &overflown_}) *buffer = Buffer(device_, buffer->name());
+}
+
+std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays,
+                                          PipelineCounts& counts) {
+    const SceneBuffers& s = scene;
+    const std::uint32_t blocks = (rays + BLOCK * BLOCK - 1) / (BLOCK * BLOCK);
+    blocks_.reserve(blocks);
+    overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
+    overflows_.queue_fill(0, sizeof(cl_uint));
+    const Event cull = cull_blocks_.launch(blocks, work_group, tile.frame, s.nodes, blocks_);
+    const Event draw = first_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                          s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
+                                          tile.lights, blocks_, overflows_, overflown_, tile.picture);
+    const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();
+    counts.cull_blocks += milliseconds(cull);
+    counts.first_hits += milliseconds(draw);
+    return overflown_.read<std::uint32_t>(overflows);
+}
+
+}  // namespace csgrt

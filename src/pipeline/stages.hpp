@@ -1,0 +1,41 @@
+// What the two ways through the pipeline share: the scene on the device, one tile's frame and rays, and the figures.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compile/frame.hpp"
+#include "compile/host_kernels.hpp"
+#include "device/program.hpp"
+
+namespace csgrt {
+
+inline constexpr std::size_t work_group = 64;  // work-items: one size for all kernels, so that each is compiled once
+
+/// The compiled scene on the device.
+struct SceneBuffers {
+    SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
+    Buffer solids, reals, planes, plane_refs, words, inner_nodes, starts, leaves, regions, trees, materials, nodes;
+};
+
+/// One tile on the device: its frame, the rays that are listed or picked for it, and its part of the picture.
+struct TileBuffers {
+    explicit TileBuffers(Device& device)
+        : frame(device, "frame"), lights(device, "lights"), rays(device, "rays"), picture(device, "picture") {}
+    Buffer frame, lights, rays, picture;
+};
+
+/// Figures of one frame, summed over its tiles. Times in milliseconds, the device's own; `build`: the host's.
+struct PipelineCounts {
+    std::uint64_t hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
+    std::uint64_t segment_bytes = 0, partition_bytes = 0;  ///< of all tiles together
+    std::uint32_t tiles = 0;
+    double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
+    double cull_blocks = 0, first_hits = 0;
+};
+
+/// The options that a program for this scene is compiled with.
+std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings);
+
+}  // namespace csgrt

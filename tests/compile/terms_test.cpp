@@ -1,0 +1,90 @@
+// Terms, scanned and walked, against plain evaluation of the model's own tree, on random trees and covers.
+#include <random>
+
+#include "catch.hpp"
+#include "compile/linearize.hpp"
+#include "pipeline/host_kernels.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+struct Random {
+    std::mt19937 engine{11};
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine() % n); }
+};
+
+/// A random tree over solids 0 .. solids - 1, in postfix order, which holds no empty space.
+void add_tree(FlatTree& tree, std::uint32_t leaves, std::uint32_t solids, Random& random) {
+    if (leaves == 1) {
+        tree.nodes.push_back({Operator::leaf, 0, random.below(solids)});
+        return;
+    }
+    const std::uint32_t left = 1 + random.below(leaves - 1);
+    add_tree(tree, left, solids, random);
+    add_tree(tree, leaves - left, solids, random);
+    constexpr Operator operators[] = {Operator::union_, Operator::intersection, Operator::difference, Operator::difference,
+                                      Operator::xor_};
+    tree.nodes.push_back({operators[random.below(5)], 2, 0});
+}
+
+bool value_of(const FlatTree& tree, const std::vector<bool>& covered) {
+    std::vector<bool> values;
+    for (const FlatTree::Node& node : tree.nodes) {
+        if (node.op == Operator::leaf) {
+            values.push_back(covered[node.solid]);
+            continue;
+        }
+        const bool b = values.back();
+        values.pop_back();
+        const bool a = values.back();
+        values.back() = node.op == Operator::union_         ? a || b
+                        : node.op == Operator::intersection ? a && b
+                        : node.op == Operator::difference   ? a && !b
+                                                            : a != b;
+    }
+    return values.back();
+}
+
+}  // namespace
+
+TEST_CASE("a term's value is its tree's, whether it is scanned or walked") {
+    Random random;
+    std::size_t held = 0, not_held = 0;
+    for (int round = 0; round < 400; ++round) {
+        const std::uint32_t solids = 1 + random.below(60);
+        FlatTree tree;
+        add_tree(tree, 1 + random.below(round < 300 ? 30 : 900), solids, random);
+        std::vector<std::uint32_t> words;
+        linearize(tree, words);
+        // Where each solid stands.
+        std::vector<kernel::SolidRecord> records(solids);
+        std::vector<std::uint32_t> leaves;
+        for (std::uint32_t s = 0; s < solids; ++s) {
+            records[s].first_leaf = static_cast<std::uint32_t>(leaves.size());
+            for (std::uint32_t i = 0; i < words.size(); ++i)
+                if (words[i] == (OP_LEAF << TREE_SHIFT | s)) leaves.push_back(i);
+            records[s].leaf_count = static_cast<std::uint32_t>(leaves.size()) - records[s].first_leaf;
+        }
+        for (int shot = 0; shot < 20; ++shot) {
+            // A segment of every solid; some cover the partition.
+            std::vector<kernel::End> ends(2 * solids);
+            std::vector<std::uint32_t> bits(kernel::words_of(solids));
+            std::vector<bool> covered(solids);
+            for (std::uint32_t s = 0; s < solids; ++s) {
+                ends[2 * s].solid = ends[2 * s + 1].solid = s;
+                covered[s] = random.below(4) < static_cast<std::uint32_t>(shot) % 5;
+                if (covered[s]) bits[s / 32] |= 1u << s % 32;
+            }
+            const kernel::cover cover{ends.data(), bits.data(), solids, records.data(), nullptr, leaves.data(), words.data()};
+            const kernel::covered_solids list = kernel::list_covered(cover);
+            const bool expected = value_of(tree, covered);
+            const auto end = static_cast<std::uint32_t>(words.size());
+            REQUIRE(bool(kernel::scan_term(cover, &list, 0, end)) == expected);
+            REQUIRE(bool(kernel::walk_term(cover, 0, end)) == expected);
+            ++(expected ? held : not_held);
+        }
+    }
+    CHECK(held > 500);
+    CHECK(not_held > 500);
+}
