@@ -153,7 +153,9 @@ Options parse(int argc, char** argv) {
 
 int run_all(const Options& options) {
     const Clock::time_point start = Clock::now();
-    const std::vector<Item> all = items(options.choice);
+    Choice choice = options.choice;
+    choice.threads = options.threads;
+    const std::vector<Item> all = items(choice);
     if (all.empty()) throw Error(Status::usage, "--only: nothing is called that");
     double shares = 0;
     for (const Item& item : all) shares += item.share;

@@ -2,11 +2,12 @@
 // rays and its judge.
 //
 // The judges are those of the tests: tests/stress/expected.hpp for the stress suite, tests/oracle/scene_judge.hpp for
-// the others. They know a scene by its implicit functions in 113-bit arithmetic, sort all ends of all solids on a ray,
-// and ask the trees for membership between them; nothing of it is shared with the kernels, nor with what compiles,
-// packs and traverses a scene. So there is no filter that could let something through: every ray is judged whole. What
-// makes that affordable is that a ray is not put to a solid whose widened ball it passes by (Reach in scene_solid.hpp),
-// nor to a region none of whose solids it meets.
+// the others. They know a scene by its implicit functions, sort all ends of all solids on a ray, and ask the trees for
+// membership between them; nothing of it is shared with the kernels, nor with what compiles, packs and traverses a
+// scene. Every ray is judged whole. What makes that affordable: most solids are solved in doubles that know their own
+// error (oracle/quick.hpp), 113-bit arithmetic being asked where these are not certain, and again by itself alone about
+// every ray that seems wrong; a ray is not put to a solid whose widened ball it passes by (oracle/reach.hpp), nor to a
+// region none of whose solids it meets.
 #pragma once
 
 #include <cstdint>
@@ -52,6 +53,7 @@ struct Item {
 struct Choice {
     std::string scenes, models;     ///< folders; models that are not there are left out
     std::vector<std::string> only;  ///< families; empty: all
+    unsigned threads = 1;
 };
 /// The slowest first.
 std::vector<Item> items(const Choice& choice);

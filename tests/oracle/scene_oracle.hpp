@@ -141,6 +141,7 @@ public:
         std::vector<Sure> sets;  // of the solids that the ray may meet
         std::vector<quad> bounds;
         quad most = 0;
+        double least = HUGE_VAL;  // radius of what is met
         for (std::size_t i = 0; i < solids_.size(); ++i) {
             if (solids_[i].reach.is_passed_by(ray.origin, ray.direction)) continue;
             const Answer one = solids_[i](ray);
@@ -159,6 +160,7 @@ public:
             }
             const quad by = quad(slack / speed) + quad(widest);
             most = larger(most, by);
+            if (!one.intervals.empty()) least = std::min(least, solids_[i].reach.radius);
             Sure& set = sets.back();
             set.inner = resized(one.inner, -by);
             set.outer = resized(one.outer, by);
@@ -170,7 +172,8 @@ public:
         }
         std::sort(bounds.begin(), bounds.end());
         bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
-        weave(sets, bounds, most, answer);
+        // What runs along a face may end anywhere on it: a thousandth of a solid is more than an end can be shifted.
+        weave(sets, bounds, smaller(most, quad((slack + 1e-3 * least) / speed)), answer);
         return answer;
     }
 
@@ -212,7 +215,7 @@ private:
         return std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.in.at < t && t < s.out.at; });
     }
 
-    /// `most`: by what the ends of any set were moved.
+    /// `most`: by what the ends of any set were moved, as far as it is no leap.
     void weave(const std::vector<Sure>& sets, const std::vector<quad>& bounds, quad most, SceneAnswer& answer) const {
         // Regions none of whose solids are met hold nothing.
         std::vector<Sure> found;

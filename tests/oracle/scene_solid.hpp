@@ -99,11 +99,13 @@ inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double s
         return {[solid = std::move(solid)](const Ray& ray) { return along(solid, ray); }, reach};
     };
     const auto meshed = [&](const Parts& parts) -> SceneSolid {
-        return {[mesh = std::make_shared<MeshSolid>(parts, place)](const Ray& ray) { return mesh->along(ray); }};
+        const auto mesh = std::make_shared<MeshSolid>(parts, place);
+        return {[mesh](const Ray& ray) { return mesh->along(ray); }, mesh->reach()};
     };
     if (const auto* bot = std::get_if<Bot>(&shape)) {
         if (bot->mode == Bot::Mode::volume) return meshed(parts_of(*bot));
-        return {[plates = std::make_shared<PlateSolid>(*bot, place, skin)](const Ray& r) { return plates->along(r); }};
+        const auto plates = std::make_shared<PlateSolid>(*bot, place, skin);
+        return {[plates](const Ray& r) { return plates->along(r); }, plates->reach()};
     }
     if (const auto* ars = std::get_if<Ars>(&shape)) return meshed(parts_of(*ars));
     if (const auto* nmg = std::get_if<Nmg>(&shape)) return meshed(parts_of(*nmg));
