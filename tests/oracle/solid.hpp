@@ -48,6 +48,9 @@ public:
     /// Instead of `along` where f is no polynomial; else null. It must not outlive the surface.
     virtual std::unique_ptr<Line> line(const QVec&, const QVec&) const { return nullptr; }
 
+    /// Of a plane, whose function is normal . p - distance; else null.
+    virtual const QVec* plane_normal() const { return nullptr; }
+
     // For quick.hpp: the same function with other numbers.
     virtual bool is_polynomial() const { return false; }
     virtual PolynomialOf<Rough> rough_along(const Triple<Rough>&, const Triple<Rough>&) const { return {}; }
@@ -67,8 +70,12 @@ public:
     QVec gradient(const QVec& p) const override {
         return f_(Jet(p.x, {1, 0, 0}), Jet(p.y, {0, 1, 0}), Jet(p.z, {0, 0, 1})).gradient;
     }
-    Polynomial along(const QVec& o, const QVec& d) const override {
-        return along_line<Polynomial>(o, d);
+    Polynomial along(const QVec& o, const QVec& d) const override { return along_line<Polynomial>(o, d); }
+    const QVec* plane_normal() const override {
+        if constexpr (requires(const F& f) { f.normal; })
+            return &f_.normal;
+        else
+            return nullptr;
     }
     bool is_polynomial() const override { return true; }
     PolynomialOf<Rough> rough_along(const Triple<Rough>& o, const Triple<Rough>& d) const override {
@@ -156,13 +163,15 @@ struct ImplicitSolid {
     }
     /// Unit normal of surface k at a point of the world, along the gradient: outward. Zero where the gradient vanishes.
     QVec normal(std::size_t k, const QVec& world) const {
-        const QVec g = to_local.transposed(surfaces[k]->gradient(to_local.point(world)));
+        const QVec* plane = surfaces[k]->plane_normal();
+        const QVec g = to_local.transposed(plane != nullptr ? *plane : surfaces[k]->gradient(to_local.point(world)));
         return dot(g, g) > 0 ? unit(g) : QVec{};
     }
     /// Rounding in the evaluation of f_k.
     quad noise(std::size_t k) const { return quad(ulps * double_epsilon) * surfaces[k]->terms(); }
     /// By how much it displaces surface k near a point of the world, millimetres.
     quad blur(std::size_t k, const QVec& world) const {
+        if (surfaces[k]->plane_normal() != nullptr) return 0;
         const quad slope = length(to_local.transposed(surfaces[k]->gradient(to_local.point(world))));
         const quad doubt = noise(k);
         return doubt < slope * quad(size) ? doubt / slope : quad(size);
@@ -170,6 +179,12 @@ struct ImplicitSolid {
     /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes.
     /// Unlike distance x |gradient| it holds at singular points (the apex of a cone), too.
     quad change(std::size_t k, const QVec& local, quad distance) const {
+        if (const QVec* n = surfaces[k]->plane_normal()) {
+            quad most = 0;
+            for (const QVec* axis : {&to_local.x, &to_local.y, &to_local.z})
+                most = larger(most, absolute(dot(*n, *axis)));
+            return most * distance * quad(1.75);
+        }
         const quad here = surfaces[k]->value(local);
         quad most = 0;
         for (const QVec& axis : {to_local.x, to_local.y, to_local.z})
