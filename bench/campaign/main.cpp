@@ -6,8 +6,9 @@
 // --device: as of csgrt, or "reference". --precision: to see that what is wrong is seen.
 //
 // Every thread takes a scene, builds its kernels, shoots its rays in batches on the device and judges them. The rays
-// are shared out evenly; so is what is left of --seconds whenever a scene begins: one whose rays cost more gets fewer.
-// Exit status: 0 all is right, 8 something is not; what else may be as of csgrt.
+// are shared out by the items' shares; so is what is left of --seconds whenever a scene begins, with what its kind
+// costs counted in: one whose rays cost more still gets fewer. Exit status: 0 all is right, 8 something is not; what
+// else may be as of csgrt.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -31,7 +32,7 @@ using namespace csgrt::campaign;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t batch = 16'384;     ///< rays of a call
-constexpr std::size_t on_reference = 64;  ///< of these, shot there, too
+constexpr std::size_t on_reference = 64;  ///< of these, shot there, too; an eighth of a small batch
 
 struct Options {
     double rays = 1e6, seconds = 1e9;
@@ -78,8 +79,8 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
             std::vector<RayPartitions> found = device.shoot(rays);
             sums.shoot += since(begun);
             const double judging = processor_seconds();
-            const std::vector<Ray> few(rays.begin(),
-                                       rays.begin() + std::min<std::ptrdiff_t>(on_reference, std::ssize(rays)));
+            const std::size_t some = std::min(on_reference, 1 + rays.size() / 8);
+            const std::vector<Ray> few(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(some));
             const std::vector<RayPartitions> same = reference.shoot(few);
             sums.compared += few.size();
             for (std::size_t i = 0; i < few.size(); ++i)
@@ -158,7 +159,11 @@ int run_all(const Options& options) {
     const std::vector<Item> all = items(choice);
     if (all.empty()) throw Error(Status::usage, "--only: nothing is called that");
     double shares = 0;
-    for (const Item& item : all) shares += item.share;
+    std::vector<double> work_left(all.size() + 1, 0);  // from each item on
+    for (std::size_t i = all.size(); i-- > 0;) {
+        shares += all[i].share;
+        work_left[i] = work_left[i + 1] + all[i].work();
+    }
     Tally tally(options.wrong);
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
@@ -167,7 +172,7 @@ int run_all(const Options& options) {
         for (std::size_t i; (i = next.fetch_add(1)) < all.size();) {
             const auto planned = static_cast<std::size_t>(std::ceil(options.rays * all[i].share / shares));
             const double left =
-                (options.seconds - since(start)) * options.threads / static_cast<double>(all.size() - i);
+                (options.seconds - since(start)) * options.threads * std::min(1.0, 1.5 * all[i].work() / work_left[i]);
             std::string name;
             tally.add(all[i],
                       run(all[i], options, planned, std::min(left, options.seconds - since(start)), tally, name));

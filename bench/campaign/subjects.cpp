@@ -149,24 +149,25 @@ std::vector<Item> items(const Choice& choice) {
         return choice.only.empty() || std::find(choice.only.begin(), choice.only.end(), family) != choice.only.end();
     };
     // A file is several pieces of work, so that threads can share it; but its judge is built for each.
-    const auto add_files = [&](const std::string& family, const std::vector<std::string>& files, double share) {
+    const auto add_files = [&](const std::string& family, const std::vector<std::string>& files, double share,
+                               double cost) {
         if (!wanted(family)) return;
         const std::uint64_t pieces = choice.threads > 4 ? 8 : 2;
         for (const std::string& file : files) {
             const std::string name = std::filesystem::path(file).filename().string();
             const double part = name == "blobs.json" || name == "sketches.json" ? 0.1 : 1;
             for (std::uint64_t piece = 0; piece < pieces; ++piece)
-                all.push_back({family, name, file, piece, part * share / static_cast<double>(pieces)});
+                all.push_back({family, name, file, piece, part * share / static_cast<double>(pieces), cost / part});
         }
     };
-    add_files("models", files_in(choice.models, ".asc"), 4);
+    add_files("models", files_in(choice.models, ".asc"), 4, 8);
     for (const std::string& family : stress::families())
         for (std::uint64_t seed = 0; seed < scenes_of_a_family && wanted(family); ++seed) {
             // Up to 10^5 nodes, 10^4 segments on a ray.
             const bool large = family == "deep_trees" || family == "depth";
-            all.push_back({family, family + " " + std::to_string(seed), {}, seed, large ? 1e-3 : 1});
+            all.push_back({family, family + " " + std::to_string(seed), {}, seed, large ? 2e-4 : 1});
         }
-    add_files("scenes", files_in(choice.scenes, ".json"), 2);
+    add_files("scenes", files_in(choice.scenes, ".json"), 2, 2);
     return all;
 }
 

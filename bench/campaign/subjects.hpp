@@ -46,6 +46,9 @@ struct Item {
     std::string path;    ///< of a file; empty: the stress suite's
     std::uint64_t seed = 0;
     double share = 1;  ///< of an item's usual count of rays
+    double cost = 1;   ///< how much longer a ray takes than most of the stress suite's, about
+
+    double work() const { return share * cost + 0.02; }  ///< building it, too
 
     std::unique_ptr<Subject> make() const;
 };
