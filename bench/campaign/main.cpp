@@ -6,13 +6,15 @@
 // --device: as of csgrt, or "reference". --precision: to see that what is wrong is seen.
 //
 // Every thread takes a scene, builds its kernels, shoots its rays in batches on the device and judges them. The rays
-// are shared out evenly; so is what is left of --seconds whenever a scene begins: one whose rays cost more gets fewer.
-// Exit status: 0 all is right, 8 something is not; what else may be as of csgrt.
+// are shared out by the items' shares; so is what is left of --seconds whenever a scene begins, with what its kind
+// costs counted in: one whose rays cost more still gets fewer. Exit status: 0 all is right, 8 something is not; what
+// else may be as of csgrt.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -30,7 +32,7 @@ using namespace csgrt::campaign;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t batch = 16'384;     ///< rays of a call
-constexpr std::size_t on_reference = 64;  ///< of these, shot there, too
+constexpr std::size_t on_reference = 64;  ///< of these, shot there, too; an eighth of a small batch
 
 struct Options {
     double rays = 1e6, seconds = 1e9;
@@ -40,6 +42,12 @@ struct Options {
     Choice choice{"scenes", "../shared/brlcad", {}};
 };
 
+/// Of this thread alone, however many share the cores.
+double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// One item, until its rays or its time are used up.
@@ -65,14 +73,14 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
         subject->prepare(device, planned);
         sums.build = since(start);
         while (sums.rays < planned && (sums.rays == 0 || since(start) < seconds)) {
-            Clock::time_point begun = Clock::now();
+            const Clock::time_point begun = Clock::now();
             const std::vector<Ray> rays = subject->rays(std::min<std::size_t>(batch, planned - sums.rays));
             if (rays.empty()) break;
             std::vector<RayPartitions> found = device.shoot(rays);
             sums.shoot += since(begun);
-            begun = Clock::now();
-            const std::vector<Ray> few(rays.begin(),
-                                       rays.begin() + std::min<std::ptrdiff_t>(on_reference, std::ssize(rays)));
+            const double judging = processor_seconds();
+            const std::size_t some = std::min(on_reference, 1 + rays.size() / 8);
+            const std::vector<Ray> few(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(some));
             const std::vector<RayPartitions> same = reference.shoot(few);
             sums.compared += few.size();
             for (std::size_t i = 0; i < few.size(); ++i)
@@ -91,7 +99,7 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
                 ++sums.wrong;
                 tally.add_wrong(item, rays[i], verdict.wrong);
             }
-            sums.judge += since(begun);
+            sums.judge += processor_seconds() - judging;
         }
     } catch (const std::exception& error) {
         tally.add_error(item, error.what());
@@ -146,10 +154,16 @@ Options parse(int argc, char** argv) {
 
 int run_all(const Options& options) {
     const Clock::time_point start = Clock::now();
-    const std::vector<Item> all = items(options.choice);
+    Choice choice = options.choice;
+    choice.threads = options.threads;
+    const std::vector<Item> all = items(choice);
     if (all.empty()) throw Error(Status::usage, "--only: nothing is called that");
     double shares = 0;
-    for (const Item& item : all) shares += item.share;
+    std::vector<double> work_left(all.size() + 1, 0);  // from each item on
+    for (std::size_t i = all.size(); i-- > 0;) {
+        shares += all[i].share;
+        work_left[i] = work_left[i + 1] + all[i].work();
+    }
     Tally tally(options.wrong);
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
@@ -158,7 +172,7 @@ int run_all(const Options& options) {
         for (std::size_t i; (i = next.fetch_add(1)) < all.size();) {
             const auto planned = static_cast<std::size_t>(std::ceil(options.rays * all[i].share / shares));
             const double left =
-                (options.seconds - since(start)) * options.threads / static_cast<double>(all.size() - i);
+                (options.seconds - since(start)) * options.threads * std::min(1.0, 1.5 * all[i].work() / work_left[i]);
             std::string name;
             tally.add(all[i],
                       run(all[i], options, planned, std::min(left, options.seconds - since(start)), tally, name));

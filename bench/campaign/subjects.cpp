@@ -24,7 +24,7 @@ public:
         renumbering_.emplace(renderer, made_.objects);
         const std::size_t times = (count + made_.rays.size() - 1) / made_.rays.size();
         if (times > 1) made_ = stress::make(item_.family, item_.seed, times);
-        expected_.emplace(made_);
+        expected_.emplace(made_, true);
     }
     std::vector<Ray> rays(std::size_t count) override {
         first_ += shot_;
@@ -32,10 +32,18 @@ public:
         const auto begin = made_.rays.begin() + static_cast<std::ptrdiff_t>(first_);
         return {begin, begin + static_cast<std::ptrdiff_t>(shot_)};
     }
-    Verdict judge(std::size_t i, RayPartitions& found) const override {
-        const test::Expected expected = (*expected_)(first_ + i);
-        if (expected.tie) return {true, {}, 0};
+    Verdict judge(std::size_t i, RayPartitions& found) override {
         renumbering_->apply(found);
+        const Verdict verdict = judge_by(*expected_, i, found);
+        if (verdict.wrong.empty()) return verdict;
+        if (!slow_) slow_.emplace(made_);
+        return judge_by(*slow_, i, found);
+    }
+
+private:
+    Verdict judge_by(const test::ExpectedAnswers& answers, std::size_t i, const RayPartitions& found) const {
+        const test::Expected expected = answers(first_ + i);
+        if (expected.tie) return {true, {}, 0};
         const test::Compared compared = test::compare(found, expected);
         Verdict verdict{false, {}, compared.worst};
         if (!compared.overlaps) verdict.wrong = "other overlaps";
@@ -44,11 +52,10 @@ public:
         return verdict;
     }
 
-private:
     const Item item_;
     stress::StressScene made_;
     std::optional<test::Renumbering> renumbering_;
-    std::optional<test::ExpectedAnswers> expected_;
+    std::optional<test::ExpectedAnswers> expected_, slow_;  ///< quick where that is certain; 113 bits throughout
     std::size_t first_ = 0, shot_ = 0;
 };
 
@@ -61,8 +68,10 @@ public:
     const Scene& scene() const override { return scene_; }
     const std::vector<std::string>& objects() const override { return objects_; }
     void prepare(const Renderer& renderer, std::size_t) override {
-        oracle_.emplace(scene_, objects_, true);
-        judge_.emplace(*oracle_, renderer.regions(), renderer.statistics().tolerance);
+        regions_ = renderer.regions();
+        slack_ = renderer.statistics().tolerance;
+        oracle_.emplace(scene_, objects_, true, true);
+        judge_.emplace(*oracle_, regions_, slack_);
         if (!judge_->unknown_regions().empty()) throw Error(Status::scene, judge_->unknown_regions());
         box_ = renderer.bounds();
         if (!(box_.low.x <= box_.high.x && std::isfinite(box_.high.x - box_.low.x))) box_ = {{-1, -1, -1}, {1, 1, 1}};
@@ -85,20 +94,32 @@ public:
         }
         return rays_;
     }
-    Verdict judge(std::size_t i, RayPartitions& found) const override {
+    Verdict judge(std::size_t i, RayPartitions& found) override {
+        const Verdict verdict = judge_by(*judge_, i, found);
+        if (verdict.wrong.empty()) return verdict;
+        if (!slow_judge_) {
+            slow_oracle_.emplace(scene_, objects_, true);
+            slow_judge_.emplace(*slow_oracle_, regions_, slack_);
+        }
+        return judge_by(*slow_judge_, i, found);
+    }
+
+private:
+    Verdict judge_by(const oracle::SceneJudge& judge, std::size_t i, const RayPartitions& found) const {
         std::size_t ties = 0;
         Verdict verdict;
-        verdict.wrong = judge_->judge(rays_[i], found, ties);
+        verdict.wrong = judge.judge(rays_[i], found, ties);
         verdict.tie = ties > 0;
         return verdict;
     }
 
-private:
     const Scene scene_;
     const std::vector<std::string> objects_ = {};
     stress::Random random_;
-    std::optional<oracle::SceneOracle> oracle_;
-    std::optional<oracle::SceneJudge> judge_;
+    std::vector<RegionInfo> regions_;
+    double slack_ = 0;
+    std::optional<oracle::SceneOracle> oracle_, slow_oracle_;  ///< quick where that is certain; 113 bits throughout
+    std::optional<oracle::SceneJudge> judge_, slow_judge_;
     Box box_;
     std::vector<Ray> rays_;
 };
@@ -127,22 +148,26 @@ std::vector<Item> items(const Choice& choice) {
     const auto wanted = [&](const std::string& family) {
         return choice.only.empty() || std::find(choice.only.begin(), choice.only.end(), family) != choice.only.end();
     };
-    const auto add_files = [&](const std::string& family, const std::vector<std::string>& files, std::uint64_t pieces,
-                               double share) {
+    // A file is several pieces of work, so that threads can share it; but its judge is built for each.
+    const auto add_files = [&](const std::string& family, const std::vector<std::string>& files, double share,
+                               double cost) {
         if (!wanted(family)) return;
-        for (const std::string& file : files)
+        const std::uint64_t pieces = choice.threads > 4 ? 8 : 2;
+        for (const std::string& file : files) {
+            const std::string name = std::filesystem::path(file).filename().string();
+            const double part = name == "blobs.json" || name == "sketches.json" ? 0.1 : 1;
             for (std::uint64_t piece = 0; piece < pieces; ++piece)
-                all.push_back({family, std::filesystem::path(file).filename().string(), file, piece, share});
+                all.push_back({family, name, file, piece, part * share / static_cast<double>(pieces), cost / part});
+        }
     };
-    // A file is several pieces of work, so that threads can share it.
-    add_files("models", files_in(choice.models, ".asc"), 8, 0.5);
+    add_files("models", files_in(choice.models, ".asc"), 4, 8);
     for (const std::string& family : stress::families())
         for (std::uint64_t seed = 0; seed < scenes_of_a_family && wanted(family); ++seed) {
             // Up to 10^5 nodes, 10^4 segments on a ray.
             const bool large = family == "deep_trees" || family == "depth";
-            all.push_back({family, family + " " + std::to_string(seed), {}, seed, large ? 1e-3 : 1});
+            all.push_back({family, family + " " + std::to_string(seed), {}, seed, large ? 2e-4 : 1});
         }
-    add_files("scenes", files_in(choice.scenes, ".json"), 2, 1);
+    add_files("scenes", files_in(choice.scenes, ".json"), 2, 2);
     return all;
 }
 

@@ -2,11 +2,12 @@
 // rays and its judge.
 //
 // The judges are those of the tests: tests/stress/expected.hpp for the stress suite, tests/oracle/scene_judge.hpp for
-// the others. They know a scene by its implicit functions in 113-bit arithmetic, sort all ends of all solids on a ray,
-// and ask the trees for membership between them; nothing of it is shared with the kernels, nor with what compiles,
-// packs and traverses a scene. So there is no filter that could let something through: every ray is judged whole. What
-// makes that affordable is that a ray is not put to a solid whose widened ball it passes by (Reach in scene_solid.hpp),
-// nor to a region none of whose solids it meets.
+// the others. They know a scene by its implicit functions, sort all ends of all solids on a ray, and ask the trees for
+// membership between them; nothing of it is shared with the kernels, nor with what compiles, packs and traverses a
+// scene. Every ray is judged whole. What makes that affordable: most solids are solved in doubles that know their own
+// error (oracle/quick.hpp), 113-bit arithmetic being asked where these are not certain, and again by itself alone about
+// every ray that seems wrong; a ray is not put to a solid whose widened ball it passes by (oracle/reach.hpp), nor to a
+// region none of whose solids it meets.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ public:
     /// The next rays, at most `count`; none: there are no more.
     virtual std::vector<Ray> rays(std::size_t count) = 0;
     /// Of ray `i` of those. Changes the answer.
-    virtual Verdict judge(std::size_t i, RayPartitions& found) const = 0;
+    virtual Verdict judge(std::size_t i, RayPartitions& found) = 0;
 };
 
 /// One piece of work.
@@ -45,6 +46,9 @@ struct Item {
     std::string path;    ///< of a file; empty: the stress suite's
     std::uint64_t seed = 0;
     double share = 1;  ///< of an item's usual count of rays
+    double cost = 1;   ///< how much longer a ray takes than most of the stress suite's, about
+
+    double work() const { return share * cost + 0.02; }  ///< building it, too
 
     std::unique_ptr<Subject> make() const;
 };
@@ -52,6 +56,7 @@ struct Item {
 struct Choice {
     std::string scenes, models;     ///< folders; models that are not there are left out
     std::vector<std::string> only;  ///< families; empty: all
+    unsigned threads = 1;
 };
 /// The slowest first.
 std::vector<Item> items(const Choice& choice);

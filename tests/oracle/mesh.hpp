@@ -1,4 +1,7 @@
-// Surfaces of triangles in 113 bits, without a hierarchy: what a ray crosses, how far a point is from the surface.
+// Surfaces of triangles in 113 bits: what a ray crosses, how far a point is from the surface.
+//
+// Triangles are passed over only where doubles that know their error say for certain that they are not crossed and that
+// no edge of theirs is near.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +11,8 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "reach.hpp"
+#include "ball_tree.hpp"
+#include "rough.hpp"
 
 namespace csgrt::oracle {
 
@@ -33,38 +37,52 @@ public:
         const QAffine rounding = componentwise_absolute(place), inverse = componentwise_absolute(place.inverse());
         const QVec ones = rounding.direction(inverse.direction({1, 1, 1}));
         condition = to_double(larger(larger(ones.x, ones.y), larger(ones.z, 1)));
-        for (const Vec3& vertex : vertices) vertices_.push_back(place.point(vertex));
-        QVec low = at(0, 0), high = low;
-        for (std::size_t i = 0; i < faces.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const QVec &p = at(i, k), local = vertices[faces[i][k]];
-                low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
-                high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
-                placement = std::max(placement, to_double(length(rounding.point(componentwise_absolute(local)))));
-            }
-        center = quad(0.5) * (low + high);
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            QVec middle;
-            for (std::size_t k = 0; k < 3; ++k) {
-                radius = std::max(radius, to_double(length(at(i, k) - center)));
-                middle = middle + quad(1) / 3 * at(i, k);
-            }
-            Reach ball{to_vec3(middle), 0};
-            for (std::size_t k = 0; k < 3; ++k)
-                ball.radius = std::max(ball.radius, 1.001 * to_double(length(at(i, k) - middle)));
-            balls_.push_back(ball);
-            const QVec n = cross(at(i, 1) - at(i, 0), at(i, 2) - at(i, 0));
-            normals_.push_back(dot(n, n) > 0 ? unit(n) : QVec{});
-            quad longest = 0;
-            for (std::size_t k = 0; k < 3; ++k) longest = larger(longest, length(at(i, k) - at(i, (k + 1) % 3)));
-            heights_.push_back(longest > 0 ? to_double(length(n) / longest) : 0);
+        for (const Vec3& vertex : vertices) {
+            vertices_.push_back(place.point(vertex));
+            rough_.push_back(triple<Rough>(vertices_.back()));
         }
+        std::vector<bool> used(vertices.size(), false);
+        for (const Face& face : faces)
+            for (const std::uint32_t corner : face) used[corner] = true;
+        QVec low = at(0, 0), high = low;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            if (!used[i]) continue;
+            const QVec& p = vertices_[i];
+            low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+            high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+            placement = std::max(placement, to_double(length(rounding.point(componentwise_absolute(vertices[i])))));
+        }
+        center = quad(0.5) * (low + high);
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (used[i]) radius = std::max(radius, to_double(length(vertices_[i] - center)));
+        std::vector<Reach> balls;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const std::array<Vec3, 3> p{to_vec3(at(i, 0)), to_vec3(at(i, 1)), to_vec3(at(i, 2))};
+            Reach ball{{(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3, (p[0].z + p[1].z + p[2].z) / 3},
+                       0};
+            const double size = std::abs(ball.center.x) + std::abs(ball.center.y) + std::abs(ball.center.z);
+            for (const Vec3& v : p)
+                ball.radius = std::max(ball.radius, 1.001 * distance_of(v, ball.center) + 16 * double_epsilon * size);
+            balls.push_back(ball);
+            quad longest = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const QVec e = at(i, k) - at(i, (k + 1) % 3);
+                longest = larger(longest, dot(e, e));
+            }
+            const QVec n = cross(at(i, 1) - at(i, 0), at(i, 2) - at(i, 0));
+            heights_.push_back(longest > 0 ? std::sqrt(to_double(dot(n, n) / longest)) : 0);
+        }
+        tree_ = BallTree(std::move(balls));
     }
 
     std::size_t size() const { return faces_.size(); }
     const QVec& at(std::size_t triangle, std::size_t corner) const { return vertices_[faces_[triangle][corner]]; }
-    const QVec& normal(std::size_t triangle) const { return normals_[triangle]; }  ///< unit; zero: it has no area
-    double height(std::size_t triangle) const { return heights_[triangle]; }       ///< the least of its three
+    /// Unit; zero: it has no area.
+    QVec normal(std::size_t i) const {
+        const QVec n = cross(at(i, 1) - at(i, 0), at(i, 2) - at(i, 0));
+        return dot(n, n) > 0 ? unit(n) : QVec{};
+    }
+    double height(std::size_t triangle) const { return heights_[triangle]; }  ///< the least of its three
     const Face& face(std::size_t triangle) const { return faces_[triangle]; }
     const std::vector<QVec>& vertices() const { return vertices_; }
 
@@ -76,8 +94,17 @@ public:
         const QVec aside = any_across(d), aside2 = cross(d, aside);
         found.edge_distance = 4 * quad(radius) + 1;
         const Vec3 from = to_vec3(o), way = to_vec3(d);
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            if (balls_[i].is_passed_by(from, way, near) || is_far(i, o, d, speed, near)) continue;
+        const Triple<Rough> start = triple<Rough>(o), along = triple<Rough>(d);
+        const auto crossed = [&](std::size_t i) {
+            const QVec n = normal(i);
+            const quad rate = dot(n, d);
+            if (rate == 0) return;
+            found.all.push_back({dot(n, at(i, 0) - o) / rate, i, absolute(rate) / speed});
+        };
+        tree_.each(from, way, near, [&](std::size_t i) {
+            const Pass pass = far_from_edges(i, start, along, near);
+            if (pass == Pass::through) crossed(i);
+            if (pass != Pass::unsure || is_far(i, o, d, speed, near)) return;
             int sides[3];
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t next = (k + 1) % 3;
@@ -91,11 +118,8 @@ public:
                 if (turn == 0) turn = dot(d, cross(b - a, aside2));
                 sides[k] = (turn > 0 ? 1 : turn < 0 ? -1 : 0) * (forward ? 1 : -1);
             }
-            if (sides[0] == 0 || sides[0] != sides[1] || sides[1] != sides[2]) continue;
-            const quad rate = dot(normals_[i], d);
-            if (rate == 0) continue;
-            found.all.push_back({dot(normals_[i], at(i, 0) - o) / rate, i, absolute(rate) / speed});
-        }
+            if (sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]) crossed(i);
+        });
         std::sort(found.all.begin(), found.all.end(),
                   [](const MeshCrossing& a, const MeshCrossing& b) { return a.t < b.t; });
         return found;
@@ -111,7 +135,7 @@ public:
 
     /// From p to triangle i.
     quad distance(std::size_t i, const QVec& p) const {
-        const QVec a = at(i, 0) - p, b = at(i, 1) - p, c = at(i, 2) - p, n = normals_[i];
+        const QVec a = at(i, 0) - p, b = at(i, 1) - p, c = at(i, 2) - p, n = normal(i);
         quad nearest = smaller(to_segment(a, b), smaller(to_segment(b, c), to_segment(c, a)));
         if (dot(n, cross(a, b)) >= 0 && dot(n, cross(b, c)) >= 0 && dot(n, cross(c, a)) >= 0 && dot(n, n) > 0)
             nearest = smaller(nearest, absolute(dot(n, a)));
@@ -119,8 +143,9 @@ public:
     }
     /// Is p within `reach` of triangle i?
     bool is_near(std::size_t i, const QVec& p, quad reach) const {
-        const QVec to_ball = QVec(balls_[i].center) - p;
-        const quad far = quad(balls_[i].radius) + reach;
+        const Reach& ball = tree_.balls()[i];
+        const QVec to_ball = QVec(ball.center) - p;
+        const quad far = quad(ball.radius) + reach;
         return dot(to_ball, to_ball) <= far * far && distance(i, p) <= reach;
     }
     bool is_near(const QVec& p, quad reach) const {
@@ -135,9 +160,47 @@ public:
     double condition = 1;
 
 private:
+    static double distance_of(const Vec3& a, const Vec3& b) {
+        const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+        return std::sqrt(x * x + y * y + z * z);
+    }
+    enum class Pass { unsure, beside, through };
+    /// Where the line passes triangle i, if it is certain that no edge is as near as `near`.
+    Pass far_from_edges(std::size_t i, const Triple<Rough>& o, const Triple<Rough>& d, double near) const {
+        const auto across = [](const Triple<Rough>& a, const Triple<Rough>& b) -> Triple<Rough> {
+            return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+        };
+        const auto most = [](const Triple<Rough>& v) {
+            const double x = v.x.most(), y = v.y.most(), z = v.z.most();
+            return 1.000001 * std::sqrt(x * x + y * y + z * z);
+        };
+        const std::array<Triple<Rough>, 3> p{rough_[faces_[i][0]] - o, rough_[faces_[i][1]] - o,
+                                             rough_[faces_[i][2]] - o};
+        // Seen along d: on which side of an edge's line the ray is, and on which the third corner.
+        int clear = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Triple<Rough> edge = p[(k + 1) % 3] - p[k], side = across(d, edge);
+            const Rough ray = dot(side, p[k]), corner = dot(side, p[(k + 2) % 3] - p[k]);
+            if (!(ray.least() > near * most(side)) || !(corner.least() > 0)) continue;
+            if ((ray.v > 0) == (corner.v > 0)) return Pass::beside;
+            ++clear;
+        }
+        if (clear == 3) return Pass::through;
+        // A triangle seen edge-on: before or behind it?
+        const Triple<Rough> u = p[1] - p[0], v = p[2] - p[0], n = across(u, v);
+        const Triple<Rough> side = across(d, {Rough(n.x.v), Rough(n.y.v), Rough(n.z.v)});
+        int ahead = 0, behind = 0;
+        for (const Triple<Rough>& corner : p) {
+            const Rough off = dot(side, corner);
+            if (!(off.least() > near * most(side))) return Pass::unsure;
+            ++(off.v > 0 ? ahead : behind);
+        }
+        return ahead == 0 || behind == 0 ? Pass::beside : Pass::unsure;
+    }
     bool is_far(std::size_t i, const QVec& o, const QVec& d, quad speed, double near) const {
-        const QVec across = cross(QVec(balls_[i].center) - o, d);
-        const quad reach = (quad(balls_[i].radius) + quad(near)) * speed;
+        const Reach& ball = tree_.balls()[i];
+        const QVec across = cross(QVec(ball.center) - o, d);
+        const quad reach = (quad(ball.radius) + quad(near)) * speed;
         return dot(across, across) > reach * reach;
     }
     static quad to_segment(const QVec& a, const QVec& b) {  // from 0
@@ -155,8 +218,8 @@ private:
 
     std::vector<QVec> vertices_;
     std::vector<Face> faces_;
-    std::vector<Reach> balls_;
-    std::vector<QVec> normals_;
+    std::vector<Triple<Rough>> rough_;  ///< vertices
+    BallTree tree_;
     std::vector<double> heights_;
 };
 

@@ -73,6 +73,15 @@ inline bool passes_by(const MeshSurface& surface, const QVec& o, const QVec& d, 
     return length(to_center - t * d) > quad(surface.radius * 1.0001 + 2 * moved);
 }
 
+/// As far as a ray must be from it to pass it by for certain, and more.
+inline Reach reach_of(const MeshSurface& surface) {
+    const double rounding = 4 * margin * ulps * double_epsilon * surface.condition;
+    return {to_vec3(surface.center),
+            1.001 * surface.radius + 4 * precision * surface.condition * surface.radius +
+                rounding * (surface.placement + surface.radius),
+            rounding};
+}
+
 /// A solid that triangles enclose, by parity. One with gaps encloses nothing for certain: all between the first and
 /// the last triangle that a ray meets is in doubt.
 class MeshSolid {
@@ -80,6 +89,7 @@ public:
     MeshSolid(const Parts& parts, const QAffine& place)
         : surface_(parts.vertices, parts.faces, place * parts.place), closed_(is_closed(parts)) {}
 
+    Reach reach() const { return reach_of(surface_); }
     Answer along(const Ray& ray) const {
         const QVec o = ray.origin, d = ray.direction;
         const double moved = displacement(surface_, o, d), speed = to_double(length(d));
@@ -148,6 +158,7 @@ public:
     PlateSolid(const Bot& bot, const QAffine& place, double skin)
         : bot_(bot), inverse_(place.inverse()), skin_(skin), surface_(bot.vertices, bot.faces, place) {}
 
+    Reach reach() const { return reach_of(surface_); }
     Answer along(const Ray& ray) const {
         const QVec o = ray.origin, d = ray.direction;
         const double moved = displacement(surface_, o, d), speed = to_double(length(d));

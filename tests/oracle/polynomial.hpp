@@ -12,42 +12,48 @@
 
 namespace csgrt::oracle {
 
-struct Polynomial {
+/// N: a type of numbers that a quad turns into.
+template <class N>
+struct PolynomialOf {
+    using Polynomial = PolynomialOf;
     static constexpr int max_degree = 4;
-    std::array<quad, max_degree + 1> c{};  ///< c[i] belongs to x^i
-    int degree = 0;                        ///< c[i] is 0 beyond it; the leading one may be 0, too
+    std::array<N, max_degree + 1> c{};  ///< c[i] belongs to x^i
+    int degree = 0;                     ///< c[i] is 0 beyond it; the leading one may be 0, too
 
-    Polynomial() = default;
-    Polynomial(quad constant) { c[0] = constant; }
-    static Polynomial linear(quad at_zero, quad slope) {
-        Polynomial p(at_zero);
+    PolynomialOf() = default;
+    PolynomialOf(quad constant) { c[0] = N(constant); }
+    static Polynomial linear(const N& at_zero, const N& slope) {
+        Polynomial p;
+        p.c[0] = at_zero;
         p.c[1] = slope;
         p.degree = 1;
         return p;
     }
 
-    quad operator()(quad x) const {
-        quad sum = c[static_cast<std::size_t>(degree)];
+    N operator()(const N& x) const {
+        N sum = c[static_cast<std::size_t>(degree)];
         for (int i = degree; i-- > 0;) sum = sum * x + c[static_cast<std::size_t>(i)];
         return sum;
     }
     Polynomial derivative() const {
         Polynomial d;
         d.degree = degree > 0 ? degree - 1 : 0;
-        for (int i = 1; i <= degree; ++i) d.c[static_cast<std::size_t>(i - 1)] = i * c[static_cast<std::size_t>(i)];
+        for (int i = 1; i <= degree; ++i) d.c[static_cast<std::size_t>(i - 1)] = N(i) * c[static_cast<std::size_t>(i)];
         return d;
     }
 
     friend Polynomial operator+(const Polynomial& a, const Polynomial& b) {
         Polynomial result;
         result.degree = a.degree > b.degree ? a.degree : b.degree;
-        for (std::size_t i = 0; i < result.c.size(); ++i) result.c[i] = a.c[i] + b.c[i];
+        const auto terms = static_cast<std::size_t>(result.degree) + 1;
+        for (std::size_t i = 0; i < terms; ++i) result.c[i] = a.c[i] + b.c[i];
         return result;
     }
     friend Polynomial operator-(const Polynomial& a, const Polynomial& b) {
         Polynomial result;
         result.degree = a.degree > b.degree ? a.degree : b.degree;
-        for (std::size_t i = 0; i < result.c.size(); ++i) result.c[i] = a.c[i] - b.c[i];
+        const auto terms = static_cast<std::size_t>(result.degree) + 1;
+        for (std::size_t i = 0; i < terms; ++i) result.c[i] = a.c[i] - b.c[i];
         return result;
     }
     /// The product; its degree must not pass max_degree.
@@ -55,10 +61,11 @@ struct Polynomial {
         Polynomial p;
         p.degree = a.degree + b.degree;
         for (std::size_t i = 0; i <= static_cast<std::size_t>(a.degree); ++i)
-            for (std::size_t j = 0; j <= static_cast<std::size_t>(b.degree); ++j) p.c.at(i + j) += a.c[i] * b.c[j];
+            for (std::size_t j = 0; j <= static_cast<std::size_t>(b.degree); ++j) p.c.at(i + j) = p.c.at(i + j) + a.c[i] * b.c[j];
         return p;
     }
 };
+using Polynomial = PolynomialOf<quad>;
 
 /// Up to four numbers, ascending.
 struct Roots {

@@ -131,7 +131,12 @@ private:
         double widest = 0;
         for (const Event& e : answer.events) widest = std::max(widest, e.tolerance);
         const double allowed = slack_ / speed + widest;
-        for (std::size_t r = 0; r < answer.regions.size(); ++r) {
+        std::vector<std::size_t> met;
+        for (std::size_t r = 0; r < answer.regions.size(); ++r)
+            if (!answer.regions[r].empty()) met.push_back(r);
+        for (const Partition& p : found.partitions)
+            if (answer.regions[to_oracle_[p.region]].empty()) met.push_back(to_oracle_[p.region]);
+        for (const std::size_t r : met) {
             std::vector<const Partition*> mine;
             for (const Partition& p : found.partitions)
                 if (to_oracle_[p.region] == r && p.out > allowed) mine.push_back(&p);

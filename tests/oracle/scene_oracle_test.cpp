@@ -162,7 +162,7 @@ TEST_CASE("scene oracle: what is said in double to pass a solid by does", "[orac
     for (const Kind kind : {Kind::ell, Kind::tgc, Kind::arb, Kind::tor, Kind::part, Kind::hyp, Kind::metaball})
         for (std::size_t index = 0; index < 60; ++index) {
             const Case one = make_case(kind, index, random);
-            const SceneSolid solid = scene_solid(one.shape, to_affine(one.matrix), 0.001);
+            const SceneSolid solid = scene_solid(one.shape, to_affine(one.matrix), 0.001, false);
             const QVec center = solid.reach.center;
             for (int i = 0; i < 12; ++i) {
                 // Beside the ball by a little, or by its half; near, or far away.

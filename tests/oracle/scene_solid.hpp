@@ -9,6 +9,7 @@
 #include "extruded.hpp"
 #include "intersect.hpp"
 #include "mesh_answer.hpp"
+#include "quick.hpp"
 #include "reach.hpp"
 #include "revolved.hpp"
 #include "solids/all.hpp"
@@ -79,24 +80,32 @@ inline Answer along(const ExactSolid& solid, const Ray& ray) {
     return answer;
 }
 
-inline SceneSolid scene_solid(ImplicitSolid&& implicit) {
+/// `quick`: let quick.hpp answer where it can.
+inline SceneSolid scene_solid(ImplicitSolid&& implicit, bool quick) {
     const auto solid = std::make_shared<ImplicitSolid>(std::move(implicit));
     const Reach reach = solid->bounded ? reach_of(*solid) : Reach{};
-    return {[solid](const Ray& ray) { return intersect(*solid, ray); }, reach, solid};
+    if (!quick) return {[solid](const Ray& ray) { return intersect(*solid, ray); }, reach, solid};
+    const auto answer = [solid, filter = std::make_shared<QuickSolid>(solid)](const Ray& ray) {
+        std::optional<Answer> certain = (*filter)(ray);
+        return certain ? std::move(*certain) : intersect(*solid, ray);
+    };
+    return {answer, reach, solid};
 }
 
 /// `skin`: how thick along the ray triangles without thickness are, millimetres.
-inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double skin) {
+inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double skin, bool quick) {
     const auto exact = [](ExactSolid solid) -> SceneSolid {
         const Reach reach = reach_of(solid);
         return {[solid = std::move(solid)](const Ray& ray) { return along(solid, ray); }, reach};
     };
     const auto meshed = [&](const Parts& parts) -> SceneSolid {
-        return {[mesh = std::make_shared<MeshSolid>(parts, place)](const Ray& ray) { return mesh->along(ray); }};
+        const auto mesh = std::make_shared<MeshSolid>(parts, place);
+        return {[mesh](const Ray& ray) { return mesh->along(ray); }, mesh->reach()};
     };
     if (const auto* bot = std::get_if<Bot>(&shape)) {
         if (bot->mode == Bot::Mode::volume) return meshed(parts_of(*bot));
-        return {[plates = std::make_shared<PlateSolid>(*bot, place, skin)](const Ray& r) { return plates->along(r); }};
+        const auto plates = std::make_shared<PlateSolid>(*bot, place, skin);
+        return {[plates](const Ray& r) { return plates->along(r); }, plates->reach()};
     }
     if (const auto* ars = std::get_if<Ars>(&shape)) return meshed(parts_of(*ars));
     if (const auto* nmg = std::get_if<Nmg>(&shape)) return meshed(parts_of(*nmg));
@@ -105,7 +114,7 @@ inline SceneSolid scene_solid(const Shape& shape, const QAffine& place, double s
     if (const auto* ebm = std::get_if<Ebm>(&shape)) return exact(celled(*ebm, place));
     if (const auto* extrude = std::get_if<Extrude>(&shape)) return exact(extruded(*extrude, place));
     if (const auto* revolve = std::get_if<Revolve>(&shape)) return exact(revolved(*revolve, place));
-    return scene_solid(implicit(shape, place));
+    return scene_solid(implicit(shape, place), quick);
 }
 
 }  // namespace csgrt::oracle

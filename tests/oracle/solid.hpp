@@ -14,6 +14,7 @@
 #include "line.hpp"
 #include "polynomial.hpp"
 #include "quad.hpp"
+#include "rough.hpp"
 
 namespace csgrt::oracle {
 
@@ -46,7 +47,19 @@ public:
     virtual Polynomial along(const QVec& origin, const QVec& direction) const = 0;
     /// Instead of `along` where f is no polynomial; else null. It must not outlive the surface.
     virtual std::unique_ptr<Line> line(const QVec&, const QVec&) const { return nullptr; }
+
+    /// Of a plane, whose function is normal . p - distance; else null.
+    virtual const QVec* plane_normal() const { return nullptr; }
+
+    // For quick.hpp: the same function with other numbers.
+    virtual bool is_polynomial() const { return false; }
+    virtual PolynomialOf<Rough> rough_along(const Triple<Rough>&, const Triple<Rough>&) const { return {}; }
+    virtual PolynomialOf<Twofold> fine_along(const Triple<Twofold>&, const Triple<Twofold>&) const { return {}; }
+    virtual Triple<Rough> rough_gradient(const Triple<Rough>&) const { return {}; }
+    /// If f is no polynomial, but the distance to a convex union of sets that polynomials bound: these; else none.
+    virtual std::vector<std::vector<std::unique_ptr<Surface>>> pieces() const { return {}; }
 };
+using SurfaceSet = std::vector<std::unique_ptr<Surface>>;
 
 template <class F>
 class SurfaceOf final : public Surface {
@@ -57,11 +70,31 @@ public:
     QVec gradient(const QVec& p) const override {
         return f_(Jet(p.x, {1, 0, 0}), Jet(p.y, {0, 1, 0}), Jet(p.z, {0, 0, 1})).gradient;
     }
-    Polynomial along(const QVec& o, const QVec& d) const override {
-        return f_(Polynomial::linear(o.x, d.x), Polynomial::linear(o.y, d.y), Polynomial::linear(o.z, d.z));
+    Polynomial along(const QVec& o, const QVec& d) const override { return along_line<Polynomial>(o, d); }
+    const QVec* plane_normal() const override {
+        if constexpr (requires(const F& f) { f.normal; })
+            return &f_.normal;
+        else
+            return nullptr;
+    }
+    bool is_polynomial() const override { return true; }
+    PolynomialOf<Rough> rough_along(const Triple<Rough>& o, const Triple<Rough>& d) const override {
+        return along_line<PolynomialOf<Rough>>(o, d);
+    }
+    PolynomialOf<Twofold> fine_along(const Triple<Twofold>& o, const Triple<Twofold>& d) const override {
+        return along_line<PolynomialOf<Twofold>>(o, d);
+    }
+    Triple<Rough> rough_gradient(const Triple<Rough>& p) const override {
+        const Rough no(0.0), one(1.0);
+        return f_(RoughJet{p.x, {one, no, no}}, RoughJet{p.y, {no, one, no}}, RoughJet{p.z, {no, no, one}}).gradient;
     }
 
 private:
+    template <class P, class V>
+    P along_line(const V& o, const V& d) const {
+        return f_(P::linear(o.x, d.x), P::linear(o.y, d.y), P::linear(o.z, d.z));
+    }
+
     F f_;
 };
 
@@ -76,6 +109,12 @@ public:
     Polynomial along(const QVec&, const QVec&) const override { throw std::logic_error("f is no polynomial"); }
     std::unique_ptr<Line> line(const QVec& o, const QVec& d) const override {
         return std::make_unique<CurvedLine<F>>(f_, o, d);
+    }
+    std::vector<SurfaceSet> pieces() const override {
+        if constexpr (requires(const F& f) { f.pieces_of_hull(); })
+            return f_.pieces_of_hull();
+        else
+            return {};
     }
 
 private:
@@ -124,13 +163,15 @@ struct ImplicitSolid {
     }
     /// Unit normal of surface k at a point of the world, along the gradient: outward. Zero where the gradient vanishes.
     QVec normal(std::size_t k, const QVec& world) const {
-        const QVec g = to_local.transposed(surfaces[k]->gradient(to_local.point(world)));
+        const QVec* plane = surfaces[k]->plane_normal();
+        const QVec g = to_local.transposed(plane != nullptr ? *plane : surfaces[k]->gradient(to_local.point(world)));
         return dot(g, g) > 0 ? unit(g) : QVec{};
     }
     /// Rounding in the evaluation of f_k.
     quad noise(std::size_t k) const { return quad(ulps * double_epsilon) * surfaces[k]->terms(); }
     /// By how much it displaces surface k near a point of the world, millimetres.
     quad blur(std::size_t k, const QVec& world) const {
+        if (surfaces[k]->plane_normal() != nullptr) return 0;
         const quad slope = length(to_local.transposed(surfaces[k]->gradient(to_local.point(world))));
         const quad doubt = noise(k);
         return doubt < slope * quad(size) ? doubt / slope : quad(size);
@@ -138,6 +179,12 @@ struct ImplicitSolid {
     /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes.
     /// Unlike distance x |gradient| it holds at singular points (the apex of a cone), too.
     quad change(std::size_t k, const QVec& local, quad distance) const {
+        if (const QVec* n = surfaces[k]->plane_normal()) {
+            quad most = 0;
+            for (const QVec* axis : {&to_local.x, &to_local.y, &to_local.z})
+                most = larger(most, absolute(dot(*n, *axis)));
+            return most * distance * quad(1.75);
+        }
         const quad here = surfaces[k]->value(local);
         quad most = 0;
         for (const QVec& axis : {to_local.x, to_local.y, to_local.z})

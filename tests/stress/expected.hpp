@@ -19,13 +19,15 @@ struct Expected {
 /// Of one scene, which must outlive it.
 class ExpectedAnswers {
 public:
-    explicit ExpectedAnswers(const stress::StressScene& made) : made_(made) {
-        if (made.known.empty()) truth_.emplace(made.scene, made.objects);
+    /// `quick`: as of the scene oracle.
+    explicit ExpectedAnswers(const stress::StressScene& made, bool quick = false) : made_(made) {
+        if (made.known.empty()) truth_.emplace(made.scene, made.objects, quick);
     }
 
     Expected operator()(std::size_t ray) const {
         if (!truth_) return {sequence_of(made_.known[ray], made_.rays[ray]), {}, false};
-        const Truth truth = truth_->shoot(made_.rays[ray]);
+        Truth truth = truth_->shoot(made_.rays[ray]);
+        if (!truth.certain) truth = TrueScene(made_.scene, made_.objects).shoot(made_.rays[ray]);
         Expected expected{{}, overlaps_of(truth), truth.tie};
         expected.sequence = sequence_of(truth, expected.tie);
         return expected;

@@ -27,12 +27,15 @@ struct TrueStretch {
 };
 struct Truth {
     bool tie = false;
+    bool certain = true;  ///< false: quick normals are too rough to tell; ask in 113 bits
     std::vector<TrueStretch> stretches;  ///< of the whole line, in order
 };
 
 class TrueScene {
 public:
-    TrueScene(const Scene& scene, const std::vector<std::string>& objects) : oracle_(scene, objects) {
+    /// `quick`: as of the scene oracle.
+    TrueScene(const Scene& scene, const std::vector<std::string>& objects, bool quick = false)
+        : oracle_(scene, objects, false, quick), quick_(quick) {
         for (const oracle::OracleRegion& region : oracle_.regions()) {
             const std::string name = region.path.substr(region.path.rfind('/') + 1);
             const auto at = std::find(objects.begin(), objects.end(), name);
@@ -66,7 +69,7 @@ private:
     }
 
     /// Do all solids that end between the two do so on one surface, up to rounding, each once?
-    static bool one_surface(const oracle::SceneAnswer& answer, double low, double high) {
+    bool one_surface(const oracle::SceneAnswer& answer, double low, double high, Truth& truth) const {
         const oracle::Event* first = nullptr;
         std::vector<std::size_t> solids;
         double least = 0, most = 0, rounding = 0;
@@ -82,11 +85,19 @@ private:
             }
             least = std::min(least, e.t);
             most = std::max(most, e.t);
-            const oracle::QVec turn = oracle::cross(oracle::QVec(first->normal), oracle::QVec(e.normal));
-            const bool known = first->normal != Vec3{} && e.normal != Vec3{};
-            if (!known || oracle::to_double(oracle::length(turn)) > 1e-13) return false;
+            if (first->normal == Vec3{} || e.normal == Vec3{} || !one_direction(first->normal, e.normal, truth))
+                return false;
         }
         return most - least <= rounding;
+    }
+    /// Up to rounding. In doubles, and where these could make a difference in 113 bits.
+    bool one_direction(const Vec3& a, const Vec3& b, Truth& truth) const {
+        constexpr double apart = 1e-13, doubtful = 3 * oracle::normals_off;
+        const double x = a.y * b.z - a.z * b.y, y = a.z * b.x - a.x * b.z, z = a.x * b.y - a.y * b.x;
+        const double turn = std::sqrt(x * x + y * y + z * z);
+        if (std::abs(turn - apart) > doubtful) return turn < apart;
+        truth.certain = truth.certain && !quick_;
+        return oracle::to_double(oracle::length(oracle::cross(oracle::QVec(a), oracle::QVec(b)))) <= apart;
     }
 
     /// Where region r begins and ends.
@@ -116,7 +127,7 @@ private:
                 for (const oracle::Event& e : answer.events)
                     if (e.t >= unsure_from && e.t <= piece.in) widest = std::max(widest, e.tolerance);
                 if (answer.solid_tie && piece.in - unsure_from > 4 * widest) truth.tie = true;
-                if (!one_surface(answer, unsure_from, piece.in)) truth.tie = true;
+                if (!one_surface(answer, unsure_from, piece.in, truth)) truth.tie = true;
             }
             if (certain != inside) {
                 Edge edge = edge_at(answer, here.empty() ? piece.in : here.front());
@@ -130,7 +141,7 @@ private:
     }
 
     /// Edges that rounding alone keeps apart are one.
-    static void weave(const oracle::SceneAnswer& answer, const std::vector<Edge>& edges, Truth& truth) {
+    void weave(const oracle::SceneAnswer& answer, const std::vector<Edge>& edges, Truth& truth) const {
         std::vector<std::uint32_t> inside;
         for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
             double tolerance = edges[begin].tolerance;
@@ -140,7 +151,7 @@ private:
                 tolerance = std::max(tolerance, edges[end].tolerance);
             }
             const double t = edges[begin].t;
-            if (end - begin > 1 && !one_surface(answer, t, edges[end - 1].t)) truth.tie = true;
+            if (end - begin > 1 && !one_surface(answer, t, edges[end - 1].t, truth)) truth.tie = true;
             std::vector<std::uint32_t> next = inside;
             for (std::size_t i = begin; i < end; ++i) {
                 const auto at = std::lower_bound(next.begin(), next.end(), edges[i].region);
@@ -161,6 +172,7 @@ private:
     }
 
     oracle::SceneOracle oracle_;
+    bool quick_;
     std::vector<std::uint32_t> number_;  ///< of the oracle's regions
 };
 

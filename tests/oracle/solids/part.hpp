@@ -9,6 +9,26 @@
 
 namespace csgrt::oracle {
 
+/// Of the hull's pieces: a ball about a point of the axis, and the cone that touches both.
+struct PartBall {
+    quad center, radius;
+    quad terms() const { return 1; }
+    template <class T>
+    T operator()(const T& x, const T& y, const T& z) const {
+        const T up = z - T(center);
+        return x * x + y * y + up * up - T(radius * radius);
+    }
+};
+struct PartCone {
+    quad at_zero, slope;
+    quad terms() const { return 1; }
+    template <class T>
+    T operator()(const T& x, const T& y, const T& z) const {
+        const T wide = T(at_zero) + T(slope) * z;
+        return x * x + y * y - wide * wide;
+    }
+};
+
 struct PartFunction {
     quad h, r_v, r_h;  ///< the axis runs from 0 to h on z
 
@@ -17,6 +37,29 @@ struct PartFunction {
     int pieces() const { return 1; }
     double settled() const { return 1e-30; }
 
+    /// The hull: the frustum between the circles where the cone touches both balls, and these, which meet it.
+    std::vector<SurfaceSet> pieces_of_hull() const {
+        const quad s = h > 0 ? (r_v - r_h) / h : quad(0), cosine2 = (1 - s) * (1 + s);
+        const auto ball = [](quad z, quad r) {
+            SurfaceSet piece;
+            piece.push_back(std::make_unique<SurfaceOf<PartBall>>(PartBall{z, r}));
+            return piece;
+        };
+        std::vector<SurfaceSet> all;
+        if (!(cosine2 > 0) || !(h > 0)) {
+            all.push_back(r_v >= r_h ? ball(0, r_v) : ball(h, r_h));
+            return all;
+        }
+        SurfaceSet frustum;
+        frustum.push_back(std::make_unique<SurfaceOf<PlaneFunction>>(PlaneFunction{{0, 0, -1}, -s * r_v}));
+        frustum.push_back(std::make_unique<SurfaceOf<PlaneFunction>>(PlaneFunction{{0, 0, 1}, h + s * r_h}));
+        const quad cosine = root(cosine2);
+        frustum.push_back(std::make_unique<SurfaceOf<PartCone>>(PartCone{r_v / cosine, -s / cosine}));
+        all.push_back(std::move(frustum));
+        if (r_v > 0) all.push_back(ball(0, r_v));
+        if (r_h > 0) all.push_back(ball(h, r_h));
+        return all;
+    }
     /// The z of the best ball's centre.
     quad best(const QVec& p) const {
         const quad s = h > 0 ? (r_v - r_h) / h : quad(0), cosine2 = (1 - s) * (1 + s);
