@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(below_compile scene formats)
 set(below_pipeline compile device ${below_compile})
-set(may_cli scene)  # else the command sees what every program sees: the public headers
+set(may_cli scene image)  # image: functions.hpp, by which it is loaded late. Else it sees what every program sees: the public headers
 set(may_renderer pipeline reference ${below_pipeline})
 set(may_pipeline ${below_pipeline})
 set(may_reference compile ${below_compile})
