@@ -1,10 +1,10 @@
 // The first claimed partition of a ray, without the others: front to back, in the ray's own memory.
 //
-// The leaves that the ray's block may meet come nearest first (blocks.h). What is still unseen lies behind the next of them,
+// The nodes that the ray's block may meet come nearest first (blocks.h). What is still unseen lies behind the next of them,
 // so every event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim
 // ends it all. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
 //
-//   leaves     |--seen--|   |--seen--|      |--unseen--|
+//   nodes      |--seen--|   |--seen--|      |--unseen--|
 //   ends        i     o  i    i   o         :       o  o
 //   events      1     2  3    4   5         : these may be joined by others yet
 #ifndef CSGRT_FIRST_HIT_H
@@ -151,34 +151,45 @@ FN float due_at(const front* w, real tolerance, wide offset) {
     return w->count > 0 ? (float)((wide)(w->ends[w->order[0]].t + tolerance) - offset) : BOX_MISSED;
 }
 
-// `leaves`: those of the ray's block.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockLeaf* leaves, ray3 r, front* w) {
+// `next`: the nodes of the ray's block.
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockNode* next, ray3 r, front* w) {
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
     float due = BOX_MISSED;  // about where the first event is complete
-    u32 solid = 0, end = f->unbounded_count;
+    u32 solid = 0, end = f->unbounded_count, i = 0, subtree_end = 0;
     w->count = w->used = w->open = w->from_within = w->steps = 0;
     w->region = NONE;
-    for (;; ++leaves) {
-        const BlockLeaf leaf = *leaves;
+    for (;;) {
         if (solid < end) {
             for (; solid < end; ++solid)
                 if (!take_solid(w, s.g, solid, r, t_min)) return RAY_OVERFLOWS;
             if (!IS_PATIENT(w->steps)) return RAY_OVERFLOWS;
             due = due_at(w, tolerance, offset);
         }
-        if (leaf.entry > due || leaf.node == NONE) {
-            const real horizon = leaf.entry < BOX_MISSED ? REAL((wide)leaf.entry + offset) : REAL_INFINITY;
-            if (advance(w, s, tolerance, t_min, horizon)) return RAY_HITS;
-            if (leaf.node == NONE) return leaf.entry < BOX_MISSED ? RAY_OVERFLOWS : RAY_MISSES;
-            due = due_at(w, tolerance, offset);
+        if (i == subtree_end) {
+            const BlockNode e = *next++;
+            if (e.entry > due || e.node == NONE) {
+                const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
+                if (advance(w, s, tolerance, t_min, horizon)) return RAY_HITS;
+                if (e.node == NONE) return RAY_MISSES;
+                due = due_at(w, tolerance, offset);
+            }
+            if (!slabs.hits_sphere) continue;
+            i = e.node;
+            subtree_end = s.nodes[i].skip;
         }
-        if (slabs.hits_sphere) {
-            const BvhNode node = s.nodes[leaf.node];
-            if (!box_is_hit(slabs, node)) continue;
-            solid = node.leaf >> BVH_LEAF_SHIFT;
-            end = solid + (node.leaf & BVH_LEAF_MASK);
+        {
+            const BvhNode node = s.nodes[i];
+            if (!box_is_hit(slabs, node)) {
+                i = node.skip;
+            } else if (node.leaf) {
+                i = node.skip;
+                solid = node.leaf >> BVH_LEAF_SHIFT;
+                end = solid + (node.leaf & BVH_LEAF_MASK);
+            } else {
+                ++i;
+            }
         }
     }
 }

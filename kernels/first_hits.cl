@@ -1,4 +1,4 @@
-// The first hits of a picture, without segments in memory: each ray on its own, from its block's leaves to its pixel.
+// The first hits of a picture, without segments in memory: each ray on its own, from its block's nodes to its pixel.
 #include "first_hit.h"
 #include "geometry/solid.h"
 #include "shading.h"
@@ -8,7 +8,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
                          __global const BvhNode* inner_nodes, __global const BvhNode* nodes,
                          __global const RegionRecord* regions, __global const StartRecord* starts, __global const u32* leaves,
                          __global const u32* trees, __global const MaterialRecord* materials,
-                         __global const LightRecord* lights, __global const BlockLeaf* block_leaves,
+                         __global const LightRecord* lights, __global const BlockNode* block_nodes,
                          __global const RayRecord* rays,
                          __global u32* overflows, __global u32* overflown, __global float* picture) {
     u32 id = (u32)get_global_id(0), number, found;
@@ -27,8 +27,8 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     s.starts = starts;
     s.leaves = leaves;
     s.trees = trees;
-    block_leaves += (size_t)((number - frame->first_ray) / (BLOCK * BLOCK)) * LISTED_LEAVES;
-    found = first_hit(frame, s, block_leaves, r, &w);
+    block_nodes += (size_t)((number - frame->first_ray) / (BLOCK * BLOCK)) * LISTED_NODES;
+    found = first_hit(frame, s, block_nodes, r, &w);
     if (found == RAY_OVERFLOWS) {
         u32 place = atomic_inc(overflows);
         overflown[place] = number;

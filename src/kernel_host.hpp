@@ -30,6 +30,6 @@ static_assert(sizeof(StartRecord) == 28);
 static_assert(sizeof(RayResult) == 12);
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
-static_assert(sizeof(BlockLeaf) == 8);
+static_assert(sizeof(BlockNode) == 8);
 
 }  // namespace csgrt::kernel

@@ -170,14 +170,13 @@ typedef struct {
     wide ox, oy, oz, dx, dy, dz;
 } RayRecord;
 
-// 0 cull blocks -> first hits: the leaves of the hierarchy that a block's rays may meet, nearest first, then an entry without
-// a leaf.
+// 0 cull blocks -> first hits: nodes of the hierarchy that hold all that a block's rays may meet, each one thing once: leaves,
+// or subtrees where there is much. Nearest first, then an entry without a node.
 typedef struct {
-    u32 node;     // NONE: no more are listed
-    float entry;  // no ray of the block comes there before this distance, less that of the scene's center;
-                  // without a leaf: there is nothing from here on that was not listed; BOX_MISSED: nothing at all
-} BlockLeaf;
-#define LISTED_LEAVES 128u  // entries of a block
+    u32 node;     // NONE: no more
+    float entry;  // no ray of the block comes there before this distance, less that of the scene's center
+} BlockNode;
+#define LISTED_NODES 64u  // entries of a block
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 

@@ -34,7 +34,7 @@ std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers
     overflows_.queue_fill(0, sizeof(cl_uint));
     const Event draw = first_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                           s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
-                                          tile.lights, cull_.leaves(), tile.rays, overflows_, overflown_, tile.picture);
+                                          tile.lights, cull_.lists(), tile.rays, overflows_, overflown_, tile.picture);
     const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();
     counts.first_hits += milliseconds(draw);
     return overflown_.read<std::uint32_t>(overflows);

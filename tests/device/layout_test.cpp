@@ -31,7 +31,7 @@ using namespace csgrt;
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
-    FIELD(RayRecord, dz) RECORD(BlockLeaf) FIELD(BlockLeaf, node) FIELD(BlockLeaf, entry) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
+    FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, ray) FIELD(PartitionNode, region) \

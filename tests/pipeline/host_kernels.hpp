@@ -164,7 +164,7 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     std::vector<unsigned char> blocks(frame.ray_count / (BLOCK * BLOCK));
     std::vector<u32> overflown(frame.ray_count);
     u32 overflows = 0;
-    std::vector<BlockLeaf> leaves(blocks.size() * LISTED_LEAVES);
+    std::vector<BlockNode> leaves(blocks.size() * LISTED_NODES);
     for (global_id = 0; global_id < blocks.size(); ++global_id)
         cull_blocks(&frame, scene.nodes.data(), blocks.data(), leaves.data());
     std::erase_if(numbers, [&](u32 number) { return !blocks[number / (BLOCK * BLOCK)]; });
