@@ -176,7 +176,7 @@ typedef struct {
     u32 node;     // NONE: no more
     float entry;  // no ray of the block comes there before this distance, less that of the scene's center
 } BlockNode;
-#define LISTED_NODES 64u  // entries of a block
+#define LISTED_NODES 32u  // entries of a block
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
