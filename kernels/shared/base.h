@@ -34,7 +34,11 @@ typedef uint u32;
 #endif
 #define FN static
 // What is so often called with so much that a call takes longer than its work.
+#ifdef CSGRT_NO_INLINE  // for a simulator that does not know all that inlining leaves behind
+#define INLINE_FN static
+#else
 #define INLINE_FN static inline __attribute__((always_inline))
+#endif
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
 FN real real_fma(real a, real b, real c) { return fma(a, b, c); }

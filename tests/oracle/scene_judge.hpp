@@ -7,7 +7,9 @@
 // against the ray on the way in and along it on the way out.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -53,8 +55,9 @@ public:
         bool overlaps = !found.overlaps.empty();  // some are no longer than the slack
         for (const Piece& piece : answer.pieces) {
             check_piece(piece, found, wrong);
-            overlaps = overlaps || certain(piece) > 1;  // also behind the start: they cut what reaches across it
+            overlaps = overlaps || certain(piece) > 1;
         }
+        overlaps = overlaps || overlap_behind(answer, slack_ / to_double(length(QVec(ray.direction))));
         if (!answer.tie && !overlaps) check_spans(ray, answer, found, wrong);
         if (!answer.tie) check_ends(ray, answer, found, wrong);
         check_normals(ray, answer, found, wrong);
@@ -83,6 +86,20 @@ private:
     static std::size_t certain(const Piece& piece) {
         return static_cast<std::size_t>(
             std::count_if(piece.claims.begin(), piece.claims.end(), [](const Piece::Claim& c) { return c.certain; }));
+    }
+    /// Do regions overlap by more than that behind the ray's start? Nobody lists it, but it cuts what reaches across the start.
+    static bool overlap_behind(const SceneAnswer& answer, double slack) {
+        std::vector<std::pair<double, double>> behind;
+        for (const Spans& spans : answer.regions)
+            for (const Span& s : spans)
+                if (s.in.at < 0) behind.push_back({to_double(s.in.at), to_double(s.out.at)});
+        std::sort(behind.begin(), behind.end());
+        double reached = -std::numeric_limits<double>::infinity();
+        for (const auto& [in, out] : behind) {
+            if (std::min(reached, out) - in > slack) return true;
+            reached = std::max(reached, out);
+        }
+        return false;
     }
     static bool claimed(const Piece& piece, std::uint32_t region) {
         return std::any_of(piece.claims.begin(), piece.claims.end(),

@@ -206,3 +206,23 @@ TEST_CASE("scene judge: on an edge the normal of either face will do, and no oth
     CHECK(fault({0.6, 0, 0.8}).find("not the surface's") != std::string::npos);
     CHECK(fault({0, -1, 0}).find("not the surface's") != std::string::npos);
 }
+
+TEST_CASE("scene judge: an overlap behind the start cuts what reaches across it, however short", "[oracle]") {
+    Scene scene;  // a ball from -5 to -0.9994 and one from -1 to 3: the first keeps what both hold
+    scene.objects = {ball("one", -2.9997, 2.0003), ball("two", 1, 2), combination("a", true, {leaf("one")}),
+                     combination("b", true, {leaf("two")})};
+    const SceneOracle oracle(scene, {"a", "b"});
+    RegionInfo a, b;
+    a.path = "/a";
+    b.path = "/b";
+    const SceneJudge judge(oracle, {a, b}, 0.0005);
+    const auto fault = [&](double in) {
+        const RayPartitions found{{{in, 3, {-1, 0, 0}, {1, 0, 0}, 1, 0, 1}}, {}};
+        std::size_t ties = 0;
+        const std::string wrong = judge.judge({{0, 0, 0}, {1, 0, 0}}, found, ties);
+        CHECK(ties == 0);
+        return wrong;
+    };
+    CHECK(fault(-0.9994).empty());
+    CHECK(fault(-0.9).find("no solid has an end") != std::string::npos);
+}
