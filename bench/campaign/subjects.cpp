@@ -22,6 +22,7 @@ public:
     const std::vector<std::string>& objects() const override { return made_.objects; }
     void prepare(const Renderer& renderer, std::size_t count) override {
         renumbering_.emplace(renderer, made_.objects);
+        fused_ = renderer.statistics().tolerance;
         const std::size_t times = (count + made_.rays.size() - 1) / made_.rays.size();
         if (times > 1) made_ = stress::make(item_.family, item_.seed, times);
         expected_.emplace(made_, true);
@@ -44,7 +45,8 @@ private:
     Verdict judge_by(const test::ExpectedAnswers& answers, std::size_t i, const RayPartitions& found) const {
         const test::Expected expected = answers(first_ + i);
         if (expected.tie) return {true, {}, 0};
-        const test::Compared compared = test::compare(found, expected);
+        const Vec3& d = made_.rays[first_ + i].direction;
+        const test::Compared compared = test::compare(found, expected, fused_ / std::hypot(d.x, d.y, d.z));
         Verdict verdict{false, {}, compared.worst};
         if (!compared.overlaps) verdict.wrong = "other overlaps";
         if (compared.worst > 1) verdict.wrong = "an end is " + std::to_string(compared.worst) + " times too far off";
@@ -57,6 +59,7 @@ private:
     std::optional<test::Renumbering> renumbering_;
     std::optional<test::ExpectedAnswers> expected_, slow_;  ///< quick where that is certain; 113 bits throughout
     std::size_t first_ = 0, shot_ = 0;
+    double fused_ = 0;
 };
 
 /// Rays through the model's box, in turn: from all sides; along the axes; from within; from far away; with directions

@@ -65,16 +65,19 @@ inline std::vector<Expected> expected_of(const stress::StressScene& made) {
     return all;
 }
 
-inline std::vector<RayPartitions> shoot(const Scene& scene, const std::vector<std::string>& objects,
-                                        const std::vector<std::string>& regions, const std::vector<Ray>& rays,
-                                        const Settings& settings, double& size) {
+struct Shot {
+    std::vector<RayPartitions> found;
+    double size = 0, fused = 0;  ///< of the scene; ends closer than that are one
+};
+inline Shot shoot(const Scene& scene, const std::vector<std::string>& objects, const std::vector<std::string>& regions,
+                  const std::vector<Ray>& rays, const Settings& settings) {
     Renderer renderer(scene, objects, settings);
     const Box& b = renderer.bounds();
-    size = std::hypot(b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z);
-    std::vector<RayPartitions> found = renderer.shoot(rays);
+    const double size = std::hypot(b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z);
+    Shot shot{renderer.shoot(rays), size, renderer.statistics().tolerance};
     const Renumbering renumbering(renderer, regions);
-    for (RayPartitions& answer : found) renumbering.apply(answer);
-    return found;
+    for (RayPartitions& answer : shot.found) renumbering.apply(answer);
+    return shot;
 }
 
 inline Counts check(const stress::StressScene& made, const Settings& settings) {
@@ -82,8 +85,7 @@ inline Counts check(const stress::StressScene& made, const Settings& settings) {
     counts.scenes = 1;
     counts.rays = made.rays.size();
     const std::vector<Expected> expected = expected_of(made);
-    double size = 0;
-    const std::vector<RayPartitions> found = shoot(made.scene, made.objects, made.objects, made.rays, settings, size);
+    const auto [found, size, fused] = shoot(made.scene, made.objects, made.objects, made.rays, settings);
     std::vector<Sequence> base;
     for (std::size_t i = 0; i < found.size(); ++i) {
         base.push_back(sequence_of(found[i]));
@@ -91,7 +93,8 @@ inline Counts check(const stress::StressScene& made, const Settings& settings) {
             ++counts.ties;
             continue;
         }
-        const Compared compared = compare(found[i], expected[i]);
+        const Vec3& d = made.rays[i].direction;
+        const Compared compared = compare(found[i], expected[i], fused / std::hypot(d.x, d.y, d.z));
         if (!compared.regions) {
             if (counts.wrong++ == 0) keep_finding("wrong", made, made.scene, made.rays[i]);
             continue;
@@ -102,9 +105,8 @@ inline Counts check(const stress::StressScene& made, const Settings& settings) {
     }
     for (std::size_t c = 0; c < changes.size(); ++c) {
         const Changed other = changed(made, c, size, base);
-        double other_size = 0;
         const std::vector<RayPartitions> again =
-            shoot(other.scene, other.objects, made.objects, other.rays, settings, other_size);
+            shoot(other.scene, other.objects, made.objects, other.rays, settings).found;
         for (std::size_t i = 0; i < again.size(); ++i) {
             if (expected[i].tie) continue;
             Sequence sequence = sequence_of(again[i]);

@@ -64,12 +64,13 @@ struct Compared {
     bool overlaps = false;  ///< the right ones, where they are known
     double worst = 0;  ///< if the regions are right: an end's distance from the truth, in units of what is documented
 };
-inline Compared compare(const RayPartitions& found, const Expected& expected) {
+/// `fused`: along the ray, ends closer than that are one (Statistics::tolerance), at the distance of the first of them.
+inline Compared compare(const RayPartitions& found, const Expected& expected, double fused) {
     const Sequence sequence = sequence_of(found);
     Compared compared;
     compared.regions = same_regions(sequence, expected.sequence);
     compared.overlaps = !expected.overlaps || overlaps_of(found) == *expected.overlaps;
-    if (compared.regions) compared.worst = worst_end(sequence, expected.sequence, 0);
+    if (compared.regions) compared.worst = worst_end(sequence, expected.sequence, fused);
     return compared;
 }
 
