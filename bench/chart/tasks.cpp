@@ -83,7 +83,7 @@ std::vector<ChartWorkload> chart_workloads(const Sample& sample) {
             std::fprintf(stderr, "%s: left out, there is no %s\n", name.c_str(), path.c_str());
     };
     for (const Workload& workload : workloads())
-        if (!workload.file.ends_with(".json"))
+        if (!workload.file.empty() && !workload.file.ends_with(".json"))
             add(workload.name, "models", sample.models + "/" + workload.file, workload.objects);
     // Of our own: many solids; tori; surfaces that coincide; a model far from the origin.
     for (const char* name : {"operators", "pipes", "coplanar", "far_origin"})
