@@ -1,7 +1,4 @@
-// Kernel 5: the first claimed partition -> a pixel. Only here is a normal computed: one a ray. A region whose partition
-// begins where another solid ends shows that solid's surface from within: the normal is flipped.
-#include "camera.h"
-#include "geometry/solid.h"
+// Kernel 5: the first claimed partition -> a pixel.
 #include "shading.h"
 
 __kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
@@ -42,11 +39,7 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         End end = ends[partition.in_end];
         u32 region = partition.region & ~OVERLAP;
         Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
-        vec3 n = normal_at(g, solids[end.solid], r, end.t, end.surface);
-        if (partition.in_end & 1u) n = scale(n, REAL(-1));
-        pixel = hit_pixel(frame, lights, materials[regions[region].material], r, end.t, n);
-        pixel.region = region + 1;
-        pixel.solid = end.solid + 1;
+        pixel = seen_pixel(frame, lights, materials[regions[region].material], g, r, end, partition.in_end & 1u, region);
     }
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = result.partitions;

@@ -101,16 +101,6 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
     }
 }
 
-// The same as t_min_along for a ray that is not at hand.
-FN real t_min_of(GLOBAL const Frame* f, u32 number) {
-#ifdef CSGRT_EYE_RELATIVE
-    ray3 r;
-    if (!f->listed && ray_of(f, 0, number, &r)) return t_min_along(f, r);
-#endif
-    (void)number;
-    return REAL(f->t_min);
-}
-
 // The frame's tolerance in units of the ray's own direction, which a listed ray brings in any length.
 FN real tolerance_along(GLOBAL const Frame* f, ray3 r) {
 #ifdef CSGRT_EYE_RELATIVE

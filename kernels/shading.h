@@ -7,6 +7,7 @@
 #define CSGRT_SHADING_H
 
 #include "camera.h"
+#include "geometry/solid.h"
 
 typedef struct {
     real r, g, b;
@@ -81,6 +82,19 @@ FN Pixel hit_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mate
     p.normal[2] = (float)n.z;
     p.region = p.solid = 0;
     p.depth = p.partitions = p.overlap = 0;
+    return p;
+}
+
+// Region `region` where the ray comes upon it at the end `seen`. If the region begins where another solid ends
+// (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal computed: one a ray.
+FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r, End seen,
+                    u32 from_within, u32 region) {
+    vec3 n = normal_at(g, g.solids[seen.solid], r, seen.t, seen.surface);
+    Pixel p;
+    if (from_within) n = scale(n, REAL(-1));
+    p = hit_pixel(f, lights, m, r, seen.t, n);
+    p.region = region + 1;
+    p.solid = seen.solid + 1;
     return p;
 }
 

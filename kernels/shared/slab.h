@@ -50,7 +50,7 @@ FN float grown(float x, float pad) { return sizeof(real) == 4 ? x + pad : x; }
 
 #define BOX_MISSED 3.0e38f
 
-// Where the ray enters the box, at the latest, in the hierarchy's parameter; BOX_MISSED: it does not.
+// Where the ray enters the box, or before that, in the hierarchy's parameter; BOX_MISSED: it does not.
 // fmin and fmax pass a NaN by: 0 * infinity arises only for a ray within a padded face's plane, outside the true box.
 FN float box_entry(slab_ray s, BvhNode node) {
     float x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;

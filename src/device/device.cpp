@@ -19,16 +19,18 @@ std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
     return std::min(info.memory, host ? host : info.memory) / 2;
 }
 
-}  // namespace
-
-Device::Device(const std::string& choice, std::uint64_t max_memory) {
-    std::vector<FoundDevice> found = find_devices();
+FoundDevice chosen(const std::string& choice) {
+    const std::vector<FoundDevice> found = find_devices();
     std::vector<DeviceInfo> infos;
     for (const FoundDevice& device : found) infos.push_back(device.info);
-    const std::size_t chosen = choose_device(infos, choice);
-    info_ = infos[chosen];
-    id_ = found[chosen].id;
+    return found[choose_device(infos, choice)];
+}
 
+}  // namespace
+
+Device::Device(const std::string& choice, std::uint64_t max_memory) : Device(chosen(choice), max_memory) {}
+
+Device::Device(const FoundDevice& device, std::uint64_t max_memory) : info_(device.info), id_(device.id) {
     cl_int code = CL_SUCCESS;
     context_ = Handle<cl_context, clReleaseContext>(clCreateContext(nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");

@@ -12,6 +12,8 @@
 
 namespace csgrt {
 
+struct FoundDevice;
+
 /// A context and a profiling queue on one device. Buffers, programs and kernels refer to it and must not outlive it.
 /// Commands run in the order in which they are queued; several may be queued before one wait.
 class Device {
@@ -21,6 +23,7 @@ public:
     /// `max_memory` bounds what all buffers together may take, in bytes; 0: what the device can give.
     /// Throws Error (no_device) that lists what there is, or names the package that brings a device.
     explicit Device(const std::string& choice = "", std::uint64_t max_memory = 0);
+    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 

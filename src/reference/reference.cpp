@@ -156,9 +156,7 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, cons
             } else {
                 const ClaimedPartition& hit = claims.partitions[claims.first_seen];
                 const kernel::MaterialRecord& material = scene_.materials[scene_.regions[hit.region].material];
-                pixel = kernels_.hit_pixel(frame, prepared.lights, material, ray, hit.in, hit.in_leaves);
-                pixel.region = hit.region + 1;
-                pixel.solid = hit.in.solid + 1;
+                pixel = kernels_.hit_pixel(frame, prepared.lights, hit.region, material, ray, hit.in, hit.in_leaves);
             }
             pixel.depth = static_cast<std::uint32_t>(claims.ends.size() / 2);
             pixel.partitions = static_cast<std::uint32_t>(claims.woven);

@@ -21,10 +21,10 @@ public:
                                               std::vector<kernel::End>& ends) const = 0;
     /// The frame's t_min as it is compared with ends.
     virtual double t_min(const kernel::Frame& frame, const Ray& ray) const = 0;
-    /// A pixel that shows the surface at an end; `leaves`: from within.
+    /// A pixel that shows a region's surface at an end; `leaves`: from within.
     virtual kernel::Pixel hit_pixel(const kernel::Frame& frame, const std::vector<kernel::LightRecord>& lights,
-                                    const kernel::MaterialRecord& material, const Ray& ray, const kernel::End& end,
-                                    bool leaves) const = 0;
+                                    std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
+                                    const kernel::End& end, bool leaves) const = 0;
 };
 
 /// `scene` must outlive the result. Precision::quad is on the host only.

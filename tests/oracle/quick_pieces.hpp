@@ -85,10 +85,6 @@ inline QuickCurve quick_curve(const ImplicitSolid& solid, const Surface& surface
     return curve;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// The ray in a parameter s: t = closest + s unit, as in intersect.hpp.
 struct QuickPath {
     Twofold closest;

@@ -256,14 +256,13 @@ public:
         return static_cast<double>(k::t_min_along(&frame, k::geometry_ray(&frame, convert_ray(ray))));
     }
     kernel::Pixel hit_pixel(const kernel::Frame& f, const std::vector<kernel::LightRecord>& lights,
-                            const kernel::MaterialRecord& material, const Ray& ray, const kernel::End& end,
-                            bool leaves) const override {
+                            std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
+                            const kernel::End& end, bool leaves) const override {
         const k::Frame frame = convert_frame(f);
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const auto& records = lights_of(lights);
-        k::vec3 n = normal_at(r, end);
-        if (leaves) n = k::scale(n, real(-1));
-        const k::Pixel pixel = k::hit_pixel(&frame, records.data(), convert(material), r, static_cast<real>(end.t), n);
+        const k::End seen{static_cast<real>(end.t), end.solid, end.surface};
+        const k::Pixel pixel = k::seen_pixel(&frame, records.data(), convert(material), g_, r, seen, leaves, region);
         kernel::Pixel result;
         static_assert(sizeof result == sizeof pixel && std::is_trivially_copyable_v<k::Pixel>);
         std::memcpy(&result, &pixel, sizeof result);
