@@ -1,5 +1,5 @@
 // Kernel 0: which blocks of a picture can see anything at all; the rays of the others are never made. And which nodes of
-// the hierarchy each of them meets, from front to back: found once for 64 rays, which are put to little else.
+// the hierarchy each of them meets: found once for 64 rays, which are put to little else.
 #include "blocks.h"
 
 static BlockNode entry_of(beam b, __global const BvhNode* nodes, u32 node) {
@@ -11,7 +11,7 @@ static BlockNode entry_of(beam b, __global const BvhNode* nodes, u32 node) {
 
 // From the root down, level by level, as long as there is room: a node gives way to those of its two children that the
 // beam meets. The entries are the hierarchy's parameter yet.
-static u32 list_nodes(beam b, __global const BvhNode* nodes, __global BlockNode* list) {
+static u32 list_nodes(beam b, __global const BvhNode* nodes, BlockNode* list) {
     u32 count, k, split = 1;
     list[0] = entry_of(b, nodes, 0);
     count = list[0].entry < BOX_MISSED;
@@ -44,20 +44,29 @@ static u32 list_nodes(beam b, __global const BvhNode* nodes, __global BlockNode*
     return count;
 }
 
-static void sort_nodes(beam b, __global BlockNode* list, u32 count) {
+// By distance, or as they stand in the hierarchy.
+static void store_sorted(beam b, BlockNode* list, u32 count, int by_distance, __global BlockNode* stored) {
     u32 i, k;
     for (i = 0; i < count; ++i) {
         BlockNode e = list[i];
         e.entry = entry_from_center(b, e.entry);
         for (k = i; k > 0; --k) {
             const BlockNode before = list[k - 1];
-            if (before.entry <= e.entry) break;
+            if (by_distance ? before.entry <= e.entry : before.node < e.node) break;
             list[k] = before;
         }
         list[k] = e;
     }
-    list[count].node = NONE;
-    list[count].entry = BOX_MISSED;
+    for (i = 0; i < count; ++i) stored[i] = list[i];
+    stored[count].node = NONE;
+    stored[count].entry = BOX_MISSED;
+}
+
+// Leaves and the nodes above them, as far as a byte goes: what a block's rays cost is more or less in proportion.
+static u32 count_nodes(__global const BvhNode* nodes, const BlockNode* list, u32 count) {
+    u32 i, sum = 0;
+    for (i = 0; i < count; ++i) sum += nodes[list[i].node].skip - list[i].node;
+    return sum < 254 ? sum : 254;
 }
 
 // The first leaf is enough.
@@ -72,19 +81,22 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
     return 0;
 }
 
-// A work-item is a block: 1 if one of its rays may meet a solid. `lists`: LISTED_NODES a block; 0: they are not wanted.
-__kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* blocks,
+// A work-item is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES.
+// `lists` 0: they are not wanted.
+__kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
                           __global BlockNode* lists) {
-    u32 id = (u32)get_global_id(0), count = 0;
+    u32 id = (u32)get_global_id(0), cost = 0;
     beam b;
     if (id >= frame->ray_count / (BLOCK * BLOCK)) return;
     b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + id);
     if (lists) {
-        lists += (size_t)id * LISTED_NODES;
-        if (b.slabs.hits_sphere && frame->node_count > 0) count = list_nodes(b, nodes, lists);
-        sort_nodes(b, lists, count);
+        BlockNode list[LISTED_NODES - 1];
+        u32 count = 0;
+        if (b.slabs.hits_sphere && frame->node_count > 0) count = list_nodes(b, nodes, list);
+        store_sorted(b, list, count, !frame->every_partition, lists + (size_t)id * LISTED_NODES);
+        cost = count_nodes(nodes, list, count);
     } else if (b.slabs.hits_sphere) {
-        count = meets_anything(b, nodes, frame->node_count);
+        cost = meets_anything(b, nodes, frame->node_count);
     }
-    blocks[id] = count > 0 || frame->unbounded_count > 0;
+    costs[id] = (unsigned char)(cost + (frame->unbounded_count > 0));
 }

@@ -7,10 +7,11 @@
 #include "geometry/collect.h"
 #include "traverse.h"
 
-// Once to count them (`candidates` is 0), once to list them from the ray's place on.
-__kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const RayRecord* rays,
-                              __global RayCount* places, __global Candidate* candidates) {
-    u32 id = (u32)get_global_id(0);
+// Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not
+// come in blocks.
+__kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
+                              __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
+    u32 id = (u32)get_global_id(0), number;
     RayCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
@@ -19,22 +20,35 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
         candidates += places[id].segments;
     }
     count.segments = count.words = 0;
-    if (ray_of(frame, rays, number_of(frame, rays, id), &r)) count.segments = walk(frame, nodes, r, id, candidates);
+    number = number_of(frame, rays, id);
+    if (lists) lists += (size_t)((number - frame->first_ray) / (BLOCK * BLOCK)) * LISTED_NODES;
+    if (ray_of(frame, rays, number, &r)) count.segments = walk(frame, nodes, lists, r, id, candidates);
     if (!candidates) places[id] = count;
 }
 
+// A candidate's only segment is kept in `found`, so that kernel 2 need not find it again; more are too rare for the room.
 __kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                          __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                          __global const BvhNode* inner_nodes, __global const RayRecord* rays, u32 size,
-                         __global Candidate* candidates) {
-    u32 id = (u32)get_global_id(0);
+                         __global Candidate* candidates, __global End* found) {
+    u32 id = (u32)get_global_id(0), count;
     Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    SolidRecord solid;
     Candidate c;
     ray3 r;
+    real t_min;
     if (id >= size) return;
     c = candidates[id];
-    if (ray_of(frame, rays, number_of(frame, rays, c.ray), &r))
-        candidates[id].count = collect(g, solids[c.solid], c.solid, r, t_min_along(frame, r), 0);
+    if (!ray_of(frame, rays, number_of(frame, rays, c.ray), &r)) return;
+    t_min = t_min_along(frame, r);
+    solid = solids[c.solid];
+    r = ray_at(solid, r);
+    if (!collect_many(g, solid, c.solid, r, t_min, 0, &count)) {
+        const hits h = collect_few(g, solid, r, t_min);
+        count = h.count;
+        if (count == 1) put_segment(found + 2 * (size_t)id, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
+    }
+    candidates[id].count = count;
 }
 
 // Each ray's counts, and each of its candidates' place among the ray's segments.

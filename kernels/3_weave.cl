@@ -34,7 +34,7 @@ __kernel void order_ends(__global const RayCount* offsets, __global const End* a
     all_nodes[base + place].next = number;
 }
 
-static int has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
+static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
 
 __kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
                     __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
@@ -43,8 +43,9 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     RayResult result;
     RayCount offset;
     ray3 r;
-    real tolerance;
-    u32 segments, words, at = 0, open, open_bits, last;
+    real tolerance, t_e;
+    u32 segments, words, at = 0, open, open_bits, last, e, after_e;
+    u32 cover = 0, cover_before;  // those bits if they are one word: most often, and faster than memory
     __global End* ends;
     __global PartitionNode* list;
     __global u32* bits;
@@ -62,36 +63,59 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     bits = all_bits + offset.words;
     words = words_of(segments);
     tolerance = tolerance_along(frame, r);
+    // The foremost end that is not taken yet, and the number of the one after it: what is loaded ahead is not waited for.
+    e = list[0].next;
+    after_e = list[1].next;
+    t_e = ends[e].t;
 
     open = NONE;       // the partition that the front stands in
     open_bits = NONE;  // where its bits are; NONE: no segment is open
     last = NONE;       // the last partition of the list
     while (at < 2 * segments) {
         const u32 event = at;
-        const real t = ends[list[event].next].t;
+        const u32 first = e;
+        const real t = t_e;
         __global u32* now = bits + event * words;
         u32 in_end = NONE, out_end = NONE, w, i, any = 0;
         // All ends of this event change sides at once.
-        for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
+        cover_before = cover;
+        if (words > 1)
+            for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
-            u32 e = list[at].next;
-            now[e >> 6] ^= 1u << (e >> 1 & 31u);
-            ++at;
-        } while (at < 2 * segments && (ends[list[at].next].t == t || ends[list[at].next].t - t <= tolerance));
+            if (words > 1) {
+                now[e >> 6] ^= 1u << (e >> 1 & 31u);
+            } else {
+                cover ^= 1u << (e >> 1);
+            }
+            if (++at == 2 * segments) break;
+            e = after_e;
+            t_e = ends[e].t;
+            if (at + 1 < 2 * segments) after_e = list[at + 1].next;
+        } while (t_e == t || t_e - t <= tolerance);
         // The surface there is the first end whose segment does not vanish: one that begins, for the partition behind;
         // one that ends, for the partition before.
         for (i = event; i < at; ++i) {
-            const u32 e = list[i].next, segment = e >> 1;
-            const int after = has_bit(now, segment);
-            ends[e].t = t;
-            if (!(e & 1u) && after && in_end == NONE) in_end = e;
-            if ((e & 1u) && !after && out_end == NONE && open_bits != NONE && has_bit(bits + open_bits * words, segment))
-                out_end = e;
+            const u32 ended = i == event ? first : list[i].next, segment = ended >> 1;
+            u32 after, before;
+            if (words > 1) {
+                after = has_bit(now, segment);
+                before = open_bits != NONE && has_bit(bits + open_bits * words, segment);
+            } else {
+                after = cover >> segment & 1u;
+                before = cover_before >> segment & 1u;
+            }
+            if (i != event) ends[ended].t = t;
+            if (!(ended & 1u) && after && in_end == NONE) in_end = ended;
+            if ((ended & 1u) && !after && before && out_end == NONE) out_end = ended;
         }
         for (i = event; i < at; ++i) list[i].in_end = NONE;
         if (in_end == NONE && out_end == NONE) continue;
         if (open != NONE) list[open].out_end = out_end != NONE ? out_end : in_end;
-        for (w = 0; w < words; ++w) any |= now[w];
+        if (words > 1) {
+            for (w = 0; w < words; ++w) any |= now[w];
+        } else {
+            any = now[0] = cover;
+        }
         if (any) {
             list[event].in_end = in_end != NONE ? in_end : out_end;
             if (last != NONE) {

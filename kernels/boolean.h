@@ -25,12 +25,23 @@ typedef struct {
 FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 31u) & 1u; }
 
 // The solids that cover a partition: all of them if they are few, and a filter that most others do not pass.
+#ifdef CSGRT_FEW
+#define FEW CSGRT_FEW  // a multiple of 32
+#else
 #define FEW 32u
+#endif
 typedef struct {
     u32 count;  // more than FEW: they are not listed
     SolidFilter filter;
     u32 solids[FEW];
 } covered_solids;
+
+// The next solid of those whose segments' bits are given, from the first of a word on.
+FN u32 take_solid_of(cover c, u32 word, u32* bits) {
+    u32 lowest = *bits & (0u - *bits);
+    *bits ^= lowest;
+    return c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+}
 
 FN covered_solids list_covered(cover c) {
     covered_solids list;
@@ -39,9 +50,7 @@ FN covered_solids list_covered(cover c) {
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 lowest = bits & (0u - bits);
-            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
-            bits ^= lowest;
+            u32 solid = take_solid_of(c, word, &bits);
             list.filter = with(list.filter, filter_of(solid));
             if (list.count < FEW) list.solids[list.count] = solid;
             if (list.count <= FEW) ++list.count;
@@ -124,10 +133,8 @@ FN void fill_window(window* w, cover c, u32 from, u32 end) {
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 lowest = bits & (0u - bits);
-            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+            u32 solid = take_solid_of(c, word, &bits);
             u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
-            bits ^= lowest;
             while (low < high) {  // to the first at or after `from`
                 u32 middle = (low + high) >> 1;
                 if (c.leaves[middle] < from) {
@@ -214,10 +221,39 @@ FN u32 walk_term(cover c, u32 node, u32 end) {
 
 #endif
 
+FN u32 role_of(GLOBAL const u32* table, u32 shift, u32 solid) {
+    const u32 last = 0xffffffffu >> shift;
+    u32 place = place_of_role(solid, shift);
+    for (;; place = (place + 1) & last) {
+        const u32 entry = table[place];
+        if (entry == NONE) return 0;
+        if ((entry & TREE_MASK) == solid) return entry >> TREE_SHIFT;
+    }
+}
+
+// The term's value if roles tell it, else ROLE_UNDECIDED.
+FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
+    const u32 shift = roles[0], wanted = roles[1];
+    u32 i, needed = 0, undecided = 0;
+    for (i = 0; i < list->count; ++i) {
+        const u32 role = role_of(roles + ROLES_HEADER, shift, list->solids[i]);
+        if (role == ROLE_BLOCKS) return 0;
+        needed |= role == ROLE_NEEDED;
+        undecided |= role == ROLE_UNDECIDED;
+    }
+    if (undecided) return ROLE_UNDECIDED;
+    if (wanted == NONE) return 0;
+    return wanted == 1 ? needed : ROLE_UNDECIDED;  // a solid may be listed twice: they cannot be counted
+}
+
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     u32 size = start.end_word - start.first_word;
     if (size == 1) return 1;
     if (!within(start.needed, list->filter)) return 0;
+    if (start.roles != NONE && list->count <= FEW) {
+        const u32 value = ask_roles(c.trees + start.roles, list);
+        if (value != ROLE_UNDECIDED) return value;
+    }
 #ifdef CSGRT_LARGE_TERMS
     if (size > SCANNED_WORDS) return walk_term(c, start.first_word, start.end_word);
 #endif
@@ -235,7 +271,7 @@ typedef struct {
     u32 least, other;
 } claim;
 
-// `other`: is it wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
+// Looks at the terms that the solids of c.bits start. `other`: is it wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
 FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);
@@ -243,10 +279,8 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 lowest = bits & (0u - bits);
-            u32 solid = c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+            u32 solid = take_solid_of(c, word, &bits);
             u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
-            bits ^= lowest;
             for (; i < end; ++i) {
                 StartRecord start = c.starts[i];
                 if (start.region >= found.least && (!other || found.other != NONE || start.region == found.least)) continue;

@@ -1,6 +1,5 @@
 // The first hits of a picture, without segments in memory: each ray on its own, from its block's nodes to its pixel.
 #include "first_hit.h"
-#include "geometry/solid.h"
 #include "shading.h"
 
 __kernel void first_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
@@ -34,13 +33,11 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
         overflown[place] = number;
         return;
     }
-    pixel = background_pixel(frame);
     if (found == RAY_HITS) {
-        vec3 n = normal_at(s.g, solids[w.seen.solid], r, w.seen.t, w.seen.surface);
-        if (w.from_within) n = scale(n, REAL(-1));
-        pixel = hit_pixel(frame, lights, materials[regions[w.region].material], r, w.seen.t, n);
-        pixel.region = w.region + 1;
-        pixel.solid = w.seen.solid + 1;
+        const MaterialRecord material = materials[regions[w.region].material];
+        pixel = seen_pixel(frame, lights, material, s.g, r, w.seen, w.from_within, w.region);
+    } else {
+        pixel = background_pixel(frame);
     }
     put_pixel(frame, picture, id, pixel);
 }

@@ -9,35 +9,43 @@
 #include "camera.h"
 #include "shared/slab.h"
 
-// Returns how many candidates the ray has; stores them from `candidates` on unless that is 0.
-FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, ray3 r, u32 ray, GLOBAL Candidate* candidates) {
-    slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
-    u32 count = 0, i = 0, first = 0, end = f->unbounded_count;
+// Steps to the next leaf that the ray meets among the nodes from *i on. Returns its solids as BvhNode has them, 0 if `end`
+// comes first; *i stands behind it then.
+FN u32 next_leaf(slab_ray s, GLOBAL const BvhNode* nodes, u32* i, u32 end) {
+    while (*i < end) {
+        const BvhNode node = nodes[*i];
+        const int hit = box_is_hit(s, node);
+        *i = hit && !node.leaf ? *i + 1 : node.skip;
+        if (hit && node.leaf) return node.leaf;
+    }
+    return 0;
+}
+
+// Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that the
+// ray's block meets, as they stand in the hierarchy; 0: there is no such list.
+FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const BlockNode* next, ray3 r, u32 ray,
+            GLOBAL Candidate* candidates) {
+    const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
+    u32 count = 0, i = 0, last = s.hits_sphere && !next ? f->node_count : 0, solid = 0, end = f->unbounded_count;
     for (;;) {
-        for (; first < end; ++first, ++count)
+        u32 leaf;
+        for (; solid < end; ++solid, ++count)
             if (candidates) {
                 Candidate c;
                 c.ray = ray;
-                c.solid = first;
+                c.solid = solid;
                 c.count = c.before = 0;
                 candidates[count] = c;
             }
-        if (!s.hits_sphere) return count;
-        for (;;) {
-            BvhNode node;
-            if (i >= f->node_count) return count;
-            node = nodes[i];
-            if (!box_is_hit(s, node)) {
-                i = node.skip;
-            } else if (node.leaf) {
-                i = node.skip;
-                first = node.leaf >> BVH_LEAF_SHIFT;
-                end = first + (node.leaf & BVH_LEAF_MASK);
-                break;
-            } else {
-                ++i;
-            }
+        leaf = next_leaf(s, nodes, &i, last);
+        while (!leaf && next && s.hits_sphere && next->node != NONE) {
+            i = (next++)->node;
+            last = nodes[i].skip;
+            leaf = next_leaf(s, nodes, &i, last);
         }
+        if (!leaf) return count;
+        solid = leaf >> BVH_LEAF_SHIFT;
+        end = solid + (leaf & BVH_LEAF_MASK);
     }
 }
 

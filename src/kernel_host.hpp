@@ -26,7 +26,7 @@ static_assert(sizeof(End) == 16 && offsetof(End, solid) == 8);
 static_assert(sizeof(PartitionNode) == 20);
 static_assert(sizeof(Candidate) == 16);
 static_assert(sizeof(RayCount) == 8);
-static_assert(sizeof(StartRecord) == 28);
+static_assert(sizeof(StartRecord) == 32);
 static_assert(sizeof(RayResult) == 12);
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);

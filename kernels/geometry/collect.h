@@ -20,45 +20,78 @@ FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out
     ends[1] = e;
 }
 
+// Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set, see collect().
+FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count) {
+#if HAS_SOLID(SOLID_EXTRUDE)
+    if (solid.type == SOLID_EXTRUDE) {
+        *count = close_crossings(extrude_cross(g, solid, r, no_crossings(index, t_min, ends)));
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) {
+        *count = close_crossings(revolve_cross(g, solid, r, no_crossings(index, t_min, ends)));
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_MESH)
+    if (solid.type == SOLID_MESH) {
+        *count = mesh_collect(g, solid, index, r, t_min, ends);
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_SUPERELL)
+    if (solid.type == SOLID_SUPERELL) {
+        *count = close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE) {
+        *count = plate_collect(g, solid, index, r, t_min, ends);
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_HRT)
+    if (solid.type == SOLID_HRT) {
+        *count = close_crossings(hrt_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_METABALL)
+    if (solid.type == SOLID_METABALL) {
+        *count = close_crossings(metaball_cross(g, solid, r, no_crossings(index, t_min, ends)));
+        return 1;
+    }
+#endif
+    return 0;
+}
+
+// The segments of any other solid that end at t_min or later.
+FN hits collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
+    hits h = intersect(g, solid, r);
+    if (h.count > 1 && !(h.out1 >= t_min)) h.count = 1;
+    if (h.count > 0 && !(h.out0 >= t_min)) {
+        --h.count;
+        h.in0 = h.in1;
+        h.in0_surface = h.in1_surface;
+        h.out0 = h.out1;
+        h.out0_surface = h.out1_surface;
+    }
+    return h;
+}
+
 // Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
 // two a segment, in then out, by ascending distance. `index` is the solid's own.
 FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
     hits h;
-    u32 count = 0;
+    u32 count;
     r = ray_at(solid, r);
-#if HAS_SOLID(SOLID_EXTRUDE)
-    if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, no_crossings(index, t_min, ends)));
-#endif
-#if HAS_SOLID(SOLID_REVOLVE)
-    if (solid.type == SOLID_REVOLVE) return close_crossings(revolve_cross(g, solid, r, no_crossings(index, t_min, ends)));
-#endif
-#if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) return mesh_collect(g, solid, index, r, t_min, ends);
-#endif
-#if HAS_SOLID(SOLID_SUPERELL)
-    if (solid.type == SOLID_SUPERELL)
-        return close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
-#endif
-#if HAS_SOLID(SOLID_PLATE)
-    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, index, r, t_min, ends);
-#endif
-#if HAS_SOLID(SOLID_HRT)
-    if (solid.type == SOLID_HRT)
-        return close_crossings(hrt_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
-#endif
-#if HAS_SOLID(SOLID_METABALL)
-    if (solid.type == SOLID_METABALL) return close_crossings(metaball_cross(g, solid, r, no_crossings(index, t_min, ends)));
-#endif
-    h = intersect(g, solid, r);
-    if (h.count > 0 && h.out0 >= t_min) {
-        if (ends) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
-        ++count;
-    }
-    if (h.count > 1 && h.out1 >= t_min) {
-        if (ends) put_segment(ends + 2 * count, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
-        ++count;
-    }
-    return count;
+    if (collect_many(g, solid, index, r, t_min, ends, &count)) return count;
+    h = collect_few(g, solid, r, t_min);
+    if (ends && h.count > 0) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
+    if (ends && h.count > 1) put_segment(ends + 2, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
+    return h.count;
 }
 
 #endif

@@ -53,6 +53,9 @@ typedef struct {
     (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_SUPERELL | 1u << SOLID_PLATE | \
      1u << SOLID_HRT | 1u << SOLID_METABALL)
 
+// Solids of which it has one at most.
+#define ONE_SEGMENT (1u << SOLID_ELL | 1u << SOLID_ARB | 1u << SOLID_HALF | 1u << SOLID_PART)
+
 // What a ray knows of the solid that it is put to.
 FN ray3 ray_at(SolidRecord solid, ray3 r) {
 #ifdef CSGRT_EYE_RELATIVE

@@ -105,6 +105,15 @@ FN SolidFilter with(SolidFilter a, SolidFilter b) {
 FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.odd & ~b.odd); }
 FN u32 meet(SolidFilter a, SolidFilter b) { return (a.even & b.even) || (a.odd & b.odd); }
 
+// What a term is, as far as one solid alone says it: X - (A + B + (C - D)) is empty wherever A or B is covered, and needs X;
+// only where C or D is covered have its words to be looked at. The table is open (linear probing): 32 - log2 of its size,
+// how many solids the term needs (NONE: more than solids), then entries, role << TREE_SHIFT | solid, NONE if free.
+#define ROLE_BLOCKS 1u
+#define ROLE_NEEDED 2u
+#define ROLE_UNDECIDED 3u
+#define ROLES_HEADER 2u
+FN u32 place_of_role(u32 solid, u32 shift) { return solid * 0x9e3779b1u >> shift; }
+
 // A region's tree is a union of terms. A term's starts are leaves such that some one of them is covered wherever the term
 // is: all of a union, those of A in A - B, those of either in A and B. A record for each solid and term that it starts.
 typedef struct {
@@ -112,7 +121,9 @@ typedef struct {
     u32 first_word, end_word;  // of the term, in trees
     SolidFilter needed;        // solids that all cover wherever the term is
     SolidFilter solids;        // all of the term's
+    u32 roles;                 // where its table of roles begins, in trees; NONE: it has none
 } StartRecord;
+#define PLAIN_WORDS 16u      // of a term; a larger one has a table of roles
 #define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
 
 typedef struct {
@@ -158,7 +169,7 @@ typedef struct {
     u32 listed;            // 1: the rays are a list, not a picture's
     u32 first_ray, ray_count;  // this tile
     u32 solid_count, unbounded_count, node_count, light_count;
-    u32 every_partition;   // 0: evaluation stops at the first claimed partition
+    u32 every_partition;   // 0: only the first hits are wanted
     u32 picked;            // 1: the tile's rays are those whose numbers are listed; 0: the blocks of them are
     u32 channels;          // of the picture: CHANNEL_x bits
 } Frame;

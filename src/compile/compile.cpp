@@ -15,6 +15,7 @@
 #include "compile/linearize.hpp"
 #include "compile/pack_solids.hpp"
 #include "compile/polyhedron.hpp"
+#include "compile/terms.hpp"
 #include "parallel.hpp"
 #include "scene/validate.hpp"
 
@@ -99,114 +100,6 @@ void set_regions(FlatScene& flat, const std::vector<Box>& brlcad_boxes, Compiled
     }
 }
 
-/// A term of a region's tree: words [first, end) of `trees`.
-struct Term {
-    std::uint32_t region, first, end;
-};
-
-/// The members of the unions at a tree's top, in order.
-void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record, std::uint32_t region, std::vector<Term>& terms) {
-    std::vector<Term> rest{{region, record.first_word, record.first_word + record.word_count}};
-    while (!rest.empty()) {
-        const Term term = rest.back();
-        rest.pop_back();
-        if (trees[term.first] >> TREE_SHIFT == OP_UNION) {
-            const std::uint32_t right = trees[term.first] & TREE_MASK;
-            rest.push_back({region, right, term.end});
-            rest.push_back({region, term.first + 1, right});
-        } else {
-            terms.push_back(term);
-        }
-    }
-}
-
-/// The record of a term, and the leaves that start it, ascending; positions in `trees`.
-struct TermStarts {
-    kernel::StartRecord record;
-    std::vector<std::uint32_t> leaves;
-};
-TermStarts starts_of(const std::vector<std::uint32_t>& trees, const Term& term) {
-    struct Part {
-        std::vector<std::uint32_t> leaves;
-        kernel::SolidFilter needed;
-    };
-    // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
-    std::vector<Part> stack;
-    kernel::SolidFilter solids{0, 0};
-    for (std::uint32_t node = term.end; node-- > term.first;) {
-        const std::uint32_t op = trees[node] >> TREE_SHIFT;
-        if (op == OP_LEAF) {
-            stack.push_back({{node}, kernel::filter_of(trees[node] & TREE_MASK)});
-            solids = kernel::with(solids, stack.back().needed);
-            continue;
-        }
-        Part left = std::move(stack.back());
-        stack.pop_back();
-        Part& right = stack.back();
-        if (op == OP_DIFFERENCE) {
-            right = std::move(left);
-        } else if (op == OP_INTERSECTION) {
-            right.needed = kernel::with(left.needed, right.needed);
-            if (left.leaves.size() <= right.leaves.size()) right.leaves = std::move(left.leaves);
-        } else if (op != OP_REVERSE_DIFFERENCE) {
-            right.needed = {left.needed.even & right.needed.even, left.needed.odd & right.needed.odd};
-            if (left.leaves.size() > right.leaves.size()) std::swap(left.leaves, right.leaves);
-            right.leaves.insert(right.leaves.end(), left.leaves.begin(), left.leaves.end());
-        }
-    }
-    std::sort(stack.back().leaves.begin(), stack.back().leaves.end());
-    return {{term.region, term.first, term.end, stack.back().needed, solids}, std::move(stack.back().leaves)};
-}
-
-/// Gives each solid its part of a table: `for_each(call)` calls call(solid, entry), in order, the same each time.
-template <class Entry, class ForEach>
-void fill_table(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::* first,
-                std::uint32_t kernel::SolidRecord::* count, std::vector<Entry>& table, const ForEach& for_each) {
-    for_each([&](std::uint32_t solid, const Entry&) { ++(solids[solid].*count); });
-    std::uint32_t total = 0;
-    for (kernel::SolidRecord& solid : solids) {
-        solid.*first = total;
-        total += solid.*count;
-        solid.*count = 0;
-    }
-    table.resize(total);
-    for_each([&](std::uint32_t solid, const Entry& entry) {
-        table[solids[solid].*first + solids[solid].*count] = entry;
-        ++(solids[solid].*count);
-    });
-}
-
-/// Which terms each solid starts, and where it stands in large ones.
-void list_leaves(CompiledScene& compiled) {
-    const auto solid_at = [&](std::uint32_t node) { return compiled.trees[node] & TREE_MASK; };
-    std::vector<Term> terms;
-    for (std::uint32_t region = 0; region < compiled.regions.size(); ++region)
-        add_terms(compiled.trees, compiled.regions[region], region, terms);
-    std::vector<TermStarts> starts;
-    for (const Term& term : terms) starts.push_back(starts_of(compiled.trees, term));
-    std::vector<std::size_t> last;
-    fill_table(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count, compiled.starts,
-               [&](const auto& call) {
-                   last.assign(compiled.solids.size(), terms.size());
-                   for (std::size_t i = 0; i < terms.size(); ++i)
-                       for (const std::uint32_t node : starts[i].leaves) {
-                           const std::uint32_t solid = solid_at(node);
-                           if (last[solid] == i) continue;
-                           last[solid] = i;
-                           call(solid, starts[i].record);
-                       }
-               });
-    fill_table(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count, compiled.leaves,
-               [&](const auto& call) {
-                   for (const Term& term : terms) {
-                       if (term.end - term.first <= SCANNED_WORDS) continue;
-                       compiled.has_large_terms = true;
-                       for (std::uint32_t node = term.first; node < term.end; ++node)
-                           if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF) call(solid_at(node), node);
-                   }
-               });
-}
-
 void set_surroundings(const Scene& scene, CompiledScene& compiled) {
     for (const Light& light : scene.lights) {
         const auto shade = [&](double c) { return static_cast<float>(c * light.intensity); };
@@ -272,7 +165,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     compiled.instances = static_cast<std::uint32_t>(leaves);
 
     set_regions(flat, brlcad_boxes, compiled);
-    list_leaves(compiled);
+    list_terms(compiled);
     compiled.hash = hash_of(compiled);
     return compiled;
 }

@@ -36,13 +36,14 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       counts_(device, "counts"),
       results_(device, "results"),
       candidates_(device, "candidates"),
+      found_(device, "candidates' segments"),
       ends_(device, "segments"),
       partitions_(device, "partitions"),
       bits_(device, "partitions' bits") {}
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = cull_.held();
-    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &ends_, &partitions_, &bits_}) sum += buffer->size();
+    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &found_, &ends_, &partitions_, &bits_}) sum += buffer->size();
     return sum;
 }
 
@@ -52,7 +53,7 @@ void Exact::release() {
 }
 
 void Exact::release_counted() {
-    for (Buffer* buffer : {&candidates_, &ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
+    for (Buffer* buffer : {&candidates_, &found_, &ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
 }
 
 kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times) {
@@ -96,7 +97,7 @@ bool Exact::reserve_counted(const kernel::RayCount& total) {
     return true;
 }
 
-bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, bool pictured, PipelineCounts& counts) {
+bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
     const SceneBuffers& s = scene;
     const std::size_t entries = std::size_t{rays} + 1;
     if (entries * ray_bytes > device_.available()) release_counted();
@@ -104,19 +105,23 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     counts_.reserve(entries * sizeof(kernel::RayCount));
     results_.reserve(rays * sizeof(kernel::RayResult));
 
-    const Buffer none(device_, "no candidates");
-    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, tile.rays, places_, none);
+    const Buffer none(device_, "nothing");
+    const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
+    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, lists, tile.rays, places_, none);
     const cl_uint candidates = scan(places_, rays, counts).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
-    if (candidates == COUNT_MAX || candidate_bytes > device_.max_buffer()) return false;
-    if (candidate_bytes > candidates_.size()) {
-        if (candidate_bytes > device_.available() + candidates_.size()) release_counted();
-        if (candidate_bytes > device_.available()) return false;
+    const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
+    if (candidates == COUNT_MAX || found_bytes > device_.max_buffer()) return false;
+    if (candidate_bytes > candidates_.size() || found_bytes > found_.size()) {
+        const std::uint64_t bytes = candidate_bytes + found_bytes, held = candidates_.size() + found_.size();
+        if (bytes > device_.available() + held) release_counted();
+        if (bytes > device_.available() + candidates_.size() + found_.size()) return false;
         candidates_.reserve(candidate_bytes);
+        found_.reserve(found_bytes);
     }
-    const Event list = find_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, tile.rays, places_, candidates_);
+    const Event list = find_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_);
     const Event count = count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                           s.inner_nodes, tile.rays, candidates, candidates_);
+                                           s.inner_nodes, tile.rays, candidates, candidates_, found_);
     const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);
     total_ = scan(counts_, rays, counts);
     for (const Event* event : {&find, &list, &count, &sum}) counts.count_hits += milliseconds(*event);
@@ -124,14 +129,14 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
 
     const cl_uint nodes = 2 * total_.segments;
     const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes,
-                                               s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates, candidates_, counts_,
+                                               s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates, candidates_, found_, counts_,
                                                ends_, partitions_);
     const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, nodes, partitions_);
     const Event weave = weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
     const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_, bits_, nodes,
                                             partitions_);
     Event shade;
-    if (pictured)
+    if (kind != Rays::listed)
         shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
                               s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_, tile.rays,
                               tile.picture);
@@ -143,7 +148,7 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     counts.segments += total_.segments;
     counts.hits += nodes;
     counts.partitions_allocated += nodes;
-    counts.segment_bytes += std::uint64_t{nodes} * kernels_.end_bytes() + candidate_bytes;
+    counts.segment_bytes += std::uint64_t{nodes} * kernels_.end_bytes() + candidate_bytes + found_bytes;
     counts.partition_bytes += std::uint64_t{nodes} * sizeof(kernel::PartitionNode) + std::uint64_t{total_.words} * sizeof(std::uint32_t);
     return true;
 }

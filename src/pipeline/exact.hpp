@@ -12,13 +12,16 @@
 
 namespace csgrt {
 
+/// How a tile's rays are given: blocks of a picture's that kernel 0 has looked at, single ones of a picture's, or a list.
+enum class Rays { blocks, picked, listed };
+
 class Exact {
 public:
     Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// Runs the kernels on the tile's rays, the last one only if they are pictured. Waits. False: the rays' segments do
+    /// Runs the kernels on the tile's rays, the last one only if they are a picture's. Waits. False: the rays' segments do
     /// not fit the memory; nothing is lost then, the caller takes a smaller tile.
-    bool run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, bool pictured, PipelineCounts& counts);
+    bool run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
     std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays, PipelineCounts& counts) const;
@@ -48,7 +51,7 @@ private:
     Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
     Buffer places_, counts_, results_;              // one entry a ray
-    Buffer candidates_, ends_, partitions_, bits_;  // by what was counted
+    Buffer candidates_, found_, ends_, partitions_, bits_;  // by what was counted
     std::vector<std::unique_ptr<Buffer>> sums_;  // of the scan, a level each
     kernel::RayCount total_{};                   // of the last run
 };

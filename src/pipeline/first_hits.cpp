@@ -5,10 +5,10 @@
 namespace csgrt {
 namespace {
 
-std::vector<std::string> defines(const Device& device, const CompiledScene& scene, const Settings& settings) {
+std::vector<std::string> defines(const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> all = defines_of(scene, settings);
     all.push_back("CSGRT_PRIVATE_ENDS");
-    if (device.info().type == "gpu") all.push_back("CSGRT_PATIENCE=24u");  // measured: bench/NOTES.md
+    if (scene.solids.size() > 32) all.push_back("CSGRT_FEW=64u");  // measured: bench/NOTES.md
     return all;
 }
 
@@ -16,7 +16,7 @@ std::vector<std::string> defines(const Device& device, const CompiledScene& scen
 
 FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
     : device_(device),
-      program_(device, assemble_program({"0_cull_blocks.cl", "first_hits.cl"}), defines(device, scene, settings),
+      program_(device, assemble_program({"0_cull_blocks.cl", "first_hits.cl"}), defines(scene, settings),
                settings.precision != Precision::double_),
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")),

@@ -13,7 +13,7 @@ constexpr std::size_t pixels_a_thread = 1 << 17;  // fewer are copied sooner tha
 }  // namespace
 
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                const float* values, std::span<const ChannelPlane> planes) {
+                std::span<const std::uint32_t> places, const float* values, std::span<const ChannelPlane> planes) {
     const std::size_t width = frame.width, across = (width + BLOCK - 1) / BLOCK, size = drawn.size() * BLOCK * BLOCK;
     const std::size_t first_row = first / across, rows = (end + across - 1) / across - first_row;
     const std::size_t rows_a_chunk = std::max<std::size_t>(1, pixels_a_thread / (width * BLOCK));
@@ -30,8 +30,8 @@ void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t e
                     auto block = begin;
                     for (; block != drawn.end() && *block < to; ++block) {
                         const std::size_t at = (*block - start) * BLOCK, next = std::min<std::size_t>(at + BLOCK, width);
-                        const float* source = values + p * size + static_cast<std::size_t>(block - drawn.begin()) * BLOCK * BLOCK +
-                                              y * BLOCK;
+                        const std::size_t place = places[static_cast<std::size_t>(block - drawn.begin())];
+                        const float* source = values + p * size + place * BLOCK * BLOCK + y * BLOCK;
                         std::fill(line + x, line + at, planes[p].background);
                         std::copy(source, source + (next - at), line + at);
                         x = next;

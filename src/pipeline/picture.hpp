@@ -14,10 +14,10 @@ struct ChannelPlane {
     float background = 0;
 };
 
-/// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, ascending; `values`: for
-/// each plane the floats of their rays, block by block. The others get the background.
+/// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, ascending; `places`: where
+/// each stands in `values`, for each plane the floats of their rays, block by block. The others get the background.
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                const float* values, std::span<const ChannelPlane> planes);
+                std::span<const std::uint32_t> places, const float* values, std::span<const ChannelPlane> planes);
 
 /// The same for single rays.
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,

@@ -18,19 +18,6 @@ double timed(const Make& make) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::uint64_t pixel_bytes(const kernel::Frame& frame) {
-    std::uint64_t floats = 0;
-    const auto add = [&](std::uint32_t channels, std::uint64_t planes) {
-        if (frame.channels & channels) floats += planes;
-    };
-    add(CHANNEL_COLOR, 4);
-    add(CHANNEL_DISTANCE, 1);
-    add(CHANNEL_NORMAL, 3);
-    add(CHANNEL_IDS, 2);
-    add(CHANNEL_COUNTS, 3);
-    return floats * sizeof(float);
-}
-
 }  // namespace
 
 Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
@@ -59,9 +46,10 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
 
-// For what a tile's rays need, whatever they hit: what the last call left may be in the way.
-void Pipeline::make_room(std::uint64_t bytes) {
-    if (bytes <= device_.available() + tile_.picture.size() + tile_.rays.size()) return;
+// For what a tile's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is needed,
+// this much is held already.
+void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
+    if (bytes <= device_.available() + reused) return;
     tile_.rays = Buffer(device_, tile_.rays.name());
     if (exact_) exact_->release();
     if (first_hits_) first_hits_->release();
@@ -102,21 +90,22 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
 }
 
 // The numbers of the tile's blocks that may see anything.
-std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
+SeenBlocks Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
     frame.ray_count = tile.rays;
-    make_room(tile.rays * (Cull::list_bytes + 1));
-    upload(frame);
     Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
+    make_room(tile.rays * (Cull::list_bytes + 1), cull.held());
+    upload(frame);
     return cull.run(buffers_, tile_, frame, counts);
 }
 
 // Makes the frame's tile one of these rays, or blocks of them.
-bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each) {
+bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
+                         std::uint64_t pixel_bytes, std::uint64_t ray_bytes) {
     frame.ray_count = static_cast<std::uint32_t>(numbers.size()) * rays_each;
     frame.picked = rays_each == 1;
     if (numbers.empty()) return false;
-    const std::uint64_t picture = frame.ray_count * pixel_bytes(frame), list = numbers.size() * sizeof(std::uint32_t);
-    make_room(picture + list + frame.ray_count * (frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes));
+    const std::uint64_t picture = frame.ray_count * pixel_bytes, list = numbers.size() * sizeof(std::uint32_t);
+    make_room(picture + list + frame.ray_count * ray_bytes, tile_.picture.size() + tile_.rays.size());
     tile_.picture.reserve(picture);
     tile_.rays.reserve(list);
     tile_.rays.upload(numbers);
@@ -141,16 +130,14 @@ void Pipeline::read_picture(std::size_t bytes, const std::function<void(const fl
 // Rays of a picture the exact way, one by one.
 void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const std::vector<ChannelPlane>& planes,
                             PipelineCounts& counts) {
-    const std::uint64_t bytes = pixel_bytes(frame) + sizeof(std::uint32_t) + Exact::ray_bytes;
-    const bool counted = frame.every_partition;
-    frame.every_partition = 1;
+    const std::uint64_t pixel_bytes = planes.size() * sizeof(float), bytes = pixel_bytes + sizeof(std::uint32_t) + Exact::ray_bytes;
     for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
         const auto begin = numbers.begin() + tile.first;
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
-        list_rays(frame, picked, 1);
-        if (!exact().run(buffers_, tile_, frame.ray_count, true, counts)) return false;
-        read_picture(frame.ray_count * pixel_bytes(frame), [&](const float* values) { put_rays(frame, picked, values, planes); });
-        if (counted) exact().add_results(tile.rays, counts);
+        list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
+        if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
+        read_picture(frame.ray_count * pixel_bytes, [&](const float* values) { put_rays(frame, picked, values, planes); });
+        if (frame.every_partition) exact().add_results(tile.rays, counts);
         return true;
     });
 }
@@ -159,20 +146,23 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
 bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
     frame.first_ray = tile.first;
-    const std::vector<std::uint32_t> seen = seen_blocks(frame, tile, counts);
-    if (!list_rays(frame, seen, block_rays)) {
-        put_blocks(frame, first, end, seen, nullptr, planes);
+    const std::uint64_t pixel_bytes = planes.size() * sizeof(float);
+    const auto [seen, places] = seen_blocks(frame, tile, counts);
+    std::vector<std::uint32_t> drawn(seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) drawn[places[i]] = seen[i];
+    if (!list_rays(frame, drawn, block_rays, pixel_bytes, frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
+        put_blocks(frame, first, end, {}, {}, nullptr, planes);
         return true;
     }
     std::vector<std::uint32_t> overflown;
     if (frame.every_partition) {
-        if (!exact().run(buffers_, tile_, frame.ray_count, true, counts)) return false;
+        if (!exact().run(buffers_, tile_, frame.ray_count, Rays::blocks, counts)) return false;
         exact().add_results(frame.ray_count, counts);
     } else {
         overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
     }
-    read_picture(frame.ray_count * pixel_bytes(frame),
-                 [&](const float* values) { put_blocks(frame, first, end, seen, values, planes); });
+    read_picture(frame.ray_count * pixel_bytes,
+                 [&](const float* values) { put_blocks(frame, first, end, seen, places, values, planes); });
     draw_exactly(frame, overflown, planes, counts);
     return true;
 }
@@ -182,7 +172,8 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     const bool every = prepared.frame.every_partition;
     upload_lights(prepared);
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
-    const std::uint64_t bytes = pixel_bytes(prepared.frame) + sizeof(std::uint32_t) + (every ? Exact::ray_bytes : FirstHits::ray_bytes + Cull::list_bytes);
+    const std::uint64_t bytes = planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
+                                (every ? Exact::ray_bytes : FirstHits::ray_bytes);
     for_each_tile(range, fitting(bytes), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
         if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);
@@ -200,13 +191,13 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, R
     tile_.picture = Buffer(device_, tile_.picture.name());
     exact();
     for_each_tile({0, rays.size()}, fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
-        make_room(tile.rays * (bytes + Exact::ray_bytes));
+        make_room(tile.rays * (bytes + Exact::ray_bytes), tile_.rays.size());
         tile_.rays.reserve(tile.rays * bytes);
         tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);
         kernel::Frame frame = prepared.frame;
         frame.ray_count = tile.rays;
         upload(frame);
-        if (!exact().run(buffers_, tile_, tile.rays, false, counts)) return false;
+        if (!exact().run(buffers_, tile_, tile.rays, Rays::listed, counts)) return false;
         const auto claims = exact().claims(tile.rays, counts);
         for (std::uint32_t i = 0; i < tile.rays; ++i)
             answers[tile.first + i] = to_partitions(kernels_, prepared.frame, rays[tile.first + i], claims[i]);

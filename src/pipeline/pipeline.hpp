@@ -45,13 +45,14 @@ private:
     Exact& exact();
     FirstHits& first_hits();
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
-    void make_room(std::uint64_t bytes);
+    void make_room(std::uint64_t bytes, std::uint64_t reused);
     void for_each_tile(RayRange range, std::uint64_t size, std::uint64_t unit, const Progress& progress,
                        const std::function<bool(const Tile&)>& work);
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
-    std::vector<std::uint32_t> seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
-    bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each);
+    SeenBlocks seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
+    bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
+                   std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
     bool draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const std::vector<ChannelPlane>& planes,
                       PipelineCounts& counts);

@@ -1,8 +1,9 @@
-// Terms, scanned and walked, against plain evaluation of the model's own tree, on random trees and covers.
+// Terms, scanned, walked and by roles, against plain evaluation of the model's own tree, on random trees and covers.
 #include <random>
 
 #include "catch.hpp"
 #include "compile/linearize.hpp"
+#include "compile/terms.hpp"
 #include "pipeline/host_kernels.hpp"
 
 using namespace csgrt;
@@ -48,21 +49,23 @@ bool value_of(const FlatTree& tree, const std::vector<bool>& covered) {
 
 }  // namespace
 
-TEST_CASE("a term's value is its tree's, whether it is scanned or walked") {
+TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told by roles") {
     Random random;
-    std::size_t held = 0, not_held = 0;
+    std::size_t held = 0, not_held = 0, held_by_roles = 0, not_held_by_roles = 0;
     for (int round = 0; round < 400; ++round) {
         const std::uint32_t solids = 1 + random.below(60);
         FlatTree tree;
         add_tree(tree, 1 + random.below(round < 300 ? 30 : 900), solids, random);
         std::vector<std::uint32_t> words;
         linearize(tree, words);
+        const auto end = static_cast<std::uint32_t>(words.size());
+        const std::uint32_t roles = write_roles(words, 0, end);
         // Where each solid stands.
         std::vector<kernel::SolidRecord> records(solids);
         std::vector<std::uint32_t> leaves;
         for (std::uint32_t s = 0; s < solids; ++s) {
             records[s].first_leaf = static_cast<std::uint32_t>(leaves.size());
-            for (std::uint32_t i = 0; i < words.size(); ++i)
+            for (std::uint32_t i = 0; i < end; ++i)
                 if (words[i] == (OP_LEAF << TREE_SHIFT | s)) leaves.push_back(i);
             records[s].leaf_count = static_cast<std::uint32_t>(leaves.size()) - records[s].first_leaf;
         }
@@ -79,12 +82,18 @@ TEST_CASE("a term's value is its tree's, whether it is scanned or walked") {
             const kernel::cover cover{ends.data(), bits.data(), solids, records.data(), nullptr, leaves.data(), words.data()};
             const kernel::covered_solids list = kernel::list_covered(cover);
             const bool expected = value_of(tree, covered);
-            const auto end = static_cast<std::uint32_t>(words.size());
             REQUIRE(bool(kernel::scan_term(cover, &list, 0, end)) == expected);
             REQUIRE(bool(kernel::walk_term(cover, 0, end)) == expected);
             ++(expected ? held : not_held);
+            if (list.count > FEW) continue;
+            const std::uint32_t by_roles = kernel::ask_roles(words.data() + roles, &list);
+            if (by_roles == ROLE_UNDECIDED) continue;
+            REQUIRE(bool(by_roles) == expected);
+            ++(expected ? held_by_roles : not_held_by_roles);
         }
     }
     CHECK(held > 500);
     CHECK(not_held > 500);
+    CHECK(held_by_roles > 40);
+    CHECK(not_held_by_roles > 500);
 }

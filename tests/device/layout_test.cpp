@@ -19,7 +19,7 @@ using namespace csgrt;
     RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     FIELD(RegionRecord, material) RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
-    FIELD(StartRecord, needed) FIELD(StartRecord, solids) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
+    FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
     FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
     FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) RECORD(LightRecord) FIELD(LightRecord, x) \
     FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, r) FIELD(LightRecord, g) FIELD(LightRecord, b) \

@@ -107,16 +107,23 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         }
         return sum;
     };
+    std::vector<unsigned char> blocks(count / (BLOCK * BLOCK));
+    std::vector<BlockNode> nodes_of_blocks(blocks.size() * LISTED_NODES);
+    if (!frame.listed)
+        for (global_id = 0; global_id < blocks.size(); ++global_id)
+            cull_blocks(&frame, scene.nodes.data(), blocks.data(), nodes_of_blocks.data());
+    const BlockNode* lists = frame.listed ? nullptr : nodes_of_blocks.data();
     std::vector<RayCount> places(count + 1);
-    each([&] { find_candidates(&frame, scene.nodes.data(), listed, places.data(), nullptr); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
-    each([&] { find_candidates(&frame, scene.nodes.data(), listed, places.data(), candidates.data()); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), candidates.data()); });
+    std::vector<End> found(2 * candidates.size());
     const auto each_of = [&](std::size_t size, const auto& work) {
         for (global_id = 0; global_id < size; ++global_id) work(static_cast<u32>(size));
     };
     each_of(candidates.size(), [&](u32 size) {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data());
+                   scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), found.data());
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
@@ -129,7 +136,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     std::vector<float> values(13 * count);
     each_of(candidates.size(), [&](u32 size) {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), run.offsets.data(),
+                       scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), found.data(), run.offsets.data(),
                        run.ends.data(), run.nodes.data());
     });
     each_of(run.ends.size(), [&](u32 size) { order_ends(run.offsets.data(), run.ends.data(), size, run.nodes.data()); });

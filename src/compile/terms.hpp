@@ -1,0 +1,15 @@
+// Trees -> their terms (kernels/boolean.h): what evaluation needs besides the words.
+#pragma once
+
+#include "compile/compiled_scene.hpp"
+
+namespace csgrt {
+
+/// Finds the terms of all regions' trees: which of them each solid starts (`starts`), where it stands in large ones
+/// (`leaves`), and the roles of solids in those that are not short, which are appended to `trees`.
+void list_terms(CompiledScene& compiled);
+
+/// Appends the table of roles of the term in the words from `first` to `end`. Returns where it begins; NONE: there is no room.
+std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end);
+
+}  // namespace csgrt
