@@ -14,7 +14,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "chart"))
-from pareto import NOISE, front  # noqa: E402
+from pareto import NOISE, front, judged_on_all  # noqa: E402
 
 try:
     import matplotlib
@@ -58,7 +58,9 @@ class Measured:
         self.workloads = list(dict.fromkeys(r["workload"] for r in data["results"]))
         self.cells = {(r["variant"], r["workload"]): r for r in data["results"]}
         self.timed = {n: t for n, t in self.totals.items() if t.get("ns_per_ray")}
-        competing = {n: t for n, t in self.timed.items() if n != JUDGE}
+        all_rays = judged_on_all(self.totals)
+        self.on_fewer = [n for n in self.timed if n not in all_rays]
+        competing = {n: t for n, t in self.timed.items() if n != JUDGE and n in all_rays}
         self.front_wrong = front({n: (t["ns_per_ray"], t["wrong_ppm"]) for n, t in competing.items()})
         self.front_ulp = front({n: (t["ns_per_ray"], ulps(t)) for n, t in competing.items()})
         self.front = front({n: (t["ns_per_ray"], t["wrong_ppm"], ulps(t)) for n, t in competing.items()})
@@ -162,11 +164,12 @@ def draw(measured, folder):
     names.axis("off")
     names.legend(*left.get_legend_handles_labels(), fontsize=7.5, loc="center", ncol=6, frameon=False, markerscale=0.8)
     words = "; ".join(f"{n}: {measured.timed[n]['ns_per_ray']:,.0f} ns" for n in left_out)
+    fewer = f" Judged on fewer rays, so never ringed: {', '.join(measured.on_fewer)}." if measured.on_fewer else ""
     data = measured.data
     figure.suptitle(
         f"csgrt {data['csgrt']} on {measured.device}: kernels' time over {', '.join(data['timed_workloads'])}\n"
         f"(geometric mean, {data['size']} x {data['size']}, every partition). Ringed: each picture's Pareto front, "
-        f"times within {100 * NOISE:.0f} % taken as equal." + (f"\nOff the chart: {words}." if words else ""), fontsize=9)
+        f"times within {100 * NOISE:.0f} % taken as equal.{fewer}" + (f"\nOff the chart: {words}." if words else ""), fontsize=9)
     for kind in ("svg", "png"):
         path = os.path.join(folder, f"{measured.name}.{kind}")
         figure.savefig(path + ".part", format=kind, dpi=100, metadata={"Date": None} if kind == "svg" else None)
@@ -215,6 +218,8 @@ def verdict(measured):
         return ", ".join(n for n in measured.variants if n in chosen)
     text += (f" On the front: {names(measured.front)}; of time and wrong regions alone: {names(measured.front_wrong)}; "
              f"of time and distance error alone: {names(measured.front_ulp)}.")
+    if measured.on_fewer:
+        text += f" Judged on fewer rays, so not compared: {names(measured.on_fewer)}."
     if anchors:
         text += " For first hits alone, over the same models, " + "; ".join(anchors) + "; its accuracy was not measured in this run."
     return text

@@ -271,7 +271,8 @@ typedef struct {
     u32 least, other;
 } claim;
 
-// Looks at the terms that the solids of c.bits start. `other`: is it wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
+// Looks at the terms that the solids of c.bits start. `other`: is it wanted. `changed`: no region claimed before these solids
+// came or went, so one of its terms has one of them.
 FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);

@@ -1,10 +1,10 @@
 #include <csgrt/renderer.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <limits>
 #include <optional>
 
+#include "clock.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "kernel_geometry.hpp"
@@ -13,11 +13,6 @@
 
 namespace csgrt {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 constexpr const char* exact_method = "five kernels, exact counts";
 

@@ -20,3 +20,10 @@ def front(points, noise=NOISE):
     """The names of those of `points`, {name: (time, error, ...)}, that none of the others dominates."""
     return {name for name, point in points.items()
             if not any(dominates(other, point, noise) for key, other in points.items() if key != name)}
+
+
+def judged_on_all(totals):
+    """The names of those of `totals`, {name: {"rays": ...}}, that were judged on as many rays as any: the others' errors
+    are those of another sample, and say nothing beside them."""
+    most = max((t["rays"] for t in totals.values()), default=0)
+    return {name for name, t in totals.items() if t["rays"] == most}

@@ -10,8 +10,8 @@
 
 namespace csgrt {
 
-/// Channels in the order R G B A Z N.X N.Y N.Z region solid depth partitions overlap, as far as the view wants them; each width x height floats,
-/// row by row from the TOP left. Z is the distance along the ray in millimetres (infinity: nothing hit),
+/// Channels in the order R G B A Z N.X N.Y N.Z region solid depth partitions overlap, as far as the view wants them; each
+/// width x height floats, row by row from the TOP left. Z is the distance along the ray in millimetres (infinity: nothing hit),
 /// region and solid are index + 1 (0: nothing), depth the number of segments on the ray.
 struct Image {
     int width = 0, height = 0;

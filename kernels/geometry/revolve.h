@@ -79,7 +79,8 @@ FN vec3 profile_normal(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a,
             profile_point c = profile_at(p, degree, stride, root.at);
             real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
             nearest = off;
-            n = make_vec3(c.dz * at.x, c.dz * at.y, -c.dr * rho);  // across the tangent, times the distance to the axis
+            // Across the tangent, times the distance to the axis. On the axis: along it, what lies across it has a normal there.
+            n = rho > 0 ? make_vec3(c.dz * at.x, c.dz * at.y, -c.dr * rho) : make_vec3(0, 0, -c.dr);
         }
     }
     return n;

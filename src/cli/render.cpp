@@ -1,6 +1,5 @@
 // csgrt SCENE: one or more frames, written as pictures and figures.
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -8,6 +7,7 @@
 
 #include <csgrt/image.hpp>
 
+#include "clock.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
@@ -96,12 +96,6 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
     return text;
 }
 #endif
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 /// The pictures hold colours only, and nobody asked for figures: nothing behind the first hits is looked at.
 bool only_colors(const RenderArguments& arguments) {

@@ -1,5 +1,5 @@
-// Trees -> their terms: which solids start each, and what becomes of it when others cover a partition, too. layout.h says
-// what a term is.
+// Trees -> their terms: which solids start each, and what becomes of it when others cover a partition, too. layout.h
+// says what a term is.
 
 #include "compile/terms.hpp"
 
@@ -17,7 +17,8 @@ struct Term {
 };
 
 /// The members of the unions at a tree's top, in order.
-void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record, std::uint32_t region, std::vector<Term>& terms) {
+void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record, std::uint32_t region,
+               std::vector<Term>& terms) {
     std::vector<Term> rest{{region, record.first_word, record.first_word + record.word_count}};
     while (!rest.empty()) {
         const Term term = rest.back();
@@ -58,14 +59,16 @@ public:
             } else {
                 if (part.place == Place::needed) needs_undecided_ = true;
                 for (std::uint32_t node = part.first; node < part.end; ++node)
-                    if (trees_[node] >> TREE_SHIFT == OP_LEAF) entries_.push_back({trees_[node] & TREE_MASK, ROLE_UNDECIDED});
+                    if (trees_[node] >> TREE_SHIFT == OP_LEAF)
+                        entries_.push_back({trees_[node] & TREE_MASK, ROLE_UNDECIDED});
             }
         }
         std::sort(entries_.begin(), entries_.end());
         std::size_t kept = 0;
         for (const auto& [solid, role] : entries_) {
             if (kept > 0 && entries_[kept - 1].first == solid) {
-                // Needed, removed or undecided, and not always the same. Sorted: what is needed comes after what is removed.
+                // Needed, removed or undecided, and not always the same. Sorted: what is needed comes after what is
+                // removed.
                 if (entries_[kept - 1].second == role) continue;
                 needs_undecided_ = needs_undecided_ || role == ROLE_NEEDED || entries_[kept - 1].second == ROLE_NEEDED;
                 entries_[kept - 1].second = ROLE_UNDECIDED;

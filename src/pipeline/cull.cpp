@@ -12,13 +12,18 @@ Cull::Cull(Device& device, const Program& program)
       lists_(device, "blocks' nodes") {}
 
 // Measured (bench/NOTES.md): a GPU finds a ray's candidates as soon without.
-bool Cull::is_listed(const kernel::Frame& frame) const { return !frame.every_partition || device_.info().type == "cpu"; }
+bool Cull::is_listed(const kernel::Frame& frame) const {
+    return !frame.every_partition || device_.info().type == "cpu";
+}
 
-SeenBlocks Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame, PipelineCounts& counts) {
+SeenBlocks Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame,
+                     PipelineCounts& counts) {
     const std::uint32_t count = frame.ray_count / block_rays, first = frame.first_ray / block_rays;
     costs_.reserve(count);
-    if (is_listed(frame)) lists_.reserve(std::size_t{count} * LISTED_NODES * sizeof(kernel::BlockNode));
-    else lists_ = Buffer(device_, lists_.name());
+    if (is_listed(frame))
+        lists_.reserve(std::size_t{count} * LISTED_NODES * sizeof(kernel::BlockNode));
+    else
+        lists_ = Buffer(device_, lists_.name());
     const Event cull = cull_blocks_.launch(count, work_group, tile.frame, scene.nodes, costs_, lists_);
     const auto costs = costs_.read<unsigned char>(count);
     counts.cull_blocks += milliseconds(cull);

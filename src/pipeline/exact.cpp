@@ -19,7 +19,8 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       scene_(scene),
       kernels_(kernels),
       program_(device,
-               assemble_program({"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"}),
+               assemble_program({"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl",
+                                 "4_evaluate.cl", "5_shade.cl"}),
                defines_of(scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
@@ -43,7 +44,8 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = cull_.held();
-    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &found_, &ends_, &partitions_, &bits_}) sum += buffer->size();
+    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &found_, &ends_, &partitions_, &bits_})
+        sum += buffer->size();
     return sum;
 }
 
@@ -53,7 +55,8 @@ void Exact::release() {
 }
 
 void Exact::release_counted() {
-    for (Buffer* buffer : {&candidates_, &found_, &ends_, &partitions_, &bits_}) *buffer = Buffer(device_, buffer->name());
+    for (Buffer* buffer : {&candidates_, &found_, &ends_, &partitions_, &bits_})
+        *buffer = Buffer(device_, buffer->name());
 }
 
 kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times) {
@@ -119,27 +122,30 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
         candidates_.reserve(candidate_bytes);
         found_.reserve(found_bytes);
     }
-    const Event list = find_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_);
-    const Event count = count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                           s.inner_nodes, tile.rays, candidates, candidates_, found_);
+    const Event list = find_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, lists, tile.rays,
+                                               places_, candidates_);
+    const Event count =
+        count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                           s.inner_nodes, tile.rays, candidates, candidates_, found_);
     const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);
     total_ = scan(counts_, rays, counts);
     for (const Event* event : {&find, &list, &count, &sum}) counts.count_hits += milliseconds(*event);
     if (!reserve_counted(total_)) return false;
 
     const cl_uint nodes = 2 * total_.segments;
-    const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes,
-                                               s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates, candidates_, found_, counts_,
-                                               ends_, partitions_);
+    const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals,
+                                               s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates,
+                                               candidates_, found_, counts_, ends_, partitions_);
     const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, nodes, partitions_);
-    const Event weave = weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
-    const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_, bits_, nodes,
-                                            partitions_);
+    const Event weave =
+        weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
+    const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_,
+                                            bits_, nodes, partitions_);
     Event shade;
     if (kind != Rays::listed)
-        shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
-                              s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_, tile.rays,
-                              tile.picture);
+        shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                              s.inner_nodes, s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_,
+                              tile.rays, tile.picture);
     counts.store_segments += milliseconds(store);
     counts.weave += milliseconds(order) + milliseconds(weave);
     counts.evaluate += milliseconds(evaluate);
@@ -149,7 +155,8 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     counts.hits += nodes;
     counts.partitions_allocated += nodes;
     counts.segment_bytes += std::uint64_t{nodes} * kernels_.end_bytes() + candidate_bytes + found_bytes;
-    counts.partition_bytes += std::uint64_t{nodes} * sizeof(kernel::PartitionNode) + std::uint64_t{total_.words} * sizeof(std::uint32_t);
+    counts.partition_bytes +=
+        std::uint64_t{nodes} * sizeof(kernel::PartitionNode) + std::uint64_t{total_.words} * sizeof(std::uint32_t);
     return true;
 }
 
@@ -176,9 +183,10 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, Pip
 }
 
 // All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
-std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const {
-    const kernel::cover cover{ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(),
-                              scene_.trees.data()};
+std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments,
+                                            const std::uint32_t* bits) const {
+    const kernel::cover cover{
+        ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(), scene_.trees.data()};
     const kernel::covered_solids covered = kernel::list_covered(cover);
     std::vector<std::uint32_t> claimants;
     for (std::uint32_t segment = 0; segment < segments; ++segment) {
@@ -194,7 +202,8 @@ std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32
     return claimants;
 }
 
-std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
+std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends,
+                                               const std::vector<kernel::PartitionNode>& nodes,
                                                const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
                                                const kernel::RayCount& end, std::uint32_t first_node) const {
     std::vector<ClaimedPartition> claims;
@@ -211,7 +220,8 @@ std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& e
         claim.out_enters = partition.out_end % 2 == 0;
         claim.region = region;
         if (partition.region & OVERLAP)
-            claim.claimants = claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
+            claim.claimants =
+                claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
         claims.push_back(std::move(claim));
     }
     return claims;

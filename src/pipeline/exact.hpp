@@ -12,15 +12,16 @@
 
 namespace csgrt {
 
-/// How a tile's rays are given: blocks of a picture's that kernel 0 has looked at, single ones of a picture's, or a list.
+/// How a tile's rays are given: blocks of a picture's that kernel 0 has looked at, single ones of a picture's, or a
+/// list.
 enum class Rays { blocks, picked, listed };
 
 class Exact {
 public:
     Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// Runs the kernels on the tile's rays, the last one only if they are a picture's. Waits. False: the rays' segments do
-    /// not fit the memory; nothing is lost then, the caller takes a smaller tile.
+    /// Runs the kernels on the tile's rays, the last one only if they are a picture's. Waits. False: the rays' segments
+    /// do not fit the memory; nothing is lost then, the caller takes a smaller tile.
     bool run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
@@ -29,7 +30,8 @@ public:
     void add_results(std::uint32_t rays, PipelineCounts& counts) const;
 
     Cull& cull() { return cull_; }
-    static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
+    static constexpr std::uint64_t ray_bytes =
+        2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
     std::uint64_t held() const;
     void release();  ///< gives all its memory back: another use of the budget wants it
 
@@ -38,10 +40,12 @@ private:
     kernel::RayCount scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times);
     void release_counted();  // what holds segments and partitions
     bool reserve_counted(const kernel::RayCount& total);
-    std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
+    std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends,
+                                            const std::vector<kernel::PartitionNode>& nodes,
                                             const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
                                             const kernel::RayCount& end, std::uint32_t first_node) const;
-    std::vector<std::uint32_t> claimants(const kernel::End* ends, std::uint32_t segments, const std::uint32_t* bits) const;
+    std::vector<std::uint32_t> claimants(const kernel::End* ends, std::uint32_t segments,
+                                         const std::uint32_t* bits) const;
 
     Device& device_;
     const CompiledScene& scene_;
@@ -50,10 +54,10 @@ private:
     Cull cull_;
     Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
-    Buffer places_, counts_, results_;              // one entry a ray
+    Buffer places_, counts_, results_;                      // one entry a ray
     Buffer candidates_, found_, ends_, partitions_, bits_;  // by what was counted
-    std::vector<std::unique_ptr<Buffer>> sums_;  // of the scan, a level each
-    kernel::RayCount total_{};                   // of the last run
+    std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
+    kernel::RayCount total_{};                              // of the last run
 };
 
 }  // namespace csgrt

@@ -9,8 +9,8 @@ class FirstHits {
 public:
     FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the tile's rays, whose blocks were culled before; waits. Returns the numbers of those that hold more segments at a time than the kernel does:
-    /// their pixels are not drawn.
+    /// Draws the tile's rays, whose blocks were culled before; waits. Returns the numbers of those that hold more segments
+    /// at a time than the kernel does: their pixels are not drawn.
     std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, PipelineCounts& counts);
 
     Cull& cull() { return cull_; }

@@ -1,22 +1,17 @@
 #include "pipeline/pipeline.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
+#include "clock.hpp"
 #include "kernel_geometry.hpp"
 
 namespace csgrt {
 namespace {
 
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
-
-template <class Make>
-double timed(const Make& make) {
-    const auto start = std::chrono::steady_clock::now();
-    make();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
+// Every partition of more takes more memory and, on a processor, no less time (bench/NOTES.md); a GPU wants many.
+constexpr std::uint64_t most_rays_of_processor = 1u << 16;
 
 }  // namespace
 
@@ -29,12 +24,20 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       tile_(device) {}
 
 Exact& Pipeline::exact() {
-    if (!exact_) build_ms_ += timed([&] { exact_.emplace(device_, scene_, kernels_, settings_); });
+    if (!exact_) {
+        const auto start = Clock::now();
+        exact_.emplace(device_, scene_, kernels_, settings_);
+        build_ms_ += milliseconds_since(start);
+    }
     return *exact_;
 }
 
 FirstHits& Pipeline::first_hits() {
-    if (!first_hits_) build_ms_ += timed([&] { first_hits_.emplace(device_, scene_, settings_); });
+    if (!first_hits_) {
+        const auto start = Clock::now();
+        first_hits_.emplace(device_, scene_, settings_);
+        build_ms_ += milliseconds_since(start);
+    }
     return *first_hits_;
 }
 
@@ -46,8 +49,8 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
 
-// For what a tile's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is needed,
-// this much is held already.
+// For what a tile's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is
+// needed, this much is held already.
 void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= device_.available() + reused) return;
     tile_.rays = Buffer(device_, tile_.rays.name());
@@ -62,17 +65,19 @@ void Pipeline::for_each_tile(RayRange range, std::uint64_t size, std::uint64_t u
     while (first < range.end) {
         size = size >= unit ? size / unit * unit : size;
         const std::uint64_t most = first % unit == 0 && size >= unit ? size : std::min(size, unit - first % unit);
-        const Tile tile{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(most, range.end - first))};
+        const Tile tile{static_cast<std::uint32_t>(first),
+                        static_cast<std::uint32_t>(std::min(most, range.end - first))};
         if (!work(tile)) {
             if (tile.rays == 1)
-                throw Error(Status::out_of_memory,
-                            "the segments of one ray do not fit the device's memory (" +
-                                std::to_string(device_.budget() >> 20) + " MiB): raise --max-memory, or use --reference");
+                throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
+                                                       std::to_string(device_.budget() >> 20) +
+                                                       " MiB): raise --max-memory, or use --reference");
             size = tile.rays / 2;
             continue;
         }
         first += tile.rays;
-        if (progress && !progress(static_cast<double>(first - range.first) / static_cast<double>(range.end - range.first)))
+        if (progress &&
+            !progress(static_cast<double>(first - range.first) / static_cast<double>(range.end - range.first)))
             throw Error(Status::interrupted, "interrupted");
     }
 }
@@ -128,29 +133,33 @@ void Pipeline::read_picture(std::size_t bytes, const std::function<void(const fl
 }
 
 // Rays of a picture the exact way, one by one.
-void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const std::vector<ChannelPlane>& planes,
-                            PipelineCounts& counts) {
-    const std::uint64_t pixel_bytes = planes.size() * sizeof(float), bytes = pixel_bytes + sizeof(std::uint32_t) + Exact::ray_bytes;
+void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers,
+                            const std::vector<ChannelPlane>& planes, PipelineCounts& counts) {
+    const std::uint64_t pixel_bytes = planes.size() * sizeof(float),
+                        bytes = pixel_bytes + sizeof(std::uint32_t) + Exact::ray_bytes;
     for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
         const auto begin = numbers.begin() + tile.first;
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
-        read_picture(frame.ray_count * pixel_bytes, [&](const float* values) { put_rays(frame, picked, values, planes); });
+        read_picture(frame.ray_count * pixel_bytes,
+                     [&](const float* values) { put_rays(frame, picked, values, planes); });
         if (frame.every_partition) exact().add_results(tile.rays, counts);
         return true;
     });
 }
 
 // false: the tile does not fit the memory.
-bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts) {
+bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes,
+                    PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
     frame.first_ray = tile.first;
     const std::uint64_t pixel_bytes = planes.size() * sizeof(float);
     const auto [seen, places] = seen_blocks(frame, tile, counts);
     std::vector<std::uint32_t> drawn(seen.size());
     for (std::size_t i = 0; i < seen.size(); ++i) drawn[places[i]] = seen[i];
-    if (!list_rays(frame, drawn, block_rays, pixel_bytes, frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
+    if (!list_rays(frame, drawn, block_rays, pixel_bytes,
+                   frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
         put_blocks(frame, first, end, {}, {}, nullptr, planes);
         return true;
     }
@@ -174,7 +183,8 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
     const std::uint64_t bytes = planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
                                 (every ? Exact::ray_bytes : FirstHits::ray_bytes);
-    for_each_tile(range, fitting(bytes), block_rays, progress, [&](const Tile& tile) {
+    const std::uint64_t most = every && device_.info().type == "cpu" ? most_rays_of_processor : most_rays;
+    for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
         if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);
         std::vector<std::uint32_t> numbers(tile.rays);
@@ -184,8 +194,8 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     });
 }
 
-void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
-                     PipelineCounts& counts) {
+void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers,
+                     const Progress& progress, PipelineCounts& counts) {
     const std::vector<std::byte> list = kernels_.rays(rays);
     const std::size_t bytes = kernels_.ray_bytes();
     tile_.picture = Buffer(device_, tile_.picture.name());

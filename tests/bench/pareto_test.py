@@ -4,7 +4,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "chart"))
-from pareto import front  # noqa: E402
+from pareto import front, judged_on_all  # noqa: E402
 
 
 class Front(unittest.TestCase):
@@ -26,6 +26,10 @@ class Front(unittest.TestCase):
 
     def test_equals_stay_both(self):
         self.assertEqual(front({"a": (1, 1), "b": (1, 1)}), {"a", "b"})
+
+    def test_what_was_judged_on_fewer_rays_is_left_out(self):
+        self.assertEqual(judged_on_all({"a": {"rays": 9}, "b": {"rays": 8}, "c": {"rays": 9}}), {"a", "c"})
+        self.assertEqual(judged_on_all({}), set())
 
 
 if __name__ == "__main__":

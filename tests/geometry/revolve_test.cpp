@@ -65,6 +65,26 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
 }  // namespace
 
 TEST_CASE("geometry: revolve agrees with the oracle", "[geometry]") { check_outlines(revolve_case, 4'000, 1); }
+TEST_CASE("geometry: a ray along the axis of a revolve has normals along it, too") {
+    Revolve shape;
+    shape.axis = {0, 0, 1}, shape.r = {1, 0, 0};
+    shape.angle = 2 * pi;
+    shape.sketch.vertices = {{0, 0}, {2, 0}, {2, 3}, {0, 3}};
+    for (std::uint32_t i = 0; i < 3; ++i) shape.sketch.curves.push_back(Sketch::Line{i, i + 1});
+    Scene scene;
+    scene.objects.push_back(Solid{"drum", shape, {}});
+    for (const bool reference : {true, false}) {
+        Settings settings;
+        settings.reference = reference;
+        Renderer renderer(scene, {}, settings);
+        for (const double way : {1.0, -1.0}) {
+            const RayPartitions found = renderer.shoot({{{0, 0, 1.5 - 10 * way}, {0, 0, way}}}).front();
+            REQUIRE(found.partitions.size() == 1);
+            CHECK(found.partitions.front().in_normal == Vec3{0, 0, -way});
+            CHECK(found.partitions.front().out_normal == Vec3{0, 0, way});
+        }
+    }
+}
 TEST_CASE("geometry: revolve agrees with the oracle on a million rays", "[.long]") {
     check_outlines(revolve_case, 1'000'000, 2);
 }

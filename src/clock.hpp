@@ -1,0 +1,14 @@
+// How long something took, by the wall's clock.
+#pragma once
+
+#include <chrono>
+
+namespace csgrt {
+
+using Clock = std::chrono::steady_clock;
+
+inline double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace csgrt
