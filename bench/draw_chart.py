@@ -172,7 +172,7 @@ def draw(measured, folder):
         f"times within {100 * NOISE:.0f} % taken as equal.{fewer}" + (f"\nOff the chart: {words}." if words else ""), fontsize=9)
     for kind in ("svg", "png"):
         path = os.path.join(folder, f"{measured.name}.{kind}")
-        figure.savefig(path + ".part", format=kind, dpi=100, metadata={"Date": None} if kind == "svg" else None)
+        figure.savefig(path + ".part", format=kind, dpi=100, metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")) if kind == "svg" else None)
         os.replace(path + ".part", path)
         print(path)
     pyplot.close(figure)

@@ -3,6 +3,7 @@
 // one after the other.
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
+#include "blocks.h"
 #include "camera.h"
 #include "geometry/collect.h"
 #include "traverse.h"
@@ -21,7 +22,7 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     }
     count.segments = count.words = 0;
     number = number_of(frame, rays, id);
-    if (lists) lists += (size_t)((number - frame->first_ray) / (BLOCK * BLOCK)) * LISTED_NODES;
+    if (lists) lists = list_of(frame, lists, number);
     if (ray_of(frame, rays, number, &r)) count.segments = walk(frame, nodes, lists, r, id, candidates);
     if (!candidates) places[id] = count;
 }

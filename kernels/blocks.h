@@ -43,6 +43,11 @@ FN beam make_beam(GLOBAL const Frame* f, u32 block) {
     return b;
 }
 
+// The nodes of the block of a picture's ray, out of the lists of the frame's blocks.
+FN GLOBAL const BlockNode* list_of(GLOBAL const Frame* f, GLOBAL const BlockNode* lists, u32 number) {
+    return lists + (size_t)((number - f->first_ray) / (BLOCK * BLOCK)) * LISTED_NODES;
+}
+
 // As box_entry, before any of the beam's rays.
 FN float beam_entry(beam b, BvhNode node) {
     u32 k;

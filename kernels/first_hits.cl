@@ -26,8 +26,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     s.starts = starts;
     s.leaves = leaves;
     s.trees = trees;
-    block_nodes += (size_t)((number - frame->first_ray) / (BLOCK * BLOCK)) * LISTED_NODES;
-    found = first_hit(frame, s, block_nodes, r, &w);
+    found = first_hit(frame, s, list_of(frame, block_nodes, number), r, &w);
     if (found == RAY_OVERFLOWS) {
         u32 place = atomic_inc(overflows);
         overflown[place] = number;

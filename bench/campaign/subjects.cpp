@@ -45,8 +45,7 @@ private:
     Verdict judge_by(const test::ExpectedAnswers& answers, std::size_t i, const RayPartitions& found) const {
         const test::Expected expected = answers(first_ + i);
         if (expected.tie) return {true, {}, 0};
-        const Vec3& d = made_.rays[first_ + i].direction;
-        const test::Compared compared = test::compare(found, expected, fused_ / std::hypot(d.x, d.y, d.z));
+        const test::Compared compared = test::compare(found, expected, made_.rays[first_ + i], fused_);
         Verdict verdict{false, {}, compared.worst};
         if (!compared.overlaps) verdict.wrong = "other overlaps";
         if (compared.worst > 1) verdict.wrong = "an end is " + std::to_string(compared.worst) + " times too far off";

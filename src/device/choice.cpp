@@ -158,10 +158,12 @@ std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, 
     return chosen;
 }
 
-std::vector<DeviceInfo> devices() {
+std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
     std::vector<DeviceInfo> all;
-    for (FoundDevice& device : find_devices()) all.push_back(std::move(device.info));
+    for (const FoundDevice& device : devices) all.push_back(device.info);
     return all;
 }
+
+std::vector<DeviceInfo> devices() { return infos_of(find_devices()); }
 
 }  // namespace csgrt

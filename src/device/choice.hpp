@@ -19,6 +19,9 @@ struct FoundDevice {
 /// Throws Error (device_fault) if OpenCL answers with anything else than devices or their absence.
 std::vector<FoundDevice> find_devices();
 
+/// What there is to know of each.
+std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices);
+
 /// The index of the device that `choice` means (see Device). Throws Error (no_device) that lists what there is.
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice);
 

@@ -21,9 +21,7 @@ std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
 
 FoundDevice chosen(const std::string& choice) {
     const std::vector<FoundDevice> found = find_devices();
-    std::vector<DeviceInfo> infos;
-    for (const FoundDevice& device : found) infos.push_back(device.info);
-    return found[choose_device(infos, choice)];
+    return found[choose_device(infos_of(found), choice)];
 }
 
 }  // namespace

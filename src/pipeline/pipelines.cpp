@@ -25,9 +25,7 @@ std::uint64_t part_size(std::uint64_t rays, std::size_t devices) {
 
 Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings) {
     const std::vector<FoundDevice> found = find_devices();
-    std::vector<DeviceInfo> infos;
-    for (const FoundDevice& device : found) infos.push_back(device.info);
-    for (const std::size_t number : choose_devices(infos, settings.device)) {
+    for (const std::size_t number : choose_devices(infos_of(found), settings.device)) {
         devices_.push_back(std::make_unique<Device>(found[number], settings.max_memory));
         pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings));
     }

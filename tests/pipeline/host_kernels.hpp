@@ -82,6 +82,21 @@ inline std::vector<float> picture_of(const kernel::Frame& frame, const std::vect
     return picture;
 }
 
+/// What kernel 0 leaves behind.
+struct HostBlocks {
+    std::vector<unsigned char> costs;
+    std::vector<kernel::BlockNode> lists;
+};
+inline HostBlocks cull(const CompiledScene& scene, const kernel::Frame& frame) {
+    using namespace kernel;
+    HostBlocks blocks;
+    blocks.costs.resize(frame.ray_count / (BLOCK * BLOCK));
+    blocks.lists.resize(blocks.costs.size() * LISTED_NODES);
+    for (global_id = 0; global_id < blocks.costs.size(); ++global_id)
+        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data());
+    return blocks;
+}
+
 /// Runs all kernels; `rays` empty: the frame's camera.
 inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
                            const std::vector<kernel::RayRecord>& rays = {}) {
@@ -107,12 +122,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         }
         return sum;
     };
-    std::vector<unsigned char> blocks(count / (BLOCK * BLOCK));
-    std::vector<BlockNode> nodes_of_blocks(blocks.size() * LISTED_NODES);
-    if (!frame.listed)
-        for (global_id = 0; global_id < blocks.size(); ++global_id)
-            cull_blocks(&frame, scene.nodes.data(), blocks.data(), nodes_of_blocks.data());
-    const BlockNode* lists = frame.listed ? nullptr : nodes_of_blocks.data();
+    const HostBlocks blocks = frame.listed ? HostBlocks{} : cull(scene, frame);
+    const BlockNode* lists = frame.listed ? nullptr : blocks.lists.data();
     std::vector<RayCount> places(count + 1);
     each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
@@ -168,19 +179,16 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     frame.ray_count = static_cast<u32>(prepared.rays);
     frame.picked = 1;
     std::vector<u32> numbers = all_numbers(frame);
-    std::vector<unsigned char> blocks(frame.ray_count / (BLOCK * BLOCK));
+    const HostBlocks blocks = cull(scene, frame);
     std::vector<u32> overflown(frame.ray_count);
     u32 overflows = 0;
-    std::vector<BlockNode> leaves(blocks.size() * LISTED_NODES);
-    for (global_id = 0; global_id < blocks.size(); ++global_id)
-        cull_blocks(&frame, scene.nodes.data(), blocks.data(), leaves.data());
-    std::erase_if(numbers, [&](u32 number) { return !blocks[number / (BLOCK * BLOCK)]; });
+    std::erase_if(numbers, [&](u32 number) { return !blocks.costs[number / (BLOCK * BLOCK)]; });
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
-                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), leaves.data(),
+                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.lists.data(),
                    reinterpret_cast<const RayRecord*>(numbers.data()), &overflows, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return overflows;

@@ -93,8 +93,7 @@ inline Counts check(const stress::StressScene& made, const Settings& settings) {
             ++counts.ties;
             continue;
         }
-        const Vec3& d = made.rays[i].direction;
-        const Compared compared = compare(found[i], expected[i], fused / std::hypot(d.x, d.y, d.z));
+        const Compared compared = compare(found[i], expected[i], made.rays[i], fused);
         if (!compared.regions) {
             if (counts.wrong++ == 0) keep_finding("wrong", made, made.scene, made.rays[i]);
             continue;

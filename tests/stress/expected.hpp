@@ -64,13 +64,14 @@ struct Compared {
     bool overlaps = false;  ///< the right ones, where they are known
     double worst = 0;  ///< if the regions are right: an end's distance from the truth, in units of what is documented
 };
-/// `fused`: along the ray, ends closer than that are one (Statistics::tolerance), at the distance of the first of them.
-inline Compared compare(const RayPartitions& found, const Expected& expected, double fused) {
+/// `fused`: ends closer than that are one (Statistics::tolerance), at the distance of the first of them.
+inline Compared compare(const RayPartitions& found, const Expected& expected, const Ray& ray, double fused) {
+    const Vec3& d = ray.direction;
     const Sequence sequence = sequence_of(found);
     Compared compared;
     compared.regions = same_regions(sequence, expected.sequence);
     compared.overlaps = !expected.overlaps || overlaps_of(found) == *expected.overlaps;
-    if (compared.regions) compared.worst = worst_end(sequence, expected.sequence, fused);
+    if (compared.regions) compared.worst = worst_end(sequence, expected.sequence, fused / std::hypot(d.x, d.y, d.z));
     return compared;
 }
 
