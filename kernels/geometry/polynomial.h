@@ -85,23 +85,36 @@ FN quartic derivative(quartic p) {
     return d;
 }
 
-// The one root of p between a and b, where p is monotone and of different signs: Newton, kept within the bracket by
-// bisection. `slope` is p's derivative. 100 steps halve any bracket of doubles to neighbours; Newton takes about 5.
+// The one root of p between a and b, where p is of different signs: Halley's steps from u on, or from the middle, kept
+// within the bracket by bisection. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at v = -f0 / f1, less
+// some v^2 f2 / f1, which Halley's step knows of. What it leaves is of the size of v^3 ((f2 / f1)^2 - f3 / f1): if that is
+// no more than rounding, it is there, and another step would only measure rounding. 100 steps halve any bracket of doubles
+// to neighbours; Halley takes about 3.
 #define ROOT_STEPS (sizeof(real) == 16 ? 240 : 100)
-FN real bracketed_root(quartic p, quartic slope, real a, real b, int negative_at_a) {
-    real u = REAL(0.5) * (a + b);
+#define ROOT_PRECISION BY_PRECISION(0x1p-25, 0x1p-54, 0x1p-114)
+FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
     int step;
+    if (!(u > a && u < b)) u = REAL(0.5) * (a + b);
     for (step = 0; step < ROOT_STEPS; ++step) {
-        real value = quartic_at(p, u);
-        real next;
-        if ((value < 0) == (negative_at_a != 0)) {
+        const real p3 = real_fma(p.c[4], u, p.c[3]), p2 = real_fma(p3, u, p.c[2]), p1 = real_fma(p2, u, p.c[1]);
+        const real q3 = real_fma(p.c[4], u, p3), q2 = real_fma(q3, u, p2), r3 = real_fma(p.c[4], u, q3);
+        const real f0 = real_fma(p1, u, p.c[0]), f1 = real_fma(q2, u, p1), f2 = real_fma(r3, u, q2);
+        const real f3 = real_fma(p.c[4], u, r3);
+        const real v = f0 * f1 / real_fma(f1, f1, -f0 * f2), size = real_abs(v);
+        real next = u - v;
+        if ((f0 < 0) == (negative_at_a != 0)) {
             a = u;
         } else {
             b = u;
         }
-        next = u - value / quartic_at(slope, u);
-        if (!(next > a && next < b)) next = REAL(0.5) * (a + b);
-        if (next == u || next <= a || next >= b) return u;
+        if (next == u) return u;
+        if (next > a && next < b) {
+            const real left = real_fma(f2, f2, real_abs(f1 * f3));
+            if (size * size * size * left < ROOT_PRECISION * real_abs(u) * (f1 * f1)) return next;
+        } else {
+            next = REAL(0.5) * (a + b);
+            if (next <= a || next >= b) return u;
+        }
         u = next;
     }
     return u;
@@ -109,8 +122,9 @@ FN real bracketed_root(quartic p, quartic slope, real a, real b, int negative_at
 
 // How many roots p has between low and high, if that is certain at a glance: 0, 1, or 2, which `split` is between. Else 3.
 // The coefficients in Bernstein form change their sign as often as p does, or two, four times more often (Descartes' rule;
-// Lane and Riesenfeld 1981); those that rounding might have turned around say nothing.
-FN int certain_roots(quartic p, real low, real high, real* split) {
+// Lane and Riesenfeld 1981); those that rounding might have turned around say nothing. Where the straight lines between
+// them change it, the roots are not far: `near`.
+FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
     const real w = high - low, reach = real_max(real_abs(low), real_abs(high));
     const real doubt = BY_PRECISION(0x1p-12, 0x1p-40, 0x1p-98) *
                        real_fma(real_fma(real_fma(real_fma(real_abs(p.c[4]), reach, real_abs(p.c[3])), reach, real_abs(p.c[2])),
@@ -130,7 +144,10 @@ FN int certain_roots(quartic p, real low, real high, real* split) {
     for (i = 0; i < 5; ++i)
         if (!(real_abs(b[i]) > doubt)) return 3;
     for (i = 0; i < 4; ++i) {
-        changes += (b[i] < 0) != (b[i + 1] < 0);
+        if ((b[i] < 0) != (b[i + 1] < 0)) {
+            if (changes < 2) near[changes] = real_fma(w, REAL(0.25) * ((real)i + b[i] / (b[i] - b[i + 1])), low);
+            ++changes;
+        }
         if (b[0] < 0 ? b[i] > b[farthest] : b[i] < b[farthest]) farthest = i;
     }
     if (changes < 2) return changes;
@@ -140,59 +157,50 @@ FN int certain_roots(quartic p, real low, real high, real* split) {
     return real_abs(at_split) > doubt && (at_split < 0) != (b[0] < 0) ? 2 : 3;
 }
 
-// Where p changes sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not. The roots are
-// bracketed by those of the derivative, these by those of the second derivative, which is a quadratic: so every
-// bracket holds a monotone piece, and the signs at the ends decide about the root. Counts and signs thus always agree.
-FN int sign_changes(quartic p, real low, real high, real* roots) {
-    quartic d1 = derivative(p);
-    quartic d2 = derivative(d1);
-    real knots[6];
+// Where p has its turning points in (low, high): ascending, at most 3. Those of the derivative are the roots of a
+// quadratic, so each is alone in its bracket.
+FN int turning_points(quartic p, real low, real high, real* turns) {
+    const quartic d1 = derivative(p);
+    const real a = REAL(3) * d1.c[3], b = d1.c[2], c = d1.c[1];  // the second derivative: a u^2 + 2 b u + c
+    const real discriminant = difference_of_products(b, b, a, c);
     real inner[4];
-    int knot_count = 0;
-    int inner_count = 0;
-    int root_count = 0;
-    int i = certain_roots(p, low, high, inner);
-    if (i < 3) {
-        const int negative = quartic_at(p, low) < 0;
-        if (i == 1) roots[0] = bracketed_root(p, d1, low, high, negative);
-        if (i == 2) {
-            roots[0] = bracketed_root(p, d1, low, inner[0], negative);
-            roots[1] = bracketed_root(p, d1, inner[0], high, !negative);
-        }
-        return i;
-    }
-    // Second derivative: d2.c[2] u^2 + d2.c[1] u + d2.c[0].
+    int inner_count = 0, count = 0, i;
     inner[inner_count++] = low;
-    {
-        real a = d2.c[2], b = REAL(0.5) * d2.c[1], c = d2.c[0];
-        real discriminant = difference_of_products(b, b, a, c);
-        if (discriminant > 0) {
-            real root = real_sqrt(discriminant);
-            real q = b > 0 ? -(b + root) : root - b;
-            real u1 = q / a;
-            real u2 = c / q;
-            real first = real_min(u1, u2), second = real_max(u1, u2);
-            if (first > low && first < high) inner[inner_count++] = first;
-            if (second > low && second < high) inner[inner_count++] = second;
-        }
+    if (discriminant > 0) {
+        const real root = real_sqrt(discriminant);
+        const real q = b > 0 ? -(b + root) : root - b;
+        const real u1 = q / a;
+        const real u2 = c / q;
+        const real first = real_min(u1, u2), second = real_max(u1, u2);
+        if (first > low && first < high) inner[inner_count++] = first;
+        if (second > low && second < high) inner[inner_count++] = second;
     }
-    inner[inner_count++] = high;
-    knots[knot_count++] = low;
-    for (i = 0; i + 1 < inner_count; ++i) {
-        int negative = quartic_at(d1, inner[i]) < 0;
-        int after = quartic_at(d1, inner[i + 1]) < 0;
-        if (negative != after) knots[knot_count++] = bracketed_root(d1, d2, inner[i], inner[i + 1], negative);
+    inner[inner_count] = high;
+    for (i = 0; i < inner_count; ++i) {
+        const int negative = quartic_at(d1, inner[i]) < 0;
+        const int after = quartic_at(d1, inner[i + 1]) < 0;
+        if (negative != after) turns[count++] = bracketed_root(d1, inner[i], inner[i + 1], negative, low);
     }
-    knots[knot_count++] = high;
-    {
-        int negative = quartic_at(p, low) < 0;
-        for (i = 0; i + 1 < knot_count; ++i) {
-            int after = quartic_at(p, knots[i + 1]) < 0;
-            if (negative != after) roots[root_count++] = bracketed_root(p, d1, knots[i], knots[i + 1], negative);
-            negative = after;
-        }
+    return count;
+}
+
+// Where p changes sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not. What is certain at
+// a glance needs no more; else the roots are bracketed by those of the derivative, so every bracket holds a monotone piece,
+// and the signs at the ends decide about the root. Counts and signs thus always agree.
+FN int sign_changes(quartic p, real low, real high, real* roots) {
+    real knots[5], near[2];
+    int count = 0, i, negative = quartic_at(p, low) < 0;
+    const int certain = certain_roots(p, low, high, knots + 1, near);
+    const int pieces = certain < 3 ? certain : 1 + turning_points(p, low, high, knots + 1);
+    knots[0] = low;
+    knots[pieces] = high;
+    for (i = 0; i < pieces; ++i) {
+        const int after = quartic_at(p, knots[i + 1]) < 0;
+        if (negative != after)
+            roots[count++] = bracketed_root(p, knots[i], knots[i + 1], negative, certain < 3 ? near[i] : low);
+        negative = after;
     }
-    return root_count;
+    return count;
 }
 
 // The inside pieces of `s` (bounded, in u + shift), given the sign changes in it.
