@@ -24,7 +24,7 @@ __kernel void evaluate(__global const SolidRecord* solids, __global const StartR
     c.starts = starts;
     c.leaves = leaves;
     c.trees = trees;
-    covered = list_covered(c);
+    list_covered(c, &covered);
     found = find_claim(c, &covered, 1, all_solids());
     nodes[id].region = found.least | (found.other != NONE ? OVERLAP : 0u);
 }

@@ -43,29 +43,26 @@ FN u32 take_solid_of(cover c, u32 word, u32* bits) {
     return c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
 }
 
-FN covered_solids list_covered(cover c) {
-    covered_solids list;
+FN void list_covered(cover c, covered_solids* list) {
     u32 word, words = words_of(c.segments);
-    list.count = list.filter.even = list.filter.odd = 0;
+    list->count = list->filter.even = list->filter.odd = 0;
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
             u32 solid = take_solid_of(c, word, &bits);
-            list.filter = with(list.filter, filter_of(solid));
-            if (list.count < FEW) list.solids[list.count] = solid;
-            if (list.count <= FEW) ++list.count;
+            list->filter = with(list->filter, filter_of(solid));
+            if (list->count < FEW) list->solids[list->count] = solid;
+            if (list->count <= FEW) ++list->count;
         }
     }
-    return list;
 }
 
 FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
     u32 low = 0, high = c.segments;
     if (!within(filter_of(solid), list->filter)) return 0;
     if (list->count <= FEW) {
-        for (; low < list->count; ++low)
-            if (list->solids[low] == solid) return 1;
-        return 0;
+        while (low < list->count && list->solids[low] != solid) ++low;
+        return low < list->count;
     }
     while (low < high) {  // many: a ray's ends stand sorted by solid in memory
         u32 middle = (low + high) >> 1;
@@ -223,41 +220,41 @@ FN u32 walk_term(cover c, u32 node, u32 end) {
 
 FN u32 role_of(GLOBAL const u32* table, u32 shift, u32 solid) {
     const u32 last = 0xffffffffu >> shift;
-    u32 place = place_of_role(solid, shift);
-    for (;; place = (place + 1) & last) {
-        const u32 entry = table[place];
-        if (entry == NONE) return 0;
-        if ((entry & TREE_MASK) == solid) return entry >> TREE_SHIFT;
+    u32 place = place_of_role(solid, shift), entry = table[place];
+    while (entry != NONE && (entry & TREE_MASK) != solid) {
+        place = (place + 1) & last;
+        entry = table[place];
     }
+    return entry == NONE ? 0 : entry >> TREE_SHIFT;
 }
 
 // The term's value if roles tell it, else ROLE_UNDECIDED.
 FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
     const u32 shift = roles[0], wanted = roles[1];
-    u32 i, needed = 0, undecided = 0;
-    for (i = 0; i < list->count; ++i) {
+    u32 i, needed = 0, undecided = 0, blocked = 0;
+    for (i = 0; i < list->count && !blocked; ++i) {
         const u32 role = role_of(roles + ROLES_HEADER, shift, list->solids[i]);
-        if (role == ROLE_BLOCKS) return 0;
+        blocked = role == ROLE_BLOCKS;
         needed |= role == ROLE_NEEDED;
         undecided |= role == ROLE_UNDECIDED;
     }
-    if (undecided) return ROLE_UNDECIDED;
-    if (wanted == NONE) return 0;
-    return wanted == 1 ? needed : ROLE_UNDECIDED;  // a solid may be listed twice: they cannot be counted
+    if (blocked || (!undecided && wanted == NONE)) return 0;
+    return undecided || wanted != 1 ? ROLE_UNDECIDED : needed;  // a solid may be listed twice: they cannot be counted
 }
 
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
-    u32 size = start.end_word - start.first_word;
-    if (size == 1) return 1;
-    if (!within(start.needed, list->filter)) return 0;
-    if (start.roles != NONE && list->count <= FEW) {
-        const u32 value = ask_roles(c.trees + start.roles, list);
-        if (value != ROLE_UNDECIDED) return value;
-    }
+    const u32 size = start.end_word - start.first_word;
+    u32 value = size == 1 ? 1u : within(start.needed, list->filter) ? ROLE_UNDECIDED : 0;
+    if (value == ROLE_UNDECIDED && start.roles != NONE && list->count <= FEW) value = ask_roles(c.trees + start.roles, list);
+    if (value == ROLE_UNDECIDED) {
 #ifdef CSGRT_LARGE_TERMS
-    if (size > SCANNED_WORDS) return walk_term(c, start.first_word, start.end_word);
+        value = size > SCANNED_WORDS ? walk_term(c, start.first_word, start.end_word)
+                                     : scan_term(c, list, start.first_word, start.end_word);
+#else
+        value = scan_term(c, list, start.first_word, start.end_word);
 #endif
-    return scan_term(c, list, start.first_word, start.end_word);
+    }
+    return value;
 }
 
 FN SolidFilter all_solids(void) {
@@ -283,14 +280,11 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
             u32 solid = take_solid_of(c, word, &bits);
             u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
             for (; i < end; ++i) {
-                StartRecord start = c.starts[i];
-                if (start.region >= found.least && (!other || found.other != NONE || start.region == found.least)) continue;
-                if (!meet(start.solids, changed) || !term_holds(c, list, start)) continue;
-                if (start.region < found.least) {
-                    found.other = found.least;
-                    found.least = start.region;
-                } else {
-                    found.other = start.region;
+                const StartRecord start = c.starts[i];
+                const u32 wanted = start.region < found.least || (other && found.other == NONE && start.region != found.least);
+                if (wanted && meet(start.solids, changed) && term_holds(c, list, start)) {
+                    found.other = start.region < found.least ? found.least : start.region;
+                    found.least = start.region < found.least ? start.region : found.least;
                 }
             }
         }

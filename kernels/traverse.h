@@ -12,13 +12,14 @@
 // Steps to the next leaf that the ray meets among the nodes from *i on. Returns its solids as BvhNode has them, 0 if `end`
 // comes first; *i stands behind it then.
 FN u32 next_leaf(slab_ray s, GLOBAL const BvhNode* nodes, u32* i, u32 end) {
-    while (*i < end) {
+    u32 leaf = 0;
+    while (!leaf && *i < end) {
         const BvhNode node = nodes[*i];
         const int hit = box_is_hit(s, node);
+        leaf = hit ? node.leaf : 0;
         *i = hit && !node.leaf ? *i + 1 : node.skip;
-        if (hit && node.leaf) return node.leaf;
     }
-    return 0;
+    return leaf;
 }
 
 // Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that the

@@ -177,11 +177,39 @@ std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first
     return place;
 }
 
+void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end,
+                 std::vector<kernel::SolidRecord>& solids) {
+    struct Part {
+        std::uint32_t first, end;
+        std::uint32_t same, opposite;  // BEGINS_x of solids that the term needs there, and of those that it is without
+    };
+    std::vector<Part> rest{{first, end, BEGINS_AT_ENTRY, BEGINS_AT_EXIT}};
+    while (!rest.empty()) {
+        const auto [node, node_end, same, opposite] = rest.back();
+        rest.pop_back();
+        const std::uint32_t op = trees[node] >> TREE_SHIFT, right = trees[node] & TREE_MASK;
+        if (op == OP_LEAF) {
+            solids[right].begins |= same;
+        } else if (op == OP_NOT) {
+            rest.push_back({node + 1, node_end, opposite, same});
+        } else if (op == OP_XOR) {
+            rest.push_back({node + 1, right, same | opposite, same | opposite});
+            rest.push_back({right, node_end, same | opposite, same | opposite});
+        } else {
+            rest.push_back(op == OP_REVERSE_DIFFERENCE ? Part{node + 1, right, opposite, same}
+                                                       : Part{node + 1, right, same, opposite});
+            rest.push_back(op == OP_DIFFERENCE ? Part{right, node_end, opposite, same}
+                                               : Part{right, node_end, same, opposite});
+        }
+    }
+}
+
 void list_terms(CompiledScene& compiled) {
     const auto solid_at = [&](std::uint32_t node) { return compiled.trees[node] & TREE_MASK; };
     std::vector<Term> terms;
     for (std::uint32_t region = 0; region < compiled.regions.size(); ++region)
         add_terms(compiled.trees, compiled.regions[region], region, terms);
+    for (const Term& term : terms) mark_begins(compiled.trees, term.first, term.end, compiled.solids);
     std::vector<TermStarts> starts(terms.size());
     constexpr std::size_t chunk = 1024;
     for_chunks(terms.size(), chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {

@@ -6,10 +6,15 @@
 namespace csgrt {
 
 /// Finds the terms of all regions' trees: which of them each solid starts (`starts`), where it stands in large ones
-/// (`leaves`), and the roles of solids in those that are not short, which are appended to `trees`.
+/// (`leaves`), and the roles of solids in those that are not short, which are appended to `trees`; and
+/// where a term may begin (`begins`).
 void list_terms(CompiledScene& compiled);
 
 /// Appends the table of roles of the term in the words from `first` to `end`. Returns where it begins; NONE: there is no room.
 std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end);
+
+/// Notes at the solids of that term where it may begin to be true: as the ray enters them, leaves them, or both.
+void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end,
+                 std::vector<kernel::SolidRecord>& solids);
 
 }  // namespace csgrt

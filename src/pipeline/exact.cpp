@@ -187,7 +187,8 @@ std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32
                                             const std::uint32_t* bits) const {
     const kernel::cover cover{
         ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(), scene_.trees.data()};
-    const kernel::covered_solids covered = kernel::list_covered(cover);
+    kernel::covered_solids covered;
+    kernel::list_covered(cover, &covered);
     std::vector<std::uint32_t> claimants;
     for (std::uint32_t segment = 0; segment < segments; ++segment) {
         if (!kernel::covers(cover, segment)) continue;

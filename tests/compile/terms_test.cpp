@@ -80,7 +80,8 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
                 if (covered[s]) bits[s / 32] |= 1u << s % 32;
             }
             const kernel::cover cover{ends.data(), bits.data(), solids, records.data(), nullptr, leaves.data(), words.data()};
-            const kernel::covered_solids list = kernel::list_covered(cover);
+            kernel::covered_solids list;
+            kernel::list_covered(cover, &list);
             const bool expected = value_of(tree, covered);
             REQUIRE(bool(kernel::scan_term(cover, &list, 0, end)) == expected);
             REQUIRE(bool(kernel::walk_term(cover, 0, end)) == expected);
@@ -96,4 +97,35 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
     CHECK(not_held > 500);
     CHECK(held_by_roles > 40);
     CHECK(not_held_by_roles > 500);
+}
+
+TEST_CASE("where a term begins to be true, its solids say that it may") {
+    Random random;
+    std::size_t began = 0, marked_once = 0;
+    for (int round = 0; round < 300; ++round) {
+        const std::uint32_t solids = 1 + random.below(20);
+        FlatTree tree;
+        add_tree(tree, 1 + random.below(30), solids, random);
+        std::vector<std::uint32_t> words;
+        linearize(tree, words);
+        std::vector<kernel::SolidRecord> records(solids);
+        mark_begins(words, 0, static_cast<std::uint32_t>(words.size()), records);
+        for (const kernel::SolidRecord& record : records)
+            marked_once += record.begins == BEGINS_AT_ENTRY || record.begins == BEGINS_AT_EXIT;
+        for (int shot = 0; shot < 40; ++shot) {
+            std::vector<bool> covered(solids);
+            for (std::uint32_t s = 0; s < solids; ++s) covered[s] = random.below(2);
+            if (value_of(tree, covered)) continue;
+            for (std::uint32_t s = 0; s < solids; ++s) {
+                covered[s] = !covered[s];
+                if (value_of(tree, covered)) {
+                    REQUIRE(records[s].begins & (covered[s] ? BEGINS_AT_ENTRY : BEGINS_AT_EXIT));
+                    ++began;
+                }
+                covered[s] = !covered[s];
+            }
+        }
+    }
+    CHECK(began > 1000);
+    CHECK(marked_once > 500);
 }
