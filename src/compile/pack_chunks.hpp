@@ -14,6 +14,15 @@
 
 namespace csgrt {
 
+/// A plane of a solid on its way into the scene's table: all that the search touches in one line of the cache.
+struct alignas(64) PackedPlane {
+    PlaneTable::Key key;
+    kernel::PlaneRef ref = 0;  ///< first within the shard's table, then the scene's
+    std::uint16_t solid = 0;   ///< whose it is, within the chunk
+    bool is_first = false;     ///< no plane before it is the same
+};
+static_assert(sizeof(PackedPlane) == 64);
+
 struct PackedChunk {
     static constexpr std::size_t size = 1024;
 
@@ -25,9 +34,9 @@ struct PackedChunk {
     };
     std::vector<Part> parts;  ///< one a solid
     std::vector<double> reals;
-    std::vector<PlaneTable::Key> planes;  ///< faces, then cuts, one solid's after the other's
+    std::vector<PackedPlane> planes;  ///< faces, then cuts, one solid's after the other's
     std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< and whose they are, within the chunk
-    std::vector<std::vector<PlaneTable::Key>> large_faces;  ///< of each large solid; not among `planes` yet
+    std::vector<std::vector<PackedPlane>> large_faces;  ///< of each large solid; not among `planes` yet
     std::vector<std::string> notes;
     std::uint32_t solid_types = 0;
 };

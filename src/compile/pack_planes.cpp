@@ -13,17 +13,9 @@ namespace csgrt {
 
 namespace {
 
-/// A chunk's planes on the way to the scene's.
-struct Planes {
-    std::vector<std::uint16_t> solids;   ///< whose they are, within the chunk
-    std::vector<std::uint32_t> refs;     ///< first within the shard's table, then the scene's
-    std::vector<std::uint32_t> records;  ///< of those that no plane before them is: NONE if one is, else the number
-    std::uint32_t first_record = 0, first_ref = 0;
-};
-
 void insert_large(PackedChunk& chunk) {
     if (chunk.large_faces.empty()) return;
-    std::vector<PlaneTable::Key> all;
+    std::vector<PackedPlane> all;
     auto small = chunk.planes.begin();
     auto large = chunk.large_faces.begin();
     for (std::uint32_t i = 0; i < chunk.parts.size(); ++i) {
@@ -37,6 +29,13 @@ void insert_large(PackedChunk& chunk) {
         }
     }
     chunk.planes = std::move(all);
+}
+
+/// Asks for memory that will be read.
+void fetch([[maybe_unused]] const void* memory) {
+#if defined(__GNUC__)
+    __builtin_prefetch(memory);
+#endif
 }
 
 /// Leaves out faces of a polyhedron that have come already. Returns how many references are left.
@@ -56,93 +55,101 @@ std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
 
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common,
                   CompiledScene& compiled) {
-    std::vector<Planes> of(chunks.size());
     Shards shards(chunks.size());
     const auto for_each_chunk = [&](const auto& call) {
         for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
     };
+    for_each_chunk([&](std::size_t number) { insert_large(chunks[number]); });
+    std::size_t planes = 0;
+    for (const PackedChunk& chunk : chunks) planes += chunk.planes.size();
     for_each_chunk([&](std::size_t number) {
         PackedChunk& chunk = chunks[number];
-        insert_large(chunk);
-        const std::size_t count = chunk.planes.size();
-        Planes& planes = of[number];
-        planes.refs.resize(count);
-        planes.records.assign(count, NONE);
-        planes.solids.reserve(count);
-        shards.chunk(number).reserve(count);
+        shards.chunk(number).reserve(chunk.planes.size());
+        auto plane = chunk.planes.begin();
         for (std::uint32_t i = 0; i < chunk.parts.size(); ++i)
-            planes.solids.insert(planes.solids.end(), chunk.parts[i].faces + chunk.parts[i].cuts,
-                                 static_cast<std::uint16_t>(i));
-        for (const PlaneTable::Key& plane : chunk.planes) empty.add_to(shards.chunk(number), plane);
+            for (const auto end = plane + chunk.parts[i].faces + chunk.parts[i].cuts; plane != end; ++plane) {
+                plane->solid = static_cast<std::uint16_t>(i);
+                empty.add_to(shards.chunk(number), plane->key, planes);
+            }
     });
     shards.sort();
 
     std::vector<std::vector<Shards::Member>> firsts(Shards::count);  // where the records of each shard's table came from
     shards.for_each([&](std::span<const Shards::Member> members, std::size_t shard) {
         PlaneTable table = empty;
-        for (const auto& [number, i] : members) {
-            Planes& planes = of[number];
-            const Box& box = compiled.solid_boxes[number * PackedChunk::size + planes.solids[i]];
+        const auto plane_at = [&](std::size_t i) -> PackedPlane& {
+            return chunks[members[i].chunk].planes[members[i].index];
+        };
+        const auto box_at = [&](std::size_t i) -> const Box& {
+            return compiled.solid_boxes[members[i].chunk * PackedChunk::size + plane_at(i).solid];
+        };
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            // They lie far apart: most of the time would go by in waiting for memory.
+            constexpr std::size_t soon = 6, later = 12;
+            if (i + later < members.size()) fetch(&plane_at(i + later));
+            if (i + soon < members.size()) fetch(&box_at(i + soon));
+            PackedPlane& plane = plane_at(i);
             const std::size_t before = table.size();
-            planes.refs[i] = table.add_keyed(chunks[number].planes[i], is_finite(box) ? box : common);
-            if (table.size() == before) continue;
-            planes.records[i] = 0;
-            firsts[shard].push_back({number, i});
+            plane.ref = table.add_keyed(plane.key, is_finite(box_at(i)) ? box_at(i) : common);
+            plane.is_first = table.size() > before;
+            if (plane.is_first) firsts[shard].push_back(members[i]);
         }
     });
 
-    std::size_t records = 0;
+    std::vector<std::uint32_t> first_record(chunks.size()), first_ref(chunks.size());
     for_each_chunk([&](std::size_t number) {
-        for (const std::uint32_t record : of[number].records) of[number].first_record += record != NONE;
+        for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
     });
-    for (Planes& planes : of) records += std::exchange(planes.first_record, static_cast<std::uint32_t>(records));
+    std::size_t records = 0, refs = 0;
+    for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
     compiled.planes.resize(records);
     for_each_chunk([&](std::size_t number) {
-        std::uint32_t next = of[number].first_record;
-        for (std::size_t i = 0; i < of[number].records.size(); ++i) {
-            if (of[number].records[i] == NONE) continue;
-            compiled.planes[next] = PlaneTable::record_of(chunks[number].planes[i]);
-            of[number].records[i] = next++;
+        std::uint32_t next = first_record[number];
+        for (PackedPlane& plane : chunks[number].planes) {
+            if (!plane.is_first) continue;
+            compiled.planes[next] = PlaneTable::record_of(plane.key);
+            plane.ref = next++ << 1;
         }
     });
     shards.for_each([&](std::span<const Shards::Member> members, std::size_t shard) {
         for (const auto& [number, i] : members) {
-            std::uint32_t& ref = of[number].refs[i];
-            const Shards::Member first = firsts[shard][ref >> 1];
-            ref = of[first.chunk].records[first.index] << 1 | (ref & 1);
+            PackedPlane& plane = chunks[number].planes[i];
+            if (plane.is_first) continue;
+            const Shards::Member first = firsts[shard][plane.ref >> 1];
+            plane.ref = chunks[first.chunk].planes[first.index].ref | (plane.ref & 1);
         }
     });
 
-    std::size_t refs = 0;
+    std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
     for_each_chunk([&](std::size_t number) {
-        Planes& planes = of[number];
-        std::size_t from = 0, to = 0;
+        std::vector<kernel::PlaneRef>& own = of[number];
+        own.reserve(chunks[number].planes.size());
+        auto plane = chunks[number].planes.begin();
+        const auto append = [&](std::uint32_t count) {
+            for (const auto end = plane + count; plane != end; ++plane) own.push_back(plane->ref);
+        };
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i) {
             const PackedChunk::Part& part = chunks[number].parts[i];
-            std::uint32_t* own = planes.refs.data() + from;
-            const std::size_t faces = part.is_polyhedron ? drop_repeated(own, part.faces) : part.faces;
+            const std::size_t first = own.size();
+            append(part.faces);
+            if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
+            append(part.cuts);
             kernel::SolidRecord& record = compiled.solids[number * PackedChunk::size + i];
-            record.first_plane = static_cast<std::uint32_t>(to);
-            record.plane_count = static_cast<std::uint32_t>(faces + part.cuts);
-            std::copy(own, own + faces, planes.refs.data() + to);
-            std::copy(own + part.faces, own + part.faces + part.cuts, planes.refs.data() + to + faces);
-            from += part.faces + part.cuts;
-            to += record.plane_count;
+            record.first_plane = static_cast<std::uint32_t>(first);
+            record.plane_count = static_cast<std::uint32_t>(own.size() - first);
         }
-        planes.refs.resize(to);
     });
-    for (Planes& planes : of) {
-        planes.first_ref = static_cast<std::uint32_t>(refs);
-        refs += planes.refs.size();
+    for (std::size_t number = 0; number < chunks.size(); ++number) {
+        first_ref[number] = static_cast<std::uint32_t>(refs);
+        refs += of[number].size();
     }
     check_numbers(refs);
     compiled.plane_refs.resize(refs);
     for_each_chunk([&](std::size_t number) {
-        const Planes& planes = of[number];
-        std::copy(planes.refs.begin(), planes.refs.end(), compiled.plane_refs.begin() + planes.first_ref);
+        std::copy(of[number].begin(), of[number].end(), compiled.plane_refs.begin() + first_ref[number]);
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)
-            compiled.solids[number * PackedChunk::size + i].first_plane += planes.first_ref;
+            compiled.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
     });
 }
 

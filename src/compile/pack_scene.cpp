@@ -139,9 +139,9 @@ private:
         chunk.parts.push_back(part);
     }
 
-    void append_keys(const std::vector<Plane>& planes, std::vector<PlaneTable::Key>& keys) const {
+    void append_keys(const std::vector<Plane>& planes, std::vector<PackedPlane>& keys) const {
         keys.reserve(keys.size() + planes.size());
-        for (const Plane& plane : planes) keys.push_back(planes_.key_of(plane));
+        for (const Plane& plane : planes) keys.push_back({planes_.key_of(plane)});
     }
 
     /// Of a small solid, once more.

@@ -70,9 +70,12 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
     return key;
 }
 
-void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key) const {
+void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes) const {
+    // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay apart.
+    const double part_of_radius =
+        std::max(1.0 / 8192, 4 * offset_reach * static_cast<double>(planes) / (Shards::count / 16));
     const auto cells = [&](const Vec3& n, double offset) {
-        constexpr double normal = 0.25, part_of_radius = 1.0 / 1024;
+        constexpr double normal = 0.25;
         return std::array<Shards::Chunk::Dimension, 4>{{{n.x, 2 * tilt, normal},
                                                         {n.y, 2 * tilt, normal},
                                                         {n.z, 2 * tilt, normal},

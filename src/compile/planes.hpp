@@ -35,7 +35,8 @@ public:
     Key key_of(const Plane& plane) const;
     static kernel::PlaneRecord record_of(const Key& key);
     /// Tells a chunk where the plane is looked up: planes that may be the same share a shard.
-    void add_to(Shards::Chunk& chunk, const Key& key) const;
+    /// `planes`: about how many there are in all.
+    void add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes) const;
 
     /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
     kernel::PlaneRef add_keyed(const Key& key, const Box& box);

@@ -18,7 +18,7 @@ namespace csgrt {
 
 class Shards {
 public:
-    static constexpr std::uint32_t count = 1024;
+    static constexpr std::uint32_t count = 4096;
 
     /// Where an item stands: number `index` of those that came in chunk `chunk`.
     struct Member {
@@ -84,13 +84,14 @@ public:
         for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
             for (std::uint16_t& shard : chunks_[c].of_) ++chunks_[c].next_[shard = root_[shard]];
         });
-        std::uint32_t total = 0;
-        for (std::uint32_t shard = 0; shard < count; ++shard) {
-            first_[shard] = total;
-            for (Chunk& chunk : chunks_) total += std::exchange(chunk.next_[shard], total);
-        }
-        first_[count] = total;
-        members_.resize(total);
+        for (const Chunk& chunk : chunks_)
+            for (std::uint32_t shard = 0; shard < count; ++shard) first_[shard + 1] += chunk.next_[shard];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        std::array<std::uint32_t, count + 1> next = first_;
+        for (Chunk& chunk : chunks_)
+            for (std::uint32_t shard = 0; shard < count; ++shard)
+                next[shard] += std::exchange(chunk.next_[shard], next[shard]);
+        members_.resize(first_[count]);
         for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
             Chunk& chunk = chunks_[c];
             for (std::uint32_t i = 0; i < chunk.of_.size(); ++i)
