@@ -236,14 +236,11 @@ public:
         const real t_min = k::t_min_along(&frame, r);
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
+            const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
+            if (segments == 0) return;
             const std::size_t first = own.size();
-            // Most have at most two segments, which need not be counted before.
-            const bool few = has_few_segments(solids_[solid].type);
-            const k::u32 counted = few ? 2 : k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
-            if (counted == 0) return;
-            own.resize(first + 2 * std::size_t{counted});
-            const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
             own.resize(first + 2 * std::size_t{segments});
+            k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
         };
         if constexpr (sizeof(real) <= sizeof(double)) {
             for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) meet(solid);
@@ -273,10 +270,6 @@ public:
     }
 
 private:
-    static bool has_few_segments(k::u32 type) {
-        return type <= SOLID_PART;  // ell, tgc, arb, half, tor, ehy, quadric, eto, part
-    }
-
     /// 113 bits are slow: solids whose boxes the ray misses are passed over. That a box holds its solid is seen by the
     /// reference in double.
     template <class Meet>
