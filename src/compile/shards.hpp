@@ -101,7 +101,8 @@ public:
     /// Calls work(members, shard) for each shard that has any, several at once.
     template <class Work>
     void for_each(const Work& work) const {
-        for_chunks(count, 1, 0, [&](std::size_t shard, std::size_t, std::size_t) {
+        constexpr std::size_t few = 8192;  // threads would take longer to begin
+        for_chunks(count, 1, members_.size() < few ? 1 : 0, [&](std::size_t shard, std::size_t, std::size_t) {
             const std::span<const Member> all(members_);
             if (first_[shard] < first_[shard + 1])
                 work(all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
