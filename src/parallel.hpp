@@ -5,8 +5,12 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace csgrt {
@@ -51,6 +55,30 @@ void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Wor
                run);
     for (const std::exception_ptr& exception : thrown)
         if (exception) std::rethrow_exception(exception);
+}
+
+/// Makes make(first, last) of such chunks, several at once, and calls take() with what they are, one at a time and in
+/// their order, as soon as those before are taken.
+template <class Make, class Take>
+void for_chunks_in_order(std::size_t count, std::size_t size, unsigned threads, const Make& make, const Take& take) {
+    std::mutex mutex;
+    std::vector<std::optional<std::invoke_result_t<Make, std::size_t, std::size_t>>> made((count + size - 1) / size);
+    std::size_t next = 0;
+    bool is_taking = false;
+    for_chunks(count, size, threads, [&](std::size_t first, std::size_t last, std::size_t chunk) {
+        auto mine = make(first, last);
+        std::unique_lock lock(mutex);
+        made[chunk].emplace(std::move(mine));
+        if (is_taking) return;
+        is_taking = true;  // until there is no next one; if take() throws, for good
+        for (; next < made.size() && made[next]; ++next) {
+            auto it = std::exchange(made[next], std::nullopt);
+            lock.unlock();
+            take(*it);
+            lock.lock();
+        }
+        is_taking = false;
+    });
 }
 
 }  // namespace csgrt

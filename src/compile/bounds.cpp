@@ -32,6 +32,11 @@ Box around_planes(const std::vector<Plane>& planes, const Vec3& near = {}) {
             {box.high.x + pad, box.high.y + pad, box.high.z + pad}};
 }
 
+Box arb_box(const Arb& s, const Matrix& m, const ArbFaces& faces) {
+    return faces.is_hull ? corners_box(s, m)
+                         : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
+}
+
 }  // namespace
 
 Box Tight::operator()(const Ell& s) const {
@@ -42,11 +47,7 @@ Box Tight::operator()(const Tgc& s) const {
     return united(ellipse_box(m, wide(s.v), wide(s.a), wide(s.b)),
                   ellipse_box(m, wide(s.v) + wide(s.h), wide(s.c), wide(s.d)));
 }
-Box Tight::operator()(const Arb& s) const {
-    const ArbFaces faces = arb_faces(s, m);
-    return faces.is_hull ? corners_box(s, m)
-                         : around_planes(faces.planes, narrow(transform_point(m, wide(s.vertices[0]))));
-}
+Box Tight::operator()(const Arb& s) const { return arb_box(s, m, arb_faces(s, m)); }
 Box Tight::operator()(const Arbn& s) const { return around_planes(arbn_faces(s, m)); }
 Box Tight::operator()(const Half&) const { return whole_space; }
 // The circle's box, and around it that of the tube's ball.
@@ -85,11 +86,13 @@ bool is_right_cylinder(const Tgc& s, const Matrix& m) {
            small(glm::dot(h, b) / (hh * bb), dot_tolerance);
 }
 
+/// Most are the exact ones.
 struct BrlCad {
     const Matrix& m;
+    const Box& exact;  ///< as Tight has it
 
     Box operator()(const Tgc& s) const {
-        if (is_right_cylinder(s, m)) return Tight{m}(s);
+        if (is_right_cylinder(s, m)) return exact;
         return united(parallelogram_box(m, wide(s.v), wide(s.a), wide(s.b)),
                       parallelogram_box(m, wide(s.v) + wide(s.h), wide(s.c), wide(s.d)));
     }
@@ -108,8 +111,8 @@ struct BrlCad {
                       parallelogram_box(m, transform_point(s.matrix, {half.x, half.y, 2 * half.z}), x, y));
     }
     template <class Other>
-    Box operator()(const Other& s) const {
-        return Tight{m}(s);
+    Box operator()(const Other&) const {
+        return exact;
     }
 };
 
@@ -131,12 +134,9 @@ Box bend_box(const Tor& s, const Matrix& m, const std::vector<Plane>& cuts) {
     return intersected(box, Tight{m}(s));
 }
 
-}  // namespace
-
-Box solid_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts) {
-    Box box = cuts.empty() ? std::visit(Tight{matrix}, shape) : bend_box(std::get<Tor>(shape), matrix, cuts);
+/// A few roundings of each coordinate, and of what was added up to it.
+Box rounded_outward(Box box) {
     if (!is_finite(box)) return box;
-    // A few roundings of each coordinate, and of what was added up to it.
     const auto widen = [](double& low, double& high) {
         const double margin = 8 * std::numeric_limits<double>::epsilon() * std::max(std::fabs(low), std::fabs(high));
         low -= margin;
@@ -148,8 +148,17 @@ Box solid_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>
     return box;
 }
 
-Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts) {
-    return cuts.empty() ? std::visit(BrlCad{matrix}, shape) : bend_box(std::get<Tor>(shape), matrix, cuts);
+}  // namespace
+
+SolidBoxes solid_boxes(const Shape& shape, const Matrix& matrix, const std::vector<Plane>& cuts,
+                       const ArbFaces* faces) {
+    if (!cuts.empty()) {
+        const Box box = bend_box(std::get<Tor>(shape), matrix, cuts);
+        return {rounded_outward(box), box};
+    }
+    const Box exact =
+        faces != nullptr ? arb_box(std::get<Arb>(shape), matrix, *faces) : std::visit(Tight{matrix}, shape);
+    return {rounded_outward(exact), std::visit(BrlCad{matrix, exact}, shape)};
 }
 
 Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {

@@ -20,7 +20,8 @@ inline CellRange cells_of(double value, double tolerance, double cell) {
             std::llround(std::clamp((value + tolerance) / cell, -most, most))};
 }
 
-inline std::uint64_t cell_hash(std::initializer_list<std::int64_t> cell) {
+template <class Cell = std::initializer_list<std::int64_t>>
+std::uint64_t cell_hash(const Cell& cell) {
     std::uint64_t hash = 14695981039346656037u;
     for (const std::int64_t value : cell) {
         hash = (hash ^ static_cast<std::uint64_t>(value)) * 1099511628211u;
@@ -40,14 +41,6 @@ public:
         if (slots_.empty()) return none;
         return slots_[slot_of(hash)].number;
     }
-    /// Asks for the memory that find() will read.
-    void fetch(std::uint64_t hash) const {
-#if defined(__GNUC__)
-        if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot_of(hash)]);
-#else
-        (void)hash;
-#endif
-    }
     /// Gives a cell a number and returns the one that it had.
     std::uint32_t exchange(std::uint64_t hash, std::uint32_t number) {
         if (2 * count_ >= slots_.size()) grow();
@@ -64,11 +57,8 @@ private:
         std::uint32_t number;
     };
 
-    std::size_t first_slot_of(std::uint64_t hash) const {
-        return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u) & (slots_.size() - 1);
-    }
     std::size_t slot_of(std::uint64_t hash) const {
-        std::size_t i = first_slot_of(hash);
+        std::size_t i = static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u) & (slots_.size() - 1);
         while (slots_[i].number != none && slots_[i].hash != hash) i = (i + 1) & (slots_.size() - 1);
         return i;
     }

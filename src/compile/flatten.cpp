@@ -1,22 +1,22 @@
 #include "compile/flatten.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "compile/cells.hpp"
-#include "compile/linear.hpp"
+#include "compile/flatten_tree.hpp"
 #include "compile/linearize.hpp"
 #include "compile/regions.hpp"
 #include "formats/source.hpp"
-#include "scene/vector.hpp"
+#include "parallel.hpp"
 
 namespace csgrt {
 
 namespace {
-
-// Deep hierarchies hold more references than solids, though not many times more.
-constexpr std::uint64_t reference_limit = 16 * Limits::instances;
 
 /// A name list for a note: all of a few, the first few of many.
 std::string some(const std::vector<std::string>& names) {
@@ -80,195 +80,6 @@ private:
     std::vector<std::uint32_t> others_;  ///< one an instance: the one before it of the same hash
 };
 
-/// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
-class Flattener {
-public:
-    Flattener(const Scene& scene, const ObjectIndex& index, bool skip_unsupported, FlatScene& result)
-        : scene_(scene),
-          index_(index),
-          skip_unsupported_(skip_unsupported),
-          result_(result),
-          instances_(scene.objects.size()) {}
-
-    enum class Kind { tree, nothing, everything };
-    Kind write(const RegionForest& forest, std::uint32_t term, FlatTree& tree);
-
-private:
-    /// The nodes of an operand start at `first` and end where the next one's start. A constant has none.
-    struct Operand {
-        std::size_t first;
-        Kind kind;
-    };
-    struct Frame {
-        const Combination* combination;
-        std::uint32_t object;
-        Matrix matrix;
-        std::size_t next;
-        std::uint64_t first_leaf;  ///< number of the first leaf below
-    };
-
-    void expand(std::uint32_t object, const Matrix& matrix);
-    void enter(std::uint32_t object, const Matrix& matrix);
-    void operate(Operator op, std::uint32_t arity);
-    void append(Operator op, std::size_t arity);
-    std::uint32_t instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix);
-
-    const Scene& scene_;
-    const ObjectIndex& index_;
-    const bool skip_unsupported_;
-    FlatScene& result_;
-    FlatTree* tree_ = nullptr;
-    std::vector<Operand> operands_;
-    std::vector<Frame> frames_;
-    InstanceTable instances_;
-    std::unordered_map<const Combination*, Kind> hollow_;  ///< without solids below, and the constant that they are
-    std::unordered_set<std::uint32_t> skipped_;
-    std::uint64_t references_ = 0, leaves_ = 0;
-};
-
-Flattener::Kind Flattener::write(const RegionForest& forest, std::uint32_t term, FlatTree& tree) {
-    tree_ = &tree;
-    operands_.clear();
-    struct Task {
-        std::uint32_t node;
-        bool operands_done;
-    };
-    std::vector<Task> tasks{{term, false}};
-    while (!tasks.empty()) {
-        const auto [number, operands_done] = tasks.back();
-        tasks.pop_back();
-        const RegionForest::Node& node = forest.node(number);
-        if (node.op == Operator::leaf) {
-            const RegionStart& start = forest.start(node.left);
-            expand(start.object, start.matrix);
-        } else if (operands_done) {
-            operate(node.op, node.op == Operator::not_ ? 1 : 2);
-        } else {
-            tasks.push_back({number, true});
-            if (node.op != Operator::not_) tasks.push_back({node.right, false});
-            tasks.push_back({node.left, false});
-        }
-    }
-    return operands_.back().kind;
-}
-
-void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
-    enter(object, matrix);
-    while (!frames_.empty()) {
-        Frame& frame = frames_.back();
-        const std::vector<TreeNode>& nodes = frame.combination->tree.nodes;
-        if (frame.next == nodes.size()) {
-            if (nodes.empty()) operands_.push_back({tree_->nodes.size(), Kind::nothing});
-            if (leaves_ == frame.first_leaf) hollow_.emplace(frame.combination, operands_.back().kind);
-            frames_.pop_back();
-            continue;
-        }
-        const std::size_t number = frame.next++;
-        const TreeNode& node = nodes[number];
-        if (node.op == Operator::leaf) {
-            enter(index_.child(frame.object, number), compose(frame.matrix, node.matrix));
-        } else {
-            operate(node.op, node.arity);
-        }
-    }
-}
-
-void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
-    if (++references_ > reference_limit)
-        throw Error(Status::scene,
-                    "more than " + std::to_string(reference_limit) + " references to combinations and solids");
-    if (const auto* combination = std::get_if<Combination>(&scene_.objects[object])) {
-        if (const auto known = hollow_.find(combination); known != hollow_.end()) {
-            operands_.push_back({tree_->nodes.size(), known->second});
-        } else {
-            frames_.push_back({combination, object, matrix, 0, leaves_});
-        }
-        return;
-    }
-    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
-    if (const auto* unsupported = std::get_if<Unsupported>(&shape); unsupported && skip_unsupported_) {
-        if (skipped_.insert(object).second) {
-            result_.skipped.push_back(name_of(scene_.objects[object]) + " (" + unsupported->type + ")" +
-                                      (frames_.empty() ? "" : ", used by " + frames_.back().combination->name));
-        }
-        operands_.push_back({tree_->nodes.size(), Kind::nothing});
-        return;
-    }
-    ++leaves_;
-    operands_.push_back({tree_->nodes.size(), Kind::tree});
-    if (!std::holds_alternative<Pipe>(shape) && !std::holds_alternative<Cline>(shape)) {
-        tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, 0, matrix)});
-        return;
-    }
-    auto known = result_.composites.find(object);
-    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(shape)).first;
-    for (FlatTree::Node node : known->second.tree.nodes) {
-        if (node.op == Operator::leaf) node.solid = instance_of(object, node.solid, matrix);
-        tree_->nodes.push_back(node);
-    }
-}
-
-std::uint32_t Flattener::instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix) {
-    Instance instance{object, piece, matrix};
-    for (double& value : instance.matrix) value += 0.0;  // -0 and 0 are one place
-    return instances_.number(instance, result_.instances);
-}
-
-void Flattener::append(Operator op, std::size_t arity) {
-    tree_->nodes.push_back({op, static_cast<std::uint32_t>(arity), 0});
-}
-
-void Flattener::operate(Operator op, std::uint32_t arity) {
-    const std::size_t base = operands_.size() - arity;
-    const std::size_t first = operands_[base].first;
-    const Kind left = operands_[base].kind;
-    std::size_t trees = 0, wholes = 0;  // among the operands; the left one of a difference apart
-    for (std::size_t i = base + (op == Operator::difference ? 1 : 0); i < operands_.size(); ++i) {
-        if (operands_[i].kind == Kind::tree) ++trees;
-        if (operands_[i].kind == Kind::everything) ++wholes;
-    }
-    const std::size_t empties = arity - trees - wholes;
-    operands_.resize(base);
-
-    Kind result = Kind::tree;
-    bool complement = false;
-    switch (op) {
-        case Operator::union_:
-            result = wholes > 0 ? Kind::everything : trees > 0 ? Kind::tree : Kind::nothing;
-            break;
-        case Operator::intersection:
-            result = empties > 0 ? Kind::nothing : trees > 0 ? Kind::tree : Kind::everything;
-            break;
-        case Operator::difference:
-            if (left == Kind::nothing || wholes > 0) {
-                result = Kind::nothing;
-            } else if (left == Kind::everything) {
-                op = Operator::union_;
-                complement = true;
-                result = trees > 0 ? Kind::tree : Kind::nothing;
-            } else {
-                ++trees;
-            }
-            break;
-        case Operator::xor_:
-            result = trees > 0 ? Kind::tree : Kind::nothing;
-            complement = wholes % 2 == 1;
-            break;
-        default:  // not
-            complement = true;
-            result = left;
-            break;
-    }
-    if (result == Kind::tree) {
-        if (trees > 1) append(op, trees);
-        if (complement) append(Operator::not_, 1);
-    } else {
-        tree_->nodes.resize(first);
-        if (complement) result = result == Kind::nothing ? Kind::everything : Kind::nothing;
-    }
-    operands_.push_back({first, result});
-}
-
 /// Instances that only dropped parts of trees used are dropped, too.
 void drop_unused(FlatScene& flat) {
     constexpr std::uint32_t unused = 0xffffffff;
@@ -312,13 +123,146 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
     return composite != flat.composites.end() ? composite->second.pieces[instance.piece].cuts : none;
 }
 
+namespace {
+
+/// A term of the expression above some regions: a region, unless it turns out to be empty.
+struct Term {
+    const RegionForest* forest;
+    std::uint32_t node;
+};
+
+/// Terms as one thread flattens them.
+struct TermsPart {
+    struct Written {
+        FlatRegion region;
+        Flattener::Kind kind;
+        bool contains_space;
+    };
+    std::vector<Written> regions;
+    FlatPart flat;
+};
+
+TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, bool skip_unsupported) {
+    TermsPart part;
+    part.regions.reserve(terms.size());
+    Flattener flattener(scene, index, skip_unsupported, part.flat);
+    for (const auto& [forest, term] : terms) {
+        const RegionStart& start = forest->leftmost_start(term);
+        const Object& origin = scene.objects[start.object];
+        TermsPart::Written& written = part.regions.emplace_back();
+        FlatRegion& region = written.region;
+        written.kind = flattener.write(*forest, term, region.tree);
+        region.info = describe_region(std::get_if<Combination>(&origin), start.attributes, scene.region_colors);
+        region.info.path = forest->path(start.path);
+        written.contains_space = written.kind == Flattener::Kind::everything ||
+                                 (written.kind == Flattener::Kind::tree && contains_empty_space(region.tree));
+    }
+    return part;
+}
+
+/// A term that is no region, and why.
+struct NoRegion {
+    std::size_t term;
+    bool contains_space;  ///< else it is empty
+    std::string path;
+    Place place;
+};
+
+/// Parts of a scene, joined in their order.
+class Joiner {
+public:
+    Joiner(const Scene& scene, const std::vector<Term>& terms, FlatScene& result)
+        : scene_(scene), terms_(terms), result_(result), instances_(scene.objects.size()) {}
+
+    void add(TermsPart& part) {
+        numbers_.clear();
+        for (const Instance& leaf : part.flat.leaves) numbers_.push_back(instances_.number(leaf, result_.instances));
+        for (auto& [region, kind, contains_space] : part.regions) {
+            const std::size_t term = next_++;
+            if (kind == Flattener::Kind::nothing || contains_space) {
+                const RegionStart& start = terms_[term].forest->leftmost_start(terms_[term].node);
+                no_regions_.push_back(
+                    {term, contains_space, std::move(region.info.path), place_of(scene_.objects[start.object])});
+                continue;
+            }
+            for (FlatTree::Node& node : region.tree.nodes)
+                if (node.op == Operator::leaf) node.solid = numbers_[node.solid];
+            result_.regions.push_back(std::move(region));
+        }
+        result_.composites.merge(part.flat.composites);
+        for (auto& [object, text] : part.flat.skipped)
+            if (skipped_.insert(object).second) result_.skipped.push_back(std::move(text));
+        check_references(references_ += part.flat.references);
+    }
+
+    const std::vector<NoRegion>& no_regions() const { return no_regions_; }
+
+private:
+    const Scene& scene_;
+    const std::vector<Term>& terms_;
+    FlatScene& result_;
+    InstanceTable instances_;
+    std::vector<std::uint32_t> numbers_;  ///< of a part's leaves
+    std::unordered_set<std::uint32_t> skipped_;
+    std::vector<NoRegion> no_regions_;
+    std::size_t next_ = 0;
+    std::uint64_t references_ = 0;
+};
+
+}  // namespace
+
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
                   bool skip_unsupported) {
     FlatScene result;
     ObjectIndex index(scene, names);
-    result.instances.reserve(scene.objects.size());
-    Flattener flattener(scene, index, skip_unsupported, result);
-    std::vector<std::string> air_regions, empty_regions;
+
+    // Which regions there are.
+    struct Named {
+        const std::string& name;
+        std::unique_ptr<RegionForest> forest;  ///< none: it was named before
+        std::size_t end;                       ///< of its terms
+        bool has_air;
+    };
+    std::vector<Named> all;
+    std::vector<Term> terms;
+    std::vector<std::string> air_regions;
+    double solids = 0;
+    const auto check = [](const std::string& object, double count) {
+        if (count > static_cast<double>(Limits::instances)) {
+            throw Error(Status::scene, "with object " + object + ", the trees of all regions hold more than " +
+                                           std::to_string(Limits::instances) + " solids together");
+        }
+    };
+    std::unordered_set<std::string_view> seen;
+    for (const std::string& object : objects) {
+        if (!seen.insert(object).second) {
+            all.push_back({object, nullptr, terms.size(), false});
+            continue;
+        }
+        const std::size_t air_before = air_regions.size();
+        check(object, solids + index.solids_below(index.find(object)));
+        auto forest = std::make_unique<RegionForest>(scene, index, object, air, air_regions);
+        solids += forest->solids_in_terms();
+        check(object, solids);
+        forest->for_each_term([&](std::uint32_t term) { terms.push_back({forest.get(), term}); });
+        all.push_back({object, std::move(forest), terms.size(), air_regions.size() > air_before});
+    }
+
+    // Their trees.
+    result.instances.reserve(std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
+    result.regions.reserve(terms.size());
+    Joiner joiner(scene, terms, result);
+    constexpr std::size_t part_size = 512;
+    for_chunks_in_order(
+        terms.size(), part_size, 0,
+        [&](std::size_t first, std::size_t last) {
+            return flatten_part(scene, index, std::span(terms).subspan(first, last - first), skip_unsupported);
+        },
+        [&](TermsPart& part) { joiner.add(part); });
+    drop_unused(result);
+
+    // What there is to tell.
+    std::vector<std::string> empty_regions;
     std::vector<Diagnostic> findings;
     const auto contains_space = [&](const std::string& what, const Place& place) {
         if (findings.size() == Findings::limit) return;
@@ -327,47 +271,23 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
                             "intersect the complement with something that bounds it",
                             {}});
     };
-
-    double solids = 0;
-    const auto check = [](const std::string& object, double count) {
-        if (count > static_cast<double>(Limits::instances)) {
-            throw Error(Status::scene, "with object " + object + ", the trees of all regions hold more than " +
-                                           std::to_string(Limits::instances) + " solids together");
-        }
-    };
-
-    std::unordered_set<std::string_view> seen;
-    for (const std::string& object : objects) {
-        if (!seen.insert(object).second) {
-            result.notes.push_back("object " + object + " is named twice; it is rendered once");
+    std::size_t term = 0;
+    auto next = joiner.no_regions().begin();
+    for (const auto& [name, forest, end, has_air] : all) {
+        if (forest == nullptr) {
+            result.notes.push_back("object " + name + " is named twice; it is rendered once");
             continue;
         }
-        const std::size_t air_before = air_regions.size();
-        const std::size_t regions_before = result.regions.size(), empty_before = empty_regions.size();
-        check(object, solids + index.solids_below(index.find(object)));
-        RegionForest forest(scene, index, object, air, air_regions);
-        solids += forest.solids_in_terms();
-        check(object, solids);
-        if (forest.is_everything()) contains_space("object " + object, place_of(scene.objects[index.find(object)]));
-        forest.for_each_term([&](std::uint32_t term) {
-            const RegionStart& start = forest.leftmost_start(term);
-            const Object& origin = scene.objects[start.object];
-            FlatRegion region;
-            const Flattener::Kind kind = flattener.write(forest, term, region.tree);
-            region.info = describe_region(std::get_if<Combination>(&origin), start.attributes, scene.region_colors);
-            region.info.path = forest.path(start.path);
-            region.place = place_of(origin);
-            if (kind == Flattener::Kind::nothing) {
-                empty_regions.push_back(region.info.path);
-            } else if (kind == Flattener::Kind::everything || contains_empty_space(region.tree)) {
-                contains_space("region " + region.info.path, region.place);
+        if (forest->is_everything()) contains_space("object " + name, place_of(scene.objects[index.find(name)]));
+        for (; next != joiner.no_regions().end() && next->term < end; ++next) {
+            if (next->contains_space) {
+                contains_space("region " + next->path, next->place);
             } else {
-                result.regions.push_back(std::move(region));
+                empty_regions.push_back(next->path);
             }
-        });
-        if (result.regions.size() == regions_before && empty_regions.size() == empty_before &&
-            air_regions.size() == air_before && findings.empty())
-            result.notes.push_back("object " + object + " holds no solid");
+        }
+        if (term == end && !has_air && findings.empty()) result.notes.push_back("object " + name + " holds no solid");
+        term = end;
     }
     if (!findings.empty()) throw Error(Status::scene, std::move(findings));
     if (!air_regions.empty())
@@ -376,7 +296,6 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     if (!empty_regions.empty())
         result.notes.push_back(counted(empty_regions.size(), "region without solids", "regions without solids") +
                                " left out: " + some(empty_regions));
-    drop_unused(result);
     return result;
 }
 

@@ -22,7 +22,6 @@ struct Instance {
 struct FlatRegion {
     RegionInfo info;  ///< all but the bounds
     FlatTree tree;    ///< leaves are instances
-    Place place;
 };
 
 struct FlatScene {

@@ -13,9 +13,16 @@
 #include <algorithm>
 #include <functional>
 #include <queue>
+#include <string>
 #include <tuple>
 
 namespace csgrt {
+
+void check_tree_words(std::uint64_t count) {
+    if (count > std::uint64_t{TREE_MASK} + 1)
+        throw Error(Status::scene,
+                    "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
+}
 
 bool contains_empty_space(const FlatTree& tree) {
     std::vector<bool> stack;
@@ -241,9 +248,7 @@ LinearTree Linearizer::write(std::uint32_t root, std::vector<std::uint32_t>& wor
         const Node& node = nodes_[number];
         const auto position = static_cast<std::uint32_t>(words.size());
         const std::uint32_t largest = node.op == OP_LEAF ? std::max(node.left, position) : position;
-        if (largest > TREE_MASK)
-            throw Error(Status::scene,
-                        "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
+        check_tree_words(std::uint64_t{largest} + 1);
         if (parent != none) words[parent] |= position;
         result.operators |= 1u << node.op;
         if (node.op == OP_LEAF) {

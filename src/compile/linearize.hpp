@@ -22,4 +22,7 @@ bool contains_empty_space(const FlatTree& tree);
 /// Throws Error (scene) if it does not fit 29 bits of position or of solid.
 LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words);
 
+/// Throws that error if the trees of all regions have too many words together.
+void check_tree_words(std::uint64_t count);
+
 }  // namespace csgrt

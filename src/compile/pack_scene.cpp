@@ -1,12 +1,12 @@
-// Solids are computed by several threads, a batch ahead; what they share is found one after the other, in their order,
-// so that the result does not depend on the threads.
+// Solids are computed by several threads. What they share is found as if one after the other, in their order, so that
+// the result does not depend on the threads.
 #include <algorithm>
-#include <future>
 #include <unordered_set>
 
+#include "compile/linear.hpp"
+#include "compile/pack_chunks.hpp"
 #include "compile/pack_solids.hpp"
 #include "compile/packer.hpp"
-#include "compile/polyhedron.hpp"
 #include "parallel.hpp"
 
 namespace csgrt {
@@ -31,63 +31,12 @@ struct IsSmall {
     bool operator()(const Unsupported&) const { return false; }
 };
 
-/// A small solid that has found nothing to share yet. Its reals and planes stand in its chunk, one solid's after the
-/// other's.
-struct Prepared {
-    kernel::SolidRecord record;
-    WideMatrix axes;
-    std::uint32_t reals, planes;  ///< how many
-    bool is_small, is_polyhedron;
-};
-struct Chunk {
-    std::vector<Prepared> solids;
-    std::vector<double> reals;
-    std::vector<Plane> planes;
-    std::vector<PlaneTable::Key> keys;  ///< one a plane
-};
-
-class Sharer {
-public:
-    Sharer(CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces)
-        : scene_(scene), planes_(planes), surfaces_(surfaces) {}
-
-    /// The solid's reals end those of the scene already.
-    void add(kernel::SolidRecord record, const WideMatrix& axes, const Plane* planes, const PlaneTable::Key* keys,
-             std::size_t plane_count, bool is_polyhedron, const Matrix& matrix, const std::vector<Plane>& cuts,
-             const Box& box) {
-        if (record.type == SOLID_ELL || record.type == SOLID_TGC || record.type == SOLID_TOR)
-            surfaces_.share(record, axes, box, scene_);
-        const std::size_t first = scene_.plane_refs.size();
-        seen_.clear();
-        for (std::size_t i = 0; i < plane_count; ++i) {
-            const kernel::PlaneRef ref = planes_.add(planes[i], keys[i], box);
-            if (is_polyhedron && has(first, ref, plane_count)) continue;
-            scene_.plane_refs.push_back(ref);
-        }
-        for (const Plane& cut : cuts) scene_.plane_refs.push_back(planes_.add(transform_plane(matrix, cut), box));
-        if (scene_.reals.size() > 0xffffffffu || scene_.plane_refs.size() > 0xffffffffu ||
-            scene_.words.size() > 0xffffffffu)
-            throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
-        record.first_plane = static_cast<std::uint32_t>(first);
-        record.plane_count = static_cast<std::uint32_t>(scene_.plane_refs.size() - first);
-        scene_.solids.push_back(record);
-    }
-
-private:
-    bool has(std::size_t first, kernel::PlaneRef ref, std::size_t count) {
-        constexpr std::size_t few = 16;  // an arbn may have very many faces
-        if (count > few) return !seen_.insert(ref).second;
-        const auto own = scene_.plane_refs.begin() + static_cast<std::ptrdiff_t>(first);
-        return std::find(own, scene_.plane_refs.end(), ref) != scene_.plane_refs.end();
-    }
-
-    CompiledScene& scene_;
-    PlaneTable& planes_;
-    SurfaceTable& surfaces_;
-    std::unordered_set<kernel::PlaneRef> seen_;
-};
-
 }  // namespace
+
+void check_numbers(std::size_t count) {
+    if (count > 0xffffffffu)
+        throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
+}
 
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
                 CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared) {
@@ -95,104 +44,202 @@ void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix
     Packer packer{matrix, scene, shared, scene.reals, faces};
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
     std::visit(packer, shape);
-    std::vector<PlaneTable::Key> keys;
-    for (const Plane& face : faces) keys.push_back(planes.key_of(face));
-    Sharer(scene, planes, surfaces)
-        .add(packer.record, packer.axes_in_world, faces.data(), keys.data(), faces.size(), packer.is_polyhedron, matrix,
-             cuts, box);
+    kernel::SolidRecord& record = packer.record;
+    surfaces.share(record, packer.axes_in_world, box, scene);
+    const std::size_t first = scene.plane_refs.size();
+    std::unordered_set<kernel::PlaneRef> seen;
+    for (const Plane& face : faces) {
+        const kernel::PlaneRef ref = planes.add(face, box);
+        if (seen.insert(ref).second || !packer.is_polyhedron) scene.plane_refs.push_back(ref);
+    }
+    for (const Plane& cut : cuts) scene.plane_refs.push_back(planes.add(transform_plane(matrix, cut), box));
+    record.first_plane = static_cast<std::uint32_t>(first);
+    record.plane_count = static_cast<std::uint32_t>(scene.plane_refs.size() - first);
+    scene.solids.push_back(record);
 }
 
-void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<std::uint32_t>& order,
-                 const std::vector<Box>& boxes, const Box& common, CompiledScene& compiled) {
-    constexpr std::size_t chunk_size = 1024, batch_size = 64 * chunk_size;
-    PlaneTable planes(compiled.center, 0.5 * diagonal(common));
-    SurfaceTable surfaces(compiled.center, compiled.radius);
-    SharedParts shared;
-    Sharer sharer(compiled, planes, surfaces);
+namespace {
 
-    const auto prepare = [&](std::size_t batch) {
-        const std::size_t begin = batch * batch_size, count = std::min(batch_size, order.size() - begin);
-        std::vector<Chunk> chunks((count + chunk_size - 1) / chunk_size);
-        for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
-            Chunk& chunk = chunks[number];
-            chunk.solids.reserve(last - first);
-            for (std::size_t i = first; i < last; ++i) {
-                const Instance& instance = flat.instances[order[begin + i]];
-                const Shape& shape = shape_of(scene, flat, instance);
-                Prepared prepared{};
-                prepared.is_small = std::visit(IsSmall{}, shape);
-                if (prepared.is_small) {
-                    const std::size_t reals = chunk.reals.size(), faces = chunk.planes.size();
-                    Packer packer{instance.matrix, compiled, shared, chunk.reals, chunk.planes};
-                    std::visit(packer, shape);
-                    prepared.record = packer.record;
-                    prepared.axes = packer.axes_in_world;
-                    prepared.reals = static_cast<std::uint32_t>(chunk.reals.size() - reals);
-                    prepared.planes = static_cast<std::uint32_t>(chunk.planes.size() - faces);
-                    prepared.is_polyhedron = packer.is_polyhedron;
-                }
-                chunk.solids.push_back(prepared);
-            }
-            chunk.keys.reserve(chunk.planes.size());
-            for (const Plane& plane : chunk.planes) chunk.keys.push_back(planes.key_of(plane));
+class ScenePacker {
+public:
+    ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured,
+                const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled)
+        : scene_(scene),
+          flat_(flat),
+          measured_(measured),
+          order_(order),
+          common_(common),
+          compiled_(compiled),
+          planes_(compiled.center, 0.5 * diagonal(common)),
+          surfaces_(compiled.center, compiled.radius),
+          chunks_((order.size() + PackedChunk::size - 1) / PackedChunk::size) {}
+
+    void pack() {
+        compiled_.solids.resize(order_.size());
+        compiled_.solid_info.resize(order_.size());
+        compiled_.solid_boxes.resize(order_.size());
+        for_each_chunk([this](std::size_t number) {
+            const std::size_t first = number * PackedChunk::size;
+            const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
+            chunks_[number].parts.reserve(last - first);
+            std::vector<Plane> planes;
+            for (std::size_t i = first; i < last; ++i) prepare(i, chunks_[number], planes);
+            append_keys(planes, chunks_[number].planes);
         });
-        return chunks;
-    };
-
-    // Growing by copies costs more than memory that may stay unused.
-    compiled.reals.reserve(13 * order.size());
-    compiled.plane_refs.reserve(4 * order.size());
-    planes.reserve(2 * order.size());
-    compiled.solids.reserve(order.size());
-    compiled.solid_info.reserve(order.size());
-    compiled.solid_boxes.reserve(order.size());
-    std::size_t next = 0;
-    const auto share = [&](const Chunk& chunk) {
-        const double* reals = chunk.reals.data();
-        const std::size_t planes_in_all = chunk.planes.size();
-        std::size_t face = 0;
-        for (const Prepared& prepared : chunk.solids) {
-            const std::uint32_t number = order[next++];
-            const Instance& instance = flat.instances[number];
-            const Solid& solid = std::get<Solid>(scene.objects[instance.object]);
-            const Shape& shape = shape_of(scene, flat, instance);
-            const std::vector<Plane>& cuts = cuts_of(flat, instance);
-            const bool bounded = is_finite(boxes[number]);
-            const Box& box = bounded ? boxes[number] : common;
-            if (prepared.is_small) {
-                kernel::SolidRecord record = prepared.record;
-                record.first_real = static_cast<std::uint32_t>(compiled.reals.size());
-                compiled.reals.insert(compiled.reals.end(), reals, reals + prepared.reals);
-                // Most of the time would go by in waiting for memory.
-                constexpr std::size_t soon = 8, later = 24;
-                for (std::size_t i = face; i < face + prepared.planes; ++i) {
-                    if (i + later < planes_in_all) planes.fetch_cell(chunk.keys[i + later]);
-                    if (i + soon < planes_in_all) planes.fetch_record(chunk.keys[i + soon]);
-                }
-                sharer.add(record, prepared.axes, chunk.planes.data() + face, chunk.keys.data() + face, prepared.planes,
-                           prepared.is_polyhedron, instance.matrix, cuts, box);
-                reals += prepared.reals;
-                face += prepared.planes;
-            } else {
-                pack_solid(shape, cuts, instance.matrix, box, compiled, planes, surfaces, shared);
-            }
-            compiled.solid_info.push_back({solid.name, type_name(solid.shape), instance.piece});
-            compiled.solid_boxes.push_back(boxes[number]);
-            compiled.solid_types |= 1u << compiled.solids.back().type;
-            if (!bounded && !std::holds_alternative<Half>(shape))
-                compiled.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
+        share_surfaces();
+        lay_out_reals();
+        share_planes(chunks_, planes_, common_, compiled_);
+        for (PackedChunk& chunk : chunks_) {
+            compiled_.solid_types |= chunk.solid_types;
+            std::move(chunk.notes.begin(), chunk.notes.end(), std::back_inserter(compiled_.notes));
         }
-    };
-
-    const std::size_t batches = (order.size() + batch_size - 1) / batch_size;
-    std::vector<Chunk> chunks = batches > 0 ? prepare(0) : std::vector<Chunk>{};
-    for (std::size_t batch = 0; batch < batches; ++batch) {
-        std::future<std::vector<Chunk>> ahead;
-        if (batch + 1 < batches) ahead = std::async(std::launch::async, prepare, batch + 1);
-        for (const Chunk& chunk : chunks) share(chunk);
-        if (ahead.valid()) chunks = ahead.get();
     }
-    compiled.planes = planes.take();
+
+private:
+    template <class Call>
+    void for_each_chunk(const Call& call) {
+        for_chunks(chunks_.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
+    }
+
+    /// All that a solid needs no other for.
+    void prepare(std::size_t number, PackedChunk& chunk, std::vector<Plane>& planes) {
+        const Instance& instance = flat_.instances[order_[number]];
+        const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
+        const Shape& shape = shape_of(scene_, flat_, instance);
+        const Box& own = measured_.boxes[order_[number]];
+        compiled_.solid_info[number] = {solid.name, type_name(solid.shape), instance.piece};
+        compiled_.solid_boxes[number] = own;
+        if (!is_finite(own) && !std::holds_alternative<Half>(shape))
+            chunk.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
+
+        PackedChunk::Part part{};
+        part.stands = static_cast<std::uint32_t>(number);
+        part.is_large = !std::visit(IsSmall{}, shape);
+        if (!part.is_large) {
+            const std::size_t first_real = chunk.reals.size(), first_plane = planes.size();
+            Packer packer{instance.matrix, compiled_, shared_, chunk.reals, planes};
+            if (std::holds_alternative<Arb>(shape)) {
+                packer.record.type = SOLID_ARB;
+                packer.faces(measured_.faces(order_[number]));
+            } else {
+                std::visit(packer, shape);
+            }
+            part.faces = static_cast<std::uint32_t>(planes.size() - first_plane);
+            for (const Plane& cut : cuts_of(flat_, instance)) planes.push_back(transform_plane(instance.matrix, cut));
+            part.cuts = static_cast<std::uint32_t>(planes.size() - first_plane - part.faces);
+            part.is_polyhedron = packer.is_polyhedron;
+            part.first_real = static_cast<std::uint32_t>(first_real);
+            part.reals = static_cast<std::uint32_t>(chunk.reals.size() - first_real);
+            compiled_.solids[number] = packer.record;
+            chunk.solid_types |= 1u << packer.record.type;
+            if (auto surface = surfaces_.surface_of(packer.record.type, chunk.reals.data() + first_real,
+                                                    packer.axes_in_world, is_finite(own) ? own : common_))
+                chunk.surfaces.emplace_back(static_cast<std::uint32_t>(chunk.parts.size()), *surface);
+        }
+        chunk.parts.push_back(part);
+    }
+
+    void append_keys(const std::vector<Plane>& planes, std::vector<PackedPlane>& keys) const {
+        keys.reserve(keys.size() + planes.size());
+        for (const Plane& plane : planes) keys.push_back({planes_.key_of(plane)});
+    }
+
+    /// Of a small solid, once more.
+    WideMatrix axes_of(std::uint32_t number) {
+        const Instance& instance = flat_.instances[order_[number]];
+        std::vector<double> reals;
+        std::vector<Plane> planes;
+        Packer packer{instance.matrix, compiled_, shared_, reals, planes};
+        std::visit(packer, shape_of(scene_, flat_, instance));
+        return packer.axes_in_world;
+    }
+
+    void share_surfaces() {
+        Shards shards(chunks_.size());
+        for_each_chunk([&](std::size_t number) {
+            for (const auto& [part, surface] : chunks_[number].surfaces)
+                shards.chunk(number).add(surfaces_.coarse_cells(surface));
+        });
+        shards.sort();
+        shards.for_each([&](std::span<const Shards::Member> members, std::size_t) {
+            SurfaceTable table = surfaces_;
+            const SurfaceTable::RealsOf reals_of = [&](std::uint32_t solid) {
+                PackedChunk& chunk = chunks_[solid / PackedChunk::size];
+                const PackedChunk::Part& part = chunk.parts[solid % PackedChunk::size];
+                return std::span<double>(chunk.reals).subspan(part.first_real, part.reals);
+            };
+            const SurfaceTable::AxesOf axes = [&](std::uint32_t solid) { return axes_of(solid); };
+            for (const auto& [number, i] : members) {
+                const auto& [solid, surface] = chunks_[number].surfaces[i];
+                PackedChunk::Part& part = chunks_[number].parts[solid];
+                part.stands = table.add(surface, part.stands, reals_of, axes);
+            }
+        });
+    }
+
+    /// Solids of any size are packed on the way: what they write holds positions among the scene's numbers.
+    void lay_out_reals() {
+        std::vector<double>& reals = compiled_.reals;
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            PackedChunk& chunk = chunks_[i / PackedChunk::size];
+            PackedChunk::Part& part = chunk.parts[i % PackedChunk::size];
+            kernel::SolidRecord& record = compiled_.solids[i];
+            if (part.is_large) {
+                reals.resize(next);
+                pack_large(i, chunk, part);
+                next = reals.size();
+            } else if (part.stands == i) {
+                record.first_real = static_cast<std::uint32_t>(next);
+                next += part.reals;
+            } else {
+                record.first_real = compiled_.solids[part.stands].first_real;
+            }
+            check_numbers(std::max(next, compiled_.words.size()));
+        }
+        reals.resize(next);
+        for_each_chunk([&](std::size_t number) {
+            const PackedChunk& chunk = chunks_[number];
+            for (std::size_t i = 0; i < chunk.parts.size(); ++i) {
+                const PackedChunk::Part& part = chunk.parts[i];
+                const std::size_t solid = number * PackedChunk::size + i;
+                if (part.is_large || part.stands != solid) continue;
+                std::copy_n(chunk.reals.begin() + part.first_real, part.reals,
+                            reals.begin() + compiled_.solids[solid].first_real);
+            }
+        });
+    }
+
+    void pack_large(std::size_t number, PackedChunk& chunk, PackedChunk::Part& part) {
+        const Instance& instance = flat_.instances[order_[number]];
+        std::vector<Plane> faces;
+        Packer packer{instance.matrix, compiled_, shared_, compiled_.reals, faces};
+        packer.record.first_real = static_cast<std::uint32_t>(compiled_.reals.size());
+        std::visit(packer, shape_of(scene_, flat_, instance));
+        compiled_.solids[number] = packer.record;
+        chunk.solid_types |= 1u << packer.record.type;
+        part.faces = static_cast<std::uint32_t>(faces.size());
+        part.is_polyhedron = packer.is_polyhedron;
+        append_keys(faces, chunk.large_faces.emplace_back());
+    }
+
+    const Scene& scene_;
+    const FlatScene& flat_;
+    const Measured& measured_;
+    const std::vector<std::uint32_t>& order_;
+    const Box& common_;
+    CompiledScene& compiled_;
+    PlaneTable planes_;      ///< empty, as is the next: those of the shards begin as copies
+    SurfaceTable surfaces_;
+    SharedParts shared_;
+    std::vector<PackedChunk> chunks_;
+};
+
+}  // namespace
+
+void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
+                 const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled) {
+    ScenePacker(scene, flat, measured, order, common, compiled).pack();
 }
 
 }  // namespace csgrt

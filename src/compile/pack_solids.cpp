@@ -43,7 +43,7 @@ void Packer::frame(const Wide& center, const WideMatrix& axes) {
         for (int column = 0; column < 3; ++column) real(inverse[column][row]);
 }
 
-void Packer::faces(const std::vector<Plane>& all) {
+void Packer::faces(std::span<const Plane> all) {
     planes.insert(planes.end(), all.begin(), all.end());
     is_polyhedron = true;
 }

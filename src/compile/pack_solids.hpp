@@ -7,6 +7,7 @@
 
 #include "compile/compiled_scene.hpp"
 #include "compile/flatten.hpp"
+#include "compile/measured.hpp"
 #include "compile/planes.hpp"
 #include "compile/surfaces.hpp"
 
@@ -24,7 +25,10 @@ void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix
 
 /// pack_solid for each instance of `order`; `common` stands for the box of those that are not bounded. The arithmetic is
 /// done by several threads.
-void pack_solids(const Scene& scene, const FlatScene& flat, const std::vector<std::uint32_t>& order,
-                 const std::vector<Box>& boxes, const Box& common, CompiledScene& compiled);
+void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
+                 const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled);
+
+/// Throws Error (scene) if so many numbers cannot be told apart by 32 bits.
+void check_numbers(std::size_t count);
 
 }  // namespace csgrt

@@ -1,6 +1,7 @@
 // What all pack_*.cpp share: how one solid is written as geometry/<solid>.h reads it.
 #pragma once
 
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct Packer {
     /// The face through `point` that a and b span, looking away from `inside` (all before the matrix).
     void face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside);
     /// Faces of a polyhedron; several in one plane are one.
-    void faces(const std::vector<Plane>& all);
+    void faces(std::span<const Plane> all);
 
     void operator()(const Ell& s);
     void operator()(const Tgc& s);

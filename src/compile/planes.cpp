@@ -24,6 +24,9 @@ Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0
 /// looked up once.
 double facing(const Vec3& n) { return n.x + 0.61 * n.y + 0.37 * n.z; }
 
+/// Rounding decides on which side.
+bool faces_both(const Plane& plane) { return std::fabs(facing(plane.normal)) <= 4 * PlaneTable::tilt; }
+
 /// Where a plane of normal n lies farthest apart from another over a box, given the difference of the two.
 double separation(const Wide& normal, long double distance, const Box& box) {
     long double low = -distance, high = -distance;
@@ -67,21 +70,27 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
     return key;
 }
 
-void PlaneTable::fetch_record(const Key& key) const {
-#if defined(__GNUC__)
-    const std::uint32_t record = cells_.find(key.cell);
-    if (record != none) __builtin_prefetch(&entries_[record]);
-#else
-    (void)key;
-#endif
+void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes) const {
+    // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay apart.
+    const double part_of_radius =
+        std::max(1.0 / 8192, 4 * offset_reach * static_cast<double>(planes) / (Shards::count / 16));
+    const auto cells = [&](const Vec3& n, double offset) {
+        constexpr double normal = 0.25;
+        return std::array<Shards::Chunk::Dimension, 4>{{{n.x, 2 * tilt, normal},
+                                                        {n.y, 2 * tilt, normal},
+                                                        {n.z, 2 * tilt, normal},
+                                                        {offset, 2 * offset_reach * radius_, part_of_radius * radius_}}};
+    };
+    chunk.add(cells(key.one.normal, key.offset));
+    if (faces_both(key.one)) chunk.look_also(cells(flipped(key.one).normal, -key.offset));
 }
 
 std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const {
     const double reach = offset_reach * radius_;
     std::uint32_t found = none;
-    for (std::uint32_t record = cells_.find(cell); record != none; record = entries_[record].next) {
-        const Entry& entry = entries_[record];
-        if (std::fabs(entry.offset - key.offset) <= reach && record < found && same(entry, key.one, box))
+    for (std::uint32_t record = cells_.find(cell); record != none; record = links_[record].next) {
+        if (std::fabs(links_[record].offset - key.offset) <= reach && record < found &&
+            same(entries_[record], key.one, box))
             found = record;
     }
     return found;
@@ -103,10 +112,19 @@ std::uint32_t PlaneTable::find(const Key& key, const Box& box) const {
     return found;
 }
 
-kernel::PlaneRef PlaneTable::add(const Plane& plane, const Key& key, const Box& box) {
+kernel::PlaneRecord PlaneTable::record_of(const Key& key) {
+    const Plane plane = key.flipped ? flipped(key.one) : key.one;
+    return {plane.normal.x, plane.normal.y, plane.normal.z, plane.distance};
+}
+
+void PlaneTable::check_count(std::size_t records) {
+    if (records > 0x7fffffffu) throw Error(Status::scene, "the scene has more than 2147483647 different planes");
+}
+
+kernel::PlaneRef PlaneTable::add_keyed(const Key& key, const Box& box) {
     std::uint32_t found = find(key, box);
     bool opposite = false;
-    if (std::fabs(facing(plane.normal)) <= 4 * tilt) {
+    if (faces_both(key.one)) {
         // Another may have been taken for one on the other side.
         Key other = key;
         other.one = flipped(key.one);
@@ -119,10 +137,9 @@ kernel::PlaneRef PlaneTable::add(const Plane& plane, const Key& key, const Box& 
     if (found != none) return found << 1 | static_cast<std::uint32_t>(key.flipped ^ entries_[found].flipped ^ opposite);
 
     const auto record = static_cast<std::uint32_t>(records_.size());
-    if (record > 0x7fffffffu) throw Error(Status::scene, "the scene has more than 2147483647 different planes");
-    records_.push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
-    entries_.push_back(
-        {key.one.normal, key.one.distance, key.offset, cells_.exchange(key.cell, record), key.flipped, box});
+    records_.push_back(record_of(key));
+    entries_.push_back({key.one.normal, key.one.distance, key.flipped, box});
+    links_.push_back({key.offset, cells_.exchange(key.cell, record)});
     return record << 1;
 }
 

@@ -9,6 +9,7 @@
 
 #include "compile/cells.hpp"
 #include "compile/compiled_scene.hpp"
+#include "compile/shards.hpp"
 
 namespace csgrt {
 
@@ -32,28 +33,32 @@ public:
         bool alone = false;    ///< no plane that is the same lies in another cell
     };
     Key key_of(const Plane& plane) const;
-    /// Brings what add() will read nearer to the processor: of a plane that comes a little later, then soon.
-    void fetch_cell(const Key& key) const { cells_.fetch(key.cell); }
-    void fetch_record(const Key& key) const;
+    static kernel::PlaneRecord record_of(const Key& key);
+    /// Tells a chunk where the plane is looked up: planes that may be the same share a shard.
+    /// `planes`: about how many there are in all.
+    void add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes) const;
 
     /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
-    kernel::PlaneRef add(const Plane& plane, const Key& key, const Box& box);
-    kernel::PlaneRef add(const Plane& plane, const Box& box) { return add(plane, key_of(plane), box); }
+    kernel::PlaneRef add_keyed(const Key& key, const Box& box);
+    kernel::PlaneRef add(const Plane& plane, const Box& box) { return add_keyed(key_of(plane), box); }
 
-    void reserve(std::size_t planes) {
-        records_.reserve(planes);
-        entries_.reserve(planes);
-    }
+    /// Throws Error (scene) if there are more records than references can tell apart.
+    static void check_count(std::size_t records);
+    std::size_t size() const { return records_.size(); }
     std::vector<kernel::PlaneRecord> take() { return std::move(records_); }
 
 private:
     /// A record as it is looked up: on one side of space, see facing().
     struct Entry {
         Vec3 normal;
-        double distance, offset;  ///< from the origin and from the scene's centre
-        std::uint32_t next;       ///< in the same cell
-        bool flipped;             ///< against the record
-        Box box;                  ///< of the solid that brought the plane
+        double distance;  ///< from the origin
+        bool flipped;     ///< against the record
+        Box box;          ///< of the solid that brought the plane
+    };
+    /// What is looked at first, apart: parallel planes crowd in a cell.
+    struct Link {
+        double offset;       ///< from the scene's centre
+        std::uint32_t next;  ///< in the same cell
     };
 
     std::uint32_t find(const Key& key, const Box& box) const;
@@ -65,6 +70,7 @@ private:
     double radius_;
     std::vector<kernel::PlaneRecord> records_;
     std::vector<Entry> entries_;
+    std::vector<Link> links_;  ///< one an entry
     CellTable cells_;  ///< the last record of each
 };
 

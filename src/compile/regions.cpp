@@ -1,6 +1,7 @@
 #include "compile/regions.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "compile/linear.hpp"
 #include "scene/vector.hpp"
@@ -27,7 +28,9 @@ static std::uint32_t existing(std::uint32_t object, const std::string& name) {
 std::uint32_t ObjectIndex::find(const std::string& name) const { return existing(names_.find(name), name); }
 
 std::uint32_t ObjectIndex::child(std::uint32_t object, std::size_t node) const {
-    return existing(names_.child(object, node), std::get<Combination>(scene_.objects[object]).tree.nodes[node].object);
+    const std::uint32_t child = names_.child(object, node);
+    if (child == Names::none) existing(child, std::get<Combination>(scene_.objects[object]).tree.nodes[node].object);
+    return child;
 }
 
 double ObjectIndex::solids_below(std::uint32_t object) {
@@ -39,12 +42,12 @@ double ObjectIndex::solids_below(std::uint32_t object) {
     std::vector<Frame> frames{{object, 0, 0}};
     while (!frames.empty()) {
         Frame& frame = frames.back();
-        const auto* combination = std::get_if<Combination>(&scene_.objects[frame.object]);
-        if (combination == nullptr) {
+        const std::span<const std::uint32_t> children = names_.children(frame.object);
+        if (names_.is_solid(frame.object)) {
             solids_[frame.object] = 1;
-        } else if (frame.next < combination->tree.nodes.size()) {
+        } else if (frame.next < children.size()) {
             const std::size_t number = frame.next++;
-            if (combination->tree.nodes[number].op != Operator::leaf) continue;
+            if (children[number] == Names::operation) continue;
             const std::uint32_t child = this->child(frame.object, number);
             if (solids_[child] >= 0) {
                 frame.solids += solids_[child];

@@ -33,6 +33,7 @@ public:
     std::uint32_t child(std::uint32_t object, std::size_t node) const;
     /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
     double solids_below(std::uint32_t object);
+    bool is_solid(std::uint32_t object) const { return names_.is_solid(object); }
 
 private:
     const Scene& scene_;

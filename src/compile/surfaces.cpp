@@ -85,10 +85,12 @@ std::vector<Wide> points_on(std::uint32_t type, const double* reals, const WideM
     return points;
 }
 
-}  // namespace
-
-SurfaceTable::Key SurfaceTable::key_of(std::uint32_t type, const double* reals, const WideMatrix& axes,
-                                       const Vec3& scene_center) {
+/// Where a surface is looked up: a point that belongs to it alone, and how large it is there.
+struct Key {
+    Wide point;
+    long double size;
+};
+Key key_of(std::uint32_t type, const double* reals, const WideMatrix& axes, const Vec3& scene_center) {
     const Wide center(reals[0], reals[1], reals[2]);
     if (type == SOLID_ELL) return {center, std::fabs(glm::determinant(axes))};
     if (type == SOLID_TOR) return {center, glm::length(axes[0])};
@@ -99,17 +101,39 @@ SurfaceTable::Key SurfaceTable::key_of(std::uint32_t type, const double* reals, 
     return {center + glm::dot(wide(scene_center) - center, u) * u, across * p0 * p0};
 }
 
-void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene) {
-    if (record.type == SOLID_TGC && scene.reals[record.first_real + tapers_differ] != 0) return;
-    const auto reals_at = [&](std::uint32_t first) { return scene.reals.data() + first; };
-    const double* mine = reals_at(record.first_real);
-    const Key key = key_of(record.type, mine, axes, center_);
-    if (!(key.size > 0) || !(radius_ > 0)) return;
-    const double limit = gap * diagonal(box), cell = point_cell * radius_;
-    CellRange ranges[4];
-    for (int i = 0; i < 3; ++i)
-        ranges[i] = cells_of(static_cast<double>(key.point[i] - wide(center_)[i]), reach * radius_, cell);
-    ranges[3] = cells_of(static_cast<double>(std::log(key.size)), reach, size_cell);
+}  // namespace
+
+std::optional<SurfaceTable::Surface> SurfaceTable::surface_of(std::uint32_t type, const double* reals,
+                                                              const WideMatrix& axes, const Box& box) const {
+    if (type != SOLID_ELL && type != SOLID_TGC && type != SOLID_TOR) return std::nullopt;
+    if (type == SOLID_TGC && reals[tapers_differ] != 0) return std::nullopt;
+    const Key key = key_of(type, reals, axes, center_);
+    if (!(key.size > 0) || !(radius_ > 0)) return std::nullopt;
+    const Wide from_center = key.point - wide(center_);
+    return Surface{type,
+                   {static_cast<double>(from_center.x), static_cast<double>(from_center.y),
+                    static_cast<double>(from_center.z), static_cast<double>(std::log(key.size))},
+                   gap * diagonal(box)};
+}
+
+std::array<Shards::Chunk::Dimension, 5> SurfaceTable::coarse_cells(const Surface& surface) const {
+    // What is found in a cell may lie anywhere in it.
+    constexpr double of_point = 2 * (reach + point_cell), of_size = 2 * (reach + size_cell);
+    const auto along = [&](int i) {
+        return Shards::Chunk::Dimension{surface.at[i], of_point * radius_, 0.25 * radius_};
+    };
+    return {{along(0), along(1), along(2), {surface.at[3], of_size, 0.25}, {double(surface.type), 0, 1}}};
+}
+
+std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of,
+                                const AxesOf& axes_of) {
+    const double cell = point_cell * radius_;
+    const auto cells = [&](int i, double tolerance) {
+        return i < 3 ? cells_of(surface.at[i], tolerance * radius_, cell)
+                     : cells_of(surface.at[i], tolerance, size_cell);
+    };
+    const CellRange ranges[4] = {cells(0, reach), cells(1, reach), cells(2, reach), cells(3, reach)};
+    const std::span<double> mine = reals_of(number);
 
     std::uint32_t found = none;
     std::vector<Wide> points;
@@ -117,33 +141,42 @@ void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, co
         for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
             for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z)
                 for (std::int64_t size = ranges[3].first; size <= ranges[3].last; ++size) {
-                    const std::uint32_t last = cells_.find(cell_hash({record.type, x, y, z, size}));
+                    const std::uint32_t last = cells_.find(cell_hash({surface.type, x, y, z, size}));
                     if (last == none) continue;
-                    if (points.empty()) points = points_on(record.type, mine, axes);
+                    if (points.empty()) points = points_on(surface.type, mine.data(), axes_of(number));
                     for (std::uint32_t i = last; i != none; i = entries_[i].next) {
-                        const double* other = reals_at(entries_[i].first_real);
+                        const double* other = reals_of(entries_[i].number).data();
                         const bool same = std::all_of(points.begin(), points.end(), [&](const Wide& p) {
-                            return distance(record.type, other, p) <= limit;
+                            return distance(surface.type, other, p) <= surface.limit;
                         });
                         if (same) found = std::min(found, i);
                     }
                 }
     if (found != none) {
-        const std::uint32_t first = entries_[found].first_real;
+        const std::span<double> first = reals_of(entries_[found].number);
         // A cone with its apex for origin keeps its digits there; one that was cut off has none to lose.
-        if (has_apex_origin(record.type, mine) && !has_apex_origin(record.type, reals_at(first)))
-            std::copy(scene.reals.begin() + record.first_real, scene.reals.end(), scene.reals.begin() + first);
-        scene.reals.resize(record.first_real);
-        record.first_real = first;
-        return;
+        if (has_apex_origin(surface.type, mine.data()) && !has_apex_origin(surface.type, first.data()))
+            std::copy(mine.begin(), mine.end(), first.begin());
+        return entries_[found].number;
     }
-    const auto own = [&](int i) {
-        return cells_of(static_cast<double>(key.point[i] - wide(center_)[i]), 0, cell).first;
-    };
     const std::uint64_t hash = cell_hash(
-        {record.type, own(0), own(1), own(2), cells_of(static_cast<double>(std::log(key.size)), 0, size_cell).first});
+        {surface.type, cells(0, 0).first, cells(1, 0).first, cells(2, 0).first, cells(3, 0).first});
     const auto next = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back({record.first_real, cells_.exchange(hash, next)});
+    entries_.push_back({number, cells_.exchange(hash, next)});
+    return number;
+}
+
+void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene) {
+    const auto surface = surface_of(record.type, scene.reals.data() + record.first_real, axes, box);
+    if (!surface) return;
+    const std::size_t count = scene.reals.size() - record.first_real;
+    const std::uint32_t first = add(
+        *surface, record.first_real,
+        [&](std::uint32_t real) { return std::span<double>(scene.reals).subspan(real, count); },
+        [&](std::uint32_t) { return axes; });
+    if (first == record.first_real) return;
+    scene.reals.resize(record.first_real);
+    record.first_real = first;
 }
 
 }  // namespace csgrt

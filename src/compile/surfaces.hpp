@@ -2,7 +2,11 @@
 // for all, so that a ray meets them at the very same distance, as planes.hpp does for flat faces.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <csgrt/scene.hpp>
@@ -10,6 +14,7 @@
 #include "compile/cells.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
+#include "compile/shards.hpp"
 
 namespace csgrt {
 
@@ -21,22 +26,33 @@ public:
     /// `around`: a sphere around the scene.
     SurfaceTable(const Vec3& center, double radius) : center_(center), radius_(radius) {}
 
+    /// A surface as it is looked up; depends on nothing else, so several threads may find it ahead.
+    struct Surface {
+        std::uint32_t type;
+        double at[4];     ///< a point that belongs to it alone, from the scene's centre; the logarithm of its size
+        double limit;     ///< one that lies no farther off is the same
+    };
+    /// None for solids whose surfaces are not shared.
+    std::optional<Surface> surface_of(std::uint32_t type, const double* reals, const WideMatrix& axes,
+                                      const Box& box) const;
+    /// Surfaces that may be the same share a cell.
+    std::array<Shards::Chunk::Dimension, 5> coarse_cells(const Surface& surface) const;
+
+    /// The parameters of a solid, by its number, and its local axes in the world.
+    using RealsOf = std::function<std::span<double>(std::uint32_t)>;
+    using AxesOf = std::function<WideMatrix(std::uint32_t)>;
+    /// The solid whose parameters stand for those of solid `number`: an earlier one with the same surface, or itself.
+    std::uint32_t add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
+
     /// If the solid whose parameters end `scene.reals` has a surface that is there already, drops them and lets it have
-    /// those. `axes`: the local axes in the world.
+    /// those.
     void share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene);
 
 private:
     struct Entry {
-        std::uint32_t first_real;
+        std::uint32_t number;
         std::uint32_t next;  ///< in the same cell
     };
-    /// Where a surface is looked up: a point that belongs to it alone, and how large it is there.
-    struct Key {
-        Wide point;
-        long double size;
-    };
-
-    static Key key_of(std::uint32_t type, const double* reals, const WideMatrix& axes, const Vec3& center);
 
     Vec3 center_;
     double radius_;

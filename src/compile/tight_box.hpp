@@ -11,8 +11,13 @@ namespace csgrt {
 
 /// Half the size of an ellipsoid's box: columns are its semi-axes. An ellipse has a zero column.
 inline Wide half_size(const WideMatrix& axes) {
-    return {std::hypot(axes[0].x, axes[1].x, axes[2].x), std::hypot(axes[0].y, axes[1].y, axes[2].y),
-            std::hypot(axes[0].z, axes[1].z, axes[2].z)};
+    // Most axes lie along those of the world, and dividing by the largest of three takes long.
+    const auto length = [](long double x, long double y, long double z) {
+        const int parts = (x != 0) + (y != 0) + (z != 0);
+        return parts > 1 ? std::hypot(x, y, z) : std::fabs(x + y + z);
+    };
+    return {length(axes[0].x, axes[1].x, axes[2].x), length(axes[0].y, axes[1].y, axes[2].y),
+            length(axes[0].z, axes[1].z, axes[2].z)};
 }
 
 inline Box box_around(const Wide& center, const Wide& half) { return {narrow(center - half), narrow(center + half)}; }

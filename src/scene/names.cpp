@@ -28,7 +28,8 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
 Names::Names(const Scene& scene)
     : scene_(scene),
       slots_(std::bit_ceil(2 * scene.objects.size() + 2), Slot{0, none}),
-      first_child_(scene.objects.size()) {
+      first_child_(scene.objects.size() + 1),
+      is_solid_(scene.objects.size()) {
     const std::size_t count = scene.objects.size();
     std::vector<std::uint32_t> hashes(count);
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
@@ -36,6 +37,7 @@ Names::Names(const Scene& scene)
             hashes[i] = hash_of(name_of(scene.objects[i]));
             const auto* combination = std::get_if<Combination>(&scene.objects[i]);
             first_child_[i] = combination == nullptr ? 0 : combination->tree.nodes.size();
+            is_solid_[i] = combination == nullptr;
         }
     });
     std::uint64_t children = 0;
@@ -53,14 +55,15 @@ Names::Names(const Scene& scene)
         }
         children += std::exchange(first_child_[object], children);
     }
-    children_.resize(children, none);
+    first_child_[count] = children;
+    children_.resize(children);
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
             const auto* combination = std::get_if<Combination>(&scene.objects[i]);
             if (combination == nullptr) continue;
             const std::vector<TreeNode>& nodes = combination->tree.nodes;
             for (std::size_t k = 0; k < nodes.size(); ++k)
-                if (nodes[k].op == Operator::leaf) children_[first_child_[i] + k] = find(nodes[k].object);
+                children_[first_child_[i] + k] = nodes[k].op == Operator::leaf ? find(nodes[k].object) : operation;
         }
     });
 }
@@ -69,7 +72,7 @@ std::vector<std::string> Names::top_objects() const {
     if (!scene_.top.empty()) return scene_.top;
     std::vector<bool> used(scene_.objects.size());
     for (const std::uint32_t child : children_)
-        if (child != none) used[child] = true;
+        if (child < operation) used[child] = true;
     for (const std::uint32_t object : taken_) used[object] = used[find(name_of(scene_.objects[object]))];
     std::vector<std::string> top;
     for (std::size_t i = 0; i < scene_.objects.size(); ++i)

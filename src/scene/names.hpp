@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@ namespace csgrt {
 /// Refers to the scene, which must neither change nor go while this is used.
 class Names {
 public:
-    static constexpr std::uint32_t none = 0xffffffff;
+    static constexpr std::uint32_t none = 0xffffffff, operation = 0xfffffffe;
 
     explicit Names(const Scene& scene);
 
@@ -21,6 +22,12 @@ public:
     std::uint32_t find(std::string_view name) const { return find(name, hash_of(name)); }
     /// The object that a leaf names: node `node` of the tree of combination `object`.
     std::uint32_t child(std::uint32_t object, std::size_t node) const { return children_[first_child_[object] + node]; }
+    /// That of each node of a combination's tree, which are walked several times and take far less memory than the
+    /// objects; `operation` for what is no leaf. None for a solid.
+    std::span<const std::uint32_t> children(std::uint32_t object) const {
+        return std::span(children_).subspan(first_child_[object], first_child_[object + 1] - first_child_[object]);
+    }
+    bool is_solid(std::uint32_t object) const { return is_solid_[object] != 0; }
     /// Objects with names that others before them have.
     const std::vector<std::uint32_t>& taken() const { return taken_; }
     /// See csgrt::top_objects.
@@ -37,7 +44,8 @@ private:
     const Scene& scene_;
     std::vector<Slot> slots_;  // a power of two of them, at most half of them taken
     std::vector<std::uint32_t> taken_;
-    std::vector<std::uint64_t> first_child_;  // one an object: where its tree's nodes begin in `children_`
+    std::vector<std::uint64_t> first_child_;  // one an object, and the end: where its tree's nodes begin in `children_`
+    std::vector<std::uint8_t> is_solid_;      // one an object
     std::vector<std::uint32_t> children_;
 };
 

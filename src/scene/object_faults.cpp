@@ -69,7 +69,7 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
         return;
     }
     const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
-    if (std::abs(dot(unit(x), cross(unit(y), unit(z)))) < least_volume) {
+    if (!plainly_independent(x, y, z) && std::abs(dot(unit(x), cross(unit(y), unit(z)))) < least_volume) {
         report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
     }
 }

@@ -66,7 +66,7 @@ inline constexpr double angle_slack = 1e-3;
 inline constexpr double least_volume = 1e-10;
 
 inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::abs(dot(unit(a), cross(unit(b), unit(c)))) < least_volume;
+    return !plainly_independent(a, b, c) && std::abs(dot(unit(a), cross(unit(b), unit(c)))) < least_volume;
 }
 
 /// Vertices of meshes are at most this far from the origin: squares of such lengths are numbers still.
@@ -121,6 +121,7 @@ inline void require_direction_across(Faults& faults, const std::string& name, co
 
 /// Three axes that span a volume.
 inline void require_independent(Faults& faults, const char* const (&names)[3], const Vec3 (&axes)[3]) {
+    if (plainly_independent(axes[0], axes[1], axes[2])) return;
     bool sound = true;
     for (std::size_t i = 0; i < 3; ++i) sound &= require_length(faults, std::string("the axis ") + names[i], axes[i]);
     if (sound && dependent(axes[0], axes[1], axes[2])) {

@@ -16,6 +16,16 @@ void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
     }
 }
 
+/// Three edges that make a volume far above what is flat, as most arbs have them: for a solid of size s and thickness t it
+/// is at most 3 t s^2, and s is at most 4 times the largest coordinate.
+bool plainly_solid(const Arb& s) {
+    double reach = 0;
+    for (const Vec3& v : s.vertices) reach = std::max({reach, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const Vec3& v = s.vertices[0];
+    const double volume = dot(s.vertices[1] - v, cross(s.vertices[3] - v, s.vertices[4] - v));
+    return reach > 1e-90 && std::abs(volume) > 1e-9 * reach * reach * reach;
+}
+
 }  // namespace
 
 /// Some triangle of vertices has an area, and some vertex lies off its plane.
@@ -24,6 +34,7 @@ Faults FaultsOf::operator()(const Arb& s) const {
     for (const Vec3& vertex : s.vertices) {
         if (!all_finite(faults, vertex)) return faults;
     }
+    if (plainly_solid(s)) return faults;
     double size = 0, reach = 0;
     Vec3 normal;
     for (const Vec3& p : s.vertices) {

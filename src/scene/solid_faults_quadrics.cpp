@@ -6,6 +6,10 @@ namespace {
 
 /// The end of a tgc that tapers along `end` must keep the direction of `start`.
 void require_parallel(Faults& faults, const char* names, const Vec3& start, const Vec3& end) {
+    const double squares = dot(start, start) * dot(end, end), along = dot(start, end);
+    const Vec3 across = cross(start, end);
+    // Far from a limit no root need be taken.
+    if (squares > 1e-280 && along > 0 && dot(across, across) < 0.25 * angle_slack * angle_slack * squares) return;
     if (length(start) == 0 || length(end) == 0) return;
     if (length(cross(unit(start), unit(end))) > angle_slack) {
         faults.push_back(std::string("the axes ") + names + " must be parallel");

@@ -2,6 +2,7 @@
 // stack, and how many solids stand below an object is summed on the way back, so neither depth nor sharing costs.
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <tuple>
 
@@ -56,12 +57,12 @@ public:
 private:
     enum class State : std::uint8_t { unseen, open, done };
     struct Reached {
-        State state = State::unseen;
-        bool sound = false;        ///< by itself
+        std::uint64_t solids = 0;  ///< below, repeats counted
         std::uint32_t height = 0;  ///< combinations on the longest path downward, this one included
         std::uint32_t users = 0;   ///< legs that lead here, each counted once
         std::uint32_t first_user = 0;
-        std::uint64_t solids = 0;  ///< below, repeats counted
+        State state = State::unseen;
+        bool sound = false;  ///< by itself
     };
     struct Frame {
         std::uint32_t object;
@@ -122,12 +123,10 @@ private:
         enter(root);
         while (!path_.empty()) {
             Frame& frame = path_.back();
-            const auto* combination = std::get_if<Combination>(&scene_.objects[frame.object]);
-            if (combination != nullptr && frame.next_node < combination->tree.nodes.size()) {
+            const std::span<const std::uint32_t> children = names_.children(frame.object);
+            if (frame.next_node < children.size()) {
                 const std::size_t number = frame.next_node++;
-                const TreeNode& node = combination->tree.nodes[number];
-                if (node.op == Operator::leaf)
-                    follow(frame.object, *combination, node, names_.child(frame.object, number));
+                if (children[number] != Names::operation) follow(frame.object, number, children[number]);
             } else {
                 leave();
             }
@@ -149,16 +148,18 @@ private:
     }
 
     /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
-    void follow(std::uint32_t parent, const Combination& combination, const TreeNode& leg, std::uint32_t object) {
+    void follow(std::uint32_t parent, std::size_t node, std::uint32_t object) {
+        const auto combination = [&]() -> const Combination& { return std::get<Combination>(scene_.objects[parent]); };
         if (object == Names::none) {
-            add(leg.place, "'" + combination.name + "' uses '" + leg.object + "', which does not exist",
+            const TreeNode& leg = combination().tree.nodes[node];
+            add(leg.place, "'" + combination().name + "' uses '" + leg.object + "', which does not exist",
                 did_you_mean_object(leg.object));
             return;
         }
         Reached& child = objects_[object];
         if (child.users++ == 0) child.first_user = parent;
         if (child.state == State::open) {
-            report_cycle(object, leg);
+            report_cycle(object, combination().tree.nodes[node]);
         } else if (child.state == State::done) {
             add_below(parent, child);
         } else {
@@ -172,15 +173,15 @@ private:
         Reached& reached = objects_[object];
         reached.state = State::done;
         const auto name = [&] { return "'" + name_of(scene_.objects[object]) + "'"; };
-        const Place& place = place_of(scene_.objects[object]);
-        if (std::holds_alternative<Solid>(scene_.objects[object])) {
+        const auto place = [&]() -> const Place& { return place_of(scene_.objects[object]); };
+        if (names_.is_solid(object)) {
             reached.solids = 1;
         } else if (++reached.height == Limits::nesting + 1) {
-            add(place,
+            add(place(),
                 "below " + name() + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
                 "join some of the combinations on the way");
         }
-        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place, name(), reached.solids);
+        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place(), name(), reached.solids);
         if (!path_.empty()) add_below(path_.back().object, reached);
     }
 

@@ -20,6 +20,12 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
+/// Three vectors that surely make more than 1e-9 of the volume of a right-angled box; others may, too. Takes no roots.
+inline bool plainly_independent(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double volume = dot(a, cross(b, c)), squares = dot(a, a) * dot(b, b) * dot(c, c);
+    return squares > 1e-280 && volume * volume > 1e-18 * squares;
+}
+
 /// `a` scaled to length 1; `a` itself if its length is 0. hypot neither overflows nor underflows on the way.
 inline Vec3 unit(const Vec3& a) {
     const double l = length(a);

@@ -1,0 +1,49 @@
+// Between the steps of packing a scene: solids in chunks of so many, each a thread's.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/planes.hpp"
+#include "compile/surfaces.hpp"
+
+namespace csgrt {
+
+/// A plane of a solid on its way into the scene's table: all that the search touches in one line of the cache.
+struct alignas(64) PackedPlane {
+    PlaneTable::Key key;
+    kernel::PlaneRef ref = 0;  ///< first within the shard's table, then the scene's
+    std::uint16_t solid = 0;   ///< whose it is, within the chunk
+    bool is_first = false;     ///< no plane before it is the same
+};
+static_assert(sizeof(PackedPlane) == 64);
+
+struct PackedChunk {
+    static constexpr std::size_t size = 1024;
+
+    struct Part {
+        std::uint32_t first_real, reals;  ///< within the chunk
+        std::uint32_t stands;             ///< the solid whose reals stand for its own: it, or one before it
+        std::uint32_t faces, cuts;        ///< planes; those of polyhedra that are one are one
+        bool is_large, is_polyhedron;
+    };
+    std::vector<Part> parts;  ///< one a solid
+    std::vector<double> reals;
+    std::vector<PackedPlane> planes;  ///< faces, then cuts, one solid's after the other's
+    std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< and whose they are, within the chunk
+    std::vector<std::vector<PackedPlane>> large_faces;  ///< of each large solid; not among `planes` yet
+    std::vector<std::string> notes;
+    std::uint32_t solid_types = 0;
+};
+
+/// Finds the planes that several share: fills planes and plane_refs of `compiled`, and the solids' ranges of them.
+/// `empty`: a table without planes.
+void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common,
+                  CompiledScene& compiled);
+
+}  // namespace csgrt

@@ -1,0 +1,124 @@
+// Looking up among millions, by several threads, with the answers of one that takes them in order: what may be one falls
+// into one shard, each shard is gone through in order, and different shards have nothing to do with each other.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "compile/cells.hpp"
+#include "parallel.hpp"
+
+namespace csgrt {
+
+class Shards {
+public:
+    static constexpr std::uint32_t count = 4096;
+
+    /// Where an item stands: number `index` of those that came in chunk `chunk`.
+    struct Member {
+        std::uint32_t chunk, index;
+    };
+
+    /// Items come in chunks, each by a thread of its own.
+    class Chunk {
+    public:
+        void reserve(std::size_t items) { of_.reserve(items); }
+        /// An item that is looked up in these cells, a value and the cells' size for each dimension. Others that may be the
+        /// same differ by at most `tolerance` in each; cells are far larger than that.
+        struct Dimension {
+            double value, tolerance, cell;
+        };
+        template <std::size_t n>
+        void add(const std::array<Dimension, n>& at) {
+            of_.push_back(shard_of(at));
+        }
+        /// The item added last is looked up there, too.
+        template <std::size_t n>
+        void look_also(const std::array<Dimension, n>& at) {
+            joined_.emplace_back(of_.back(), shard_of(at));
+        }
+
+    private:
+        friend Shards;
+
+        /// The shard of the first cell; the few items near a border join those of all the cells that they touch.
+        template <std::size_t n>
+        std::uint16_t shard_of(const std::array<Dimension, n>& at) {
+            std::array<CellRange, n> ranges;
+            for (std::size_t i = 0; i < n; ++i) ranges[i] = cells_of(at[i].value, at[i].tolerance, at[i].cell);
+            std::array<std::int64_t, n> cell;
+            const auto shard = [&](std::size_t corner) {
+                for (std::size_t i = 0; i < n; ++i) cell[i] = corner >> i & 1 ? ranges[i].last : ranges[i].first;
+                return static_cast<std::uint16_t>(cell_hash(cell) >> 20 & (count - 1));
+            };
+            const std::uint16_t first = shard(0);
+            for (std::size_t i = 0; i < n; ++i) {
+                if (ranges[i].first == ranges[i].last) continue;
+                for (std::size_t corner = 1; corner < std::size_t{1} << n; ++corner)
+                    if (const std::uint16_t other = shard(corner); other != first) joined_.emplace_back(first, other);
+                break;
+            }
+            return first;
+        }
+
+        std::vector<std::uint16_t> of_;                               ///< one an item
+        std::vector<std::pair<std::uint16_t, std::uint16_t>> joined_;  ///< shards that items have in common
+        std::array<std::uint32_t, count> next_{};                    ///< where the chunk's part of each shard goes on
+    };
+
+    explicit Shards(std::size_t chunks) : chunks_(chunks) { std::iota(root_.begin(), root_.end(), std::uint16_t{0}); }
+
+    Chunk& chunk(std::size_t number) { return chunks_[number]; }
+
+    /// When all chunks are complete: puts the items in order, by shard, then as they came.
+    void sort() {
+        for (const Chunk& chunk : chunks_)
+            for (const auto& [a, b] : chunk.joined_) root_[root(a)] = root(b);
+        for (std::uint32_t i = 0; i < count; ++i) root_[i] = root(static_cast<std::uint16_t>(i));
+        for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
+            for (std::uint16_t& shard : chunks_[c].of_) ++chunks_[c].next_[shard = root_[shard]];
+        });
+        for (const Chunk& chunk : chunks_)
+            for (std::uint32_t shard = 0; shard < count; ++shard) first_[shard + 1] += chunk.next_[shard];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        std::array<std::uint32_t, count + 1> next = first_;
+        for (Chunk& chunk : chunks_)
+            for (std::uint32_t shard = 0; shard < count; ++shard)
+                next[shard] += std::exchange(chunk.next_[shard], next[shard]);
+        members_.resize(first_[count]);
+        for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
+            Chunk& chunk = chunks_[c];
+            for (std::uint32_t i = 0; i < chunk.of_.size(); ++i)
+                members_[chunk.next_[chunk.of_[i]]++] = {static_cast<std::uint32_t>(c), i};
+        });
+    }
+    /// Calls work(members, shard) for each shard that has any, several at once.
+    template <class Work>
+    void for_each(const Work& work) const {
+        constexpr std::size_t few = 8192;  // threads would take longer to begin
+        for_chunks(count, 1, members_.size() < few ? 1 : 0, [&](std::size_t shard, std::size_t, std::size_t) {
+            const std::span<const Member> all(members_);
+            if (first_[shard] < first_[shard + 1])
+                work(all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
+        });
+    }
+
+private:
+    std::uint16_t root(std::uint16_t shard) const {
+        while (root_[shard] != shard) shard = root_[shard];
+        return shard;
+    }
+
+    std::vector<Chunk> chunks_;
+    std::array<std::uint16_t, count> root_;
+    std::array<std::uint32_t, count + 1> first_{};  ///< of each shard, among the members
+    std::vector<Member> members_;
+};
+
+}  // namespace csgrt
