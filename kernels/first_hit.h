@@ -145,10 +145,15 @@ FN event pass_event(front* w, real tolerance) {
     return e;
 }
 
-// Passes all events that nothing can join that comes at `horizon` or later. 1: the first partition to be seen is known.
+// May the next event not be joined any more by what comes at `horizon` or later?
+FN int is_complete(const front* w, real tolerance, real horizon) {
+    return w->due < REAL_INFINITY && horizon - w->due > tolerance;
+}
+
+// Passes all events that are complete. 1: the first partition to be seen is known.
 FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizon) {
-    int found = 0;
-    while (!found && w->due < REAL_INFINITY && horizon - w->due > tolerance) {
+    int found = 0, going = is_complete(w, tolerance, horizon);
+    while (going) {
         const real t = w->due;
         event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
@@ -162,6 +167,7 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizo
             w->seen.t = t;
             found = w->region != NONE && t > t_min;
         }
+        going = !found && is_complete(w, tolerance, horizon);
     }
     return found;
 }
@@ -188,7 +194,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockNode* 
     i = 0;
     w->region = NONE;
     // All rays of a block come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
-    // have one way out, here and below: a compiler lets work-items that leave from within run apart.
+    // have one way out, here and in what they call, and few conditions: work-items that leave in several ways run apart after.
     do {
         BlockNode e;
         do {
@@ -198,7 +204,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockNode* 
             solid = leaf >> BVH_LEAF_SHIFT;
             end = solid + (leaf & BVH_LEAF_MASK);
         } while (leaf);
-        e = *next++;
+        e = *next;
+        if (e.node != NONE) ++next;
         if (result == RAY_GOES_ON && (e.entry > due_at(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
             if (advance(w, s, tolerance, t_min, horizon)) {
@@ -208,7 +215,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockNode* 
             }
         }
         i = subtree_end = 0;
-        if (slabs.hits_sphere && e.node != NONE) {
+        if (result == RAY_GOES_ON && slabs.hits_sphere && e.node != NONE) {
             i = e.node;
             subtree_end = s.nodes[i].skip;
         }
