@@ -8,6 +8,7 @@
 #include "oracle/mesh_judge.hpp"
 #include "oracle/mesh_rays.hpp"
 #include "oracle/mesh_shapes.hpp"
+#include "oracle/print.hpp"
 
 namespace csgrt {
 

@@ -1,4 +1,5 @@
 #include "geometry/check_kernels.hpp"
+#include "geometry/kernel_answer.hpp"
 
 using namespace csgrt;
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,41 +34,9 @@ struct Campaign {
     }
 };
 
-/// `solver(shape, matrix)` gives a function from a Ray to the Segments of the solid.
-template <class Solver>
-Campaign run_campaign(Kind kind, std::size_t rays, std::uint64_t seed, const Solver& solver) {
-    constexpr std::size_t rays_a_solid = 42, failures_kept = 5;
-    Campaign campaign;
-    Random random(seed);
-    for (std::size_t done = 0, index = 0; done < rays; ++index) {
-        const Case one = make_case(kind, index, random);
-        const ImplicitSolid solid = implicit(one.shape, one.matrix);
-        RayMaker maker(one.shape, solid, random);
-        const auto solve = solver(one.shape, one.matrix);
-        for (std::size_t i = 0; i < rays_a_solid && done < rays; ++i, ++done) {
-            const std::size_t family = i % ray_families;
-            const Ray ray = maker.make(static_cast<RayFamily>(family));
-            const Answer answer = intersect(solid, ray);
-            const std::vector<Segment> segments = solve(ray);
-            const Verdict verdict = judge(solid, ray, answer, segments);
-            Tally& tally = campaign.tally[family];
-            ++tally.rays;
-            tally.hits += answer.intervals.empty() ? 0 : 1;
-            tally.ties += answer.tie ? 1 : 0;
-            const auto told = [&] {
-                return report(one.name + ", " + ray_family_names[family] + "\n  " + describe(one.shape, one.matrix),
-                              ray, answer, segments, verdict);
-            };
-            if (!verdict.wrong.empty()) {
-                ++tally.wrong;
-                if (campaign.failures.size() < failures_kept) campaign.failures.push_back(told());
-            } else if (verdict.worst > campaign.worst) {
-                campaign.worst = verdict.worst;
-                campaign.worst_case = told();
-            }
-        }
-    }
-    return campaign;
-}
+using Solve = std::function<std::vector<Segment>(const Ray&)>;  ///< the segments of one solid along a ray
+using Solver = std::function<Solve(const Shape&, const Matrix&)>;
+
+Campaign run_campaign(Kind kind, std::size_t rays, std::uint64_t seed, const Solver& solver);
 
 }  // namespace csgrt::oracle

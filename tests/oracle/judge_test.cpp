@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "oracle/campaign.hpp"
+#include "oracle/print.hpp"
 
 using namespace csgrt;
 using namespace csgrt::oracle;

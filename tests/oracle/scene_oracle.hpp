@@ -14,12 +14,11 @@
 // intersect.hpp), widened by `slack` for a weaver that takes ends so close to each other for one.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "ball_tree.hpp"
 #include "scene_solid.hpp"
 #include "scene_weave.hpp"
 #include "solids/pipe.hpp"
@@ -31,24 +30,7 @@ public:
     /// `objects` of the scene, empty: its top objects. Air regions are left out. `skip_unsupported`: solids of unknown
     /// types are empty sets.
     explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {},
-                         bool skip_unsupported = false, bool quick = false)
-        : scene_(scene), skip_unsupported_(skip_unsupported), quick_(quick) {
-        for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
-            for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
-        regions_of_.resize(solids_.size());
-        for (std::uint32_t r = 0; r < regions_.size(); ++r)
-            regions_[r].tree.each([&](std::size_t solid) { regions_of_[solid].push_back(r); });
-        std::vector<Reach> balls;
-        for (std::size_t i = 0; i < solids_.size(); ++i) {
-            if (solids_[i].reach.radius == HUGE_VAL) {
-                everywhere_.push_back(i);
-                continue;
-            }
-            balls.push_back(solids_[i].reach);
-            somewhere_.push_back(i);
-        }
-        tree_ = BallTree(std::move(balls));
-    }
+                         bool skip_unsupported = false, bool quick = false);
 
     // Keeps the scene by reference; so a temporary will not do.
     explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}, bool = false) = delete;
@@ -56,154 +38,33 @@ public:
     const std::vector<OracleRegion>& regions() const { return regions_; }
 
     /// `slack` in millimetres.
-    SceneAnswer shoot(const Ray& ray, double slack) const {
-        const double speed = to_double(length(QVec(ray.direction)));
-        SceneAnswer answer;
-        std::vector<std::size_t> near = everywhere_;
-        tree_.each(ray.origin, ray.direction, 0, [&](std::size_t i) { near.push_back(somewhere_[i]); });
-        std::sort(near.begin(), near.end());
-        std::vector<Sure> sets;  // of the solids that the ray may meet
-        quad most = 0;
-        double least = HUGE_VAL;  // radius of what is met
-        for (const std::size_t i : near) {
-            const Answer one = solids_[i](ray);
-            if (one.intervals.empty() && one.outer.empty() && !one.tie) continue;
-            sets.push_back({i, {}, {}, {}});
-            answer.solid_tie = answer.solid_tie || one.tie;
-            double widest = 0;
-            for (const Interval& interval : one.intervals) {
-                sets.back().exact.push_back({{interval.in.t, 0}, {interval.out.t, 0}});
-                for (const End& e : {interval.in, interval.out}) {
-                    if (!std::isfinite(e.t)) continue;
-                    const double rounding =
-                        margin * one.delta / (e.cosine * speed) + 4 * double_epsilon * std::abs(e.t);
-                    answer.events.push_back({e.t, e.tolerance, e.normal, std::min(rounding, e.tolerance), i});
-                    widest = std::max(widest, e.tolerance);
-                }
-            }
-            const quad by = quad(slack / speed) + quad(widest);
-            most = larger(most, by);
-            if (!one.intervals.empty()) least = std::min(least, solids_[i].reach.radius);
-            Sure& set = sets.back();
-            set.inner = resized(one.inner, -by);
-            set.outer = resized(one.outer, by);
-            if (set.exact.empty() && set.outer.empty()) sets.pop_back();
-        }
-        // What runs along a face may end anywhere on it: a thousandth of a solid is more than an end can be shifted.
-        weave(sets, regions_, regions_of_, smaller(most, quad((slack + 1e-3 * least) / speed)), answer);
-        return answer;
-    }
+    SceneAnswer shoot(const Ray& ray, double slack) const;
 
     /// Is it the normal, to either side, of some surface of the solid that runs within `reach` millimetres of the
     /// point? On an edge that of either face will do.
-    bool has_normal(std::size_t solid, const QVec& point, const QVec& normal, quad reach) const {
-        const ImplicitSolid* s = solids_[solid].implicit.get();
-        for (std::size_t k = 0; s != nullptr && k < s->surfaces.size(); ++k) {
-            const QVec n = s->normal(k, point), local = s->to_local.point(point);
-            if (smaller(length(n - normal), length(n + normal)) > quad(1e-6)) continue;
-            const quad slope = length(s->to_local.transposed(s->surfaces[k]->gradient(local)));
-            if (absolute(s->surfaces[k]->value(local)) <= slope * reach) return true;
-        }
-        return false;
-    }
+    bool has_normal(std::size_t solid, const QVec& point, const QVec& normal, quad reach) const;
 
 private:
     // ---- From the scene to expressions ----
 
-    const Object& object(const std::string& name) const {
-        if (const Object* found = scene_.find(name)) return *found;
-        throw Error(Status::scene, "there is no object '" + name + "'");
-    }
+    const Object& object(const std::string& name) const;
 
     /// What is in one of the outer parts and in none of the bores.
-    Expression composite(std::vector<PipePart> parts) {
-        Expression outer, bores;
-        for (PipePart& part : parts) {
-            (part.bore ? bores : outer).operands.push_back({Operator::leaf, {}, solids_.size()});
-            solids_.push_back(scene_solid(std::move(part.solid), quick_));
-        }
-        return bores.operands.empty() ? outer : apply(Operator::difference, outer, bores);
-    }
+    Expression composite(std::vector<PipePart> parts);
 
-    Expression leaf(const Solid& solid, const QAffine& place) {
-        if (skip_unsupported_ && std::holds_alternative<Unsupported>(solid.shape)) return {};
-        if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
-        if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
-        const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 0.001;
-        solids_.push_back(scene_solid(solid.shape, place, skin, quick_));
-        return {Operator::leaf, {}, solids_.size() - 1};
-    }
+    Expression leaf(const Solid& solid, const QAffine& place);
 
     /// Everything below an object, as one expression.
-    Expression expression(const std::string& name, const QAffine& m) {
-        const Object& found = object(name);
-        if (const auto* solid = std::get_if<Solid>(&found)) return leaf(*solid, m);
-        std::vector<Expression> stack;
-        for (const TreeNode& node : std::get<Combination>(found).tree.nodes) {
-            if (node.op == Operator::leaf) {
-                stack.push_back(expression(node.object, m * to_affine(node.matrix)));
-                continue;
-            }
-            Expression e;
-            e.op = node.op;
-            e.operands.assign(stack.end() - node.arity, stack.end());
-            stack.resize(stack.size() - node.arity);
-            stack.push_back(std::move(e));
-        }
-        return stack.empty() ? Expression{} : stack.back();
-    }
+    Expression expression(const std::string& name, const QAffine& m);
 
     using Starts = std::vector<OracleRegion>;
 
-    static Expression all_of(const Starts& starts) {
-        Expression e;
-        for (const OracleRegion& start : starts) e.operands.push_back(start.tree);
-        return e;
-    }
+    static Expression all_of(const Starts& starts);
     static Expression apply(Operator op, const Expression& a, const Expression& b) { return {op, {a, b}, 0}; }
-    static Starts combine(Operator op, const Starts& left, const Starts& right) {
-        Starts result;
-        if (op == Operator::union_) {
-            result = left;
-            result.insert(result.end(), right.begin(), right.end());
-        } else if (op == Operator::difference) {
-            for (const OracleRegion& a : left) result.push_back({a.path, apply(op, a.tree, all_of(right))});
-        } else if (op == Operator::intersection) {
-            for (const OracleRegion& a : left)
-                for (const OracleRegion& b : right) result.push_back({a.path, apply(op, a.tree, b.tree)});
-        } else if (left.empty() || right.empty()) {
-            result = left.empty() ? right : left;
-        } else {
-            result.push_back({left.front().path, apply(op, all_of(left), all_of(right))});
-        }
-        return result;
-    }
+    static Starts combine(Operator op, const Starts& left, const Starts& right);
 
     /// The regions below an object that stands in none.
-    Starts starts(const std::string& name, const QAffine& m, const std::string& above) {
-        const Object& found = object(name);
-        const std::string path = above + "/" + name;
-        const auto* combination = std::get_if<Combination>(&found);
-        if (combination == nullptr || combination->region) {
-            if (combination != nullptr && combination->air != 0) return {};
-            return {{path, expression(name, m)}};
-        }
-        std::vector<Starts> stack;
-        for (const TreeNode& node : combination->tree.nodes) {
-            if (node.op == Operator::leaf) {
-                stack.push_back(starts(node.object, m * to_affine(node.matrix), path));
-                continue;
-            }
-            const std::size_t first = stack.size() - node.arity;
-            Starts result = stack[first];
-            if (node.op == Operator::not_ && !result.empty())
-                result = {{result.front().path, Expression{Operator::not_, {all_of(result)}, 0}}};
-            for (std::size_t i = first + 1; i < stack.size(); ++i) result = combine(node.op, result, stack[i]);
-            stack.resize(first);
-            stack.push_back(std::move(result));
-        }
-        return stack.empty() ? Starts{} : stack.back();
-    }
+    Starts starts(const std::string& name, const QAffine& m, const std::string& above);
 
     const Scene& scene_;
     const bool skip_unsupported_, quick_;

@@ -11,6 +11,7 @@
 #include "oracle/random.hpp"
 #include "oracle/rays.hpp"
 #include "oracle/scene_oracle.hpp"
+#include "oracle/solids/all.hpp"
 #include "pipeline/scenes.hpp"
 #include "reference/reference_kernels.hpp"
 

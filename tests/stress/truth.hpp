@@ -14,6 +14,7 @@
 #include <cmath>
 #include <vector>
 
+#include "oracle/quick.hpp"
 #include "oracle/scene_oracle.hpp"
 #include "stress/families.hpp"
 

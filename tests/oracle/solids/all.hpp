@@ -1,34 +1,12 @@
 // From the model's shapes to the judge's solids.
 #pragma once
 
-#include <stdexcept>
-#include <string>
-#include <variant>
-
-#include "cylinders.hpp"
-#include "ehy.hpp"
-#include "ell.hpp"
-#include "epa.hpp"
-#include "eto.hpp"
-#include "half.hpp"
-#include "hrt.hpp"
-#include "hyp.hpp"
-#include "metaball.hpp"
-#include "part.hpp"
-#include "polyhedron.hpp"
-#include "superell.hpp"
-#include "tgc.hpp"
-#include "tor.hpp"
+#include "../solid.hpp"
 
 namespace csgrt::oracle {
 
-template <class Other>
-ImplicitSolid implicit(const Other& shape, const QAffine&) {
-    throw std::invalid_argument(std::string("the oracle knows no solid of type ") + type_name(shape));
-}
-inline ImplicitSolid implicit(const Shape& shape, const QAffine& place) {
-    return std::visit([&](const auto& s) { return implicit(s, place); }, shape);
-}
-inline ImplicitSolid implicit(const Shape& shape, const Matrix& matrix) { return implicit(shape, to_affine(matrix)); }
+/// Throws std::invalid_argument for a shape that is no ImplicitSolid.
+ImplicitSolid implicit(const Shape& shape, const QAffine& place);
+ImplicitSolid implicit(const Shape& shape, const Matrix& matrix);
 
 }  // namespace csgrt::oracle
