@@ -1,8 +1,5 @@
 // The device and the reference agree to the last bit: every channel of every pixel, every partition of every ray,
 // whatever the view and however small the tiles.
-#include <cstring>
-#include <filesystem>
-
 #include <csgrt/csgrt.hpp>
 
 #include "catch.hpp"
@@ -12,7 +9,6 @@
 using namespace csgrt;
 using test::on_device;
 using test::require_agreement;
-using test::require_same;
 
 TEST_CASE("device and reference agree on our scenes", "[agreement]") {
     const auto files = test::scene_files();
@@ -21,56 +17,6 @@ TEST_CASE("device and reference agree on our scenes", "[agreement]") {
         INFO(file);
         require_agreement(load_scene(file), {}, 96, 500);
     }
-}
-
-TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
-    for (const test::Model& model : test::models()) {
-        INFO(model.file);
-        require_agreement(load_scene(folder + "/" + model.file), model.objects, model.main ? 64 : 24, 200);
-    }
-}
-
-TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][agreement]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
-    for (const test::Model& model : test::models()) {
-        INFO(model.file);
-        require_agreement(load_scene(folder + "/" + model.file), model.objects, 512, 20000);
-    }
-}
-
-TEST_CASE("a model gives the same picture from .asc, from .g and from the .json that they become", "[agreement]") {
-    const std::string folder = test::folder("CSGRT_BRLCAD");
-    if (folder.empty()) {
-        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
-        return;
-    }
-    const std::string converted = (std::filesystem::temp_directory_path() / "csgrt_converted.json").string();
-    const auto picture = [](const Scene& scene, const std::vector<std::string>& objects) {
-        Settings settings;
-        settings.reference = true;
-        return Renderer(scene, objects, settings).render({.width = 24, .height = 24, .camera = scene.camera});
-    };
-    for (const test::Model& model : test::models()) {
-        INFO(model.file);
-        const std::string path = folder + "/" + model.file;
-        const Scene text = load_scene(path), binary = load_scene(path.substr(0, path.size() - 3) + "g");
-        const Image expected = picture(text, model.objects);
-        require_same(picture(binary, model.objects), expected);
-        for (const Scene* scene : {&text, &binary}) {
-            save_scene(*scene, converted);
-            require_same(picture(load_scene(converted), model.objects), expected);
-        }
-    }
-    std::filesystem::remove(converted);
 }
 
 TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a crash", "[agreement]") {
