@@ -179,11 +179,11 @@ std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first
 
 void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end,
                  std::vector<kernel::SolidRecord>& solids) {
-    struct Part {
+    struct Branch {
         std::uint32_t first, end;
         std::uint32_t same, opposite;  // BEGINS_x of solids that the term needs there, and of those that it is without
     };
-    std::vector<Part> rest{{first, end, BEGINS_AT_ENTRY, BEGINS_AT_EXIT}};
+    std::vector<Branch> rest{{first, end, BEGINS_AT_ENTRY, BEGINS_AT_EXIT}};
     while (!rest.empty()) {
         const auto [node, node_end, same, opposite] = rest.back();
         rest.pop_back();
@@ -196,10 +196,10 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
             rest.push_back({node + 1, right, same | opposite, same | opposite});
             rest.push_back({right, node_end, same | opposite, same | opposite});
         } else {
-            rest.push_back(op == OP_REVERSE_DIFFERENCE ? Part{node + 1, right, opposite, same}
-                                                       : Part{node + 1, right, same, opposite});
-            rest.push_back(op == OP_DIFFERENCE ? Part{right, node_end, opposite, same}
-                                               : Part{right, node_end, same, opposite});
+            rest.push_back(op == OP_REVERSE_DIFFERENCE ? Branch{node + 1, right, opposite, same}
+                                                       : Branch{node + 1, right, same, opposite});
+            rest.push_back(op == OP_DIFFERENCE ? Branch{right, node_end, opposite, same}
+                                               : Branch{right, node_end, same, opposite});
         }
     }
 }
