@@ -44,17 +44,20 @@ FN u32 take_solid_of(cover c, u32 word, u32* bits) {
 }
 
 FN void list_covered(cover c, covered_solids* list) {
-    u32 word, words = words_of(c.segments);
-    list->count = list->filter.even = list->filter.odd = 0;
+    u32 word, words = words_of(c.segments), count = 0;
+    SolidFilter filter;
+    filter.even = filter.odd = 0;
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
             u32 solid = take_solid_of(c, word, &bits);
-            list->filter = with(list->filter, filter_of(solid));
-            if (list->count < FEW) list->solids[list->count] = solid;
-            if (list->count <= FEW) ++list->count;
+            filter = with(filter, filter_of(solid));
+            if (count < FEW) list->solids[count] = solid;
+            if (count <= FEW) ++count;
         }
     }
+    list->count = count;
+    list->filter = filter;
 }
 
 FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {

@@ -2,7 +2,7 @@
 #ifndef CSGRT_CAMERA_H
 #define CSGRT_CAMERA_H
 
-#include "shared/layout.h"
+#include "view.h"
 
 typedef struct {
     u32 x, y;  // from the top left
@@ -20,24 +20,7 @@ FN pixel_position pixel_of(u32 ray, u32 width, u32 height) {
     return p;
 }
 
-FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) {
-    world_ray r;
-    wide x = (wide)at.x + (wide)0.5 - (wide)0.5 * (wide)f->width;
-    wide y = (wide)0.5 * (wide)f->height - (wide)at.y - (wide)0.5;
-    wide3 eye = make_wide3(f->eye[0], f->eye[1], f->eye[2]);
-    wide3 w = make_wide3(f->w[0], f->w[1], f->w[2]);
-    wide3 across =
-        wide_add_scaled(wide_scale(make_wide3(f->u[0], f->u[1], f->u[2]), x), y, make_wide3(f->v[0], f->v[1], f->v[2]));
-    if (f->perspective) {
-        wide3 d = make_wide3(w.x + across.x, w.y + across.y, w.z + across.z);
-        r.o = eye;
-        r.d = wide_scale(d, (wide)1 / wide_sqrt(wide_dot(d, d)));
-    } else {
-        r.o = make_wide3(eye.x + across.x, eye.y + across.y, eye.z + across.z);
-        r.d = w;
-    }
-    return r;
-}
+FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) { return view_ray(f, (wide)at.x, (wide)at.y); }
 
 FN wide3 frame_center(GLOBAL const Frame* f) { return make_wide3(f->center[0], f->center[1], f->center[2]); }
 

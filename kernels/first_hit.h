@@ -40,6 +40,14 @@ typedef struct {
     GLOBAL const u32* trees;
 } scene_tables;
 
+FN void start_front(front* w) {
+    u32 i;
+    for (i = 0; i < SLOT_WORDS; ++i) w->used[i] = w->open[i] = w->starts[i] = w->entry[i] = w->exit[i] = 0;
+    w->from_within = 0;
+    w->region = NONE;
+    w->due = REAL_INFINITY;
+}
+
 // A place for one more segment; NONE: there is none.
 FN u32 take_slot(front* w, SolidRecord solid) {
     u32 i, slot = NONE;
@@ -56,6 +64,17 @@ FN u32 take_slot(front* w, SolidRecord solid) {
     return slot;
 }
 
+// Takes up a segment. 0: there is no room.
+FN int take_segment(front* w, SolidRecord solid, End in, End out) {
+    const u32 slot = take_slot(w, solid);
+    if (slot != NONE) {
+        w->ends[2 * slot] = in;
+        w->ends[2 * slot + 1] = out;
+        w->due = real_min(w->due, in.t);
+    }
+    return slot != NONE;
+}
+
 // Takes up the solid's segments. 0: there is no room.
 FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
     SolidRecord solid = g.solids[index];
@@ -68,15 +87,7 @@ FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
     End found[4];
 #endif
     count = collect(g, solid, index, r, t_min, found);
-    for (i = 0; i < count && fits; ++i) {
-        const u32 slot = take_slot(w, solid);
-        fits = slot != NONE;
-        if (fits) {
-            w->ends[2 * slot] = found[2 * i];
-            w->ends[2 * slot + 1] = found[2 * i + 1];
-            w->due = real_min(w->due, found[2 * i].t);
-        }
-    }
+    for (i = 0; i < count && fits; ++i) fits = take_segment(w, solid, found[2 * i], found[2 * i + 1]);
     return fits;
 }
 
@@ -187,12 +198,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockNode* 
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
-    u32 solid = 0, end = f->unbounded_count, i, subtree_end = 0, leaf, result = RAY_GOES_ON;
-    w->from_within = 0;
-    w->due = REAL_INFINITY;
-    for (i = 0; i < SLOT_WORDS; ++i) w->used[i] = w->open[i] = w->starts[i] = w->entry[i] = w->exit[i] = 0;
-    i = 0;
-    w->region = NONE;
+    u32 solid = 0, end = f->unbounded_count, i = 0, subtree_end = 0, leaf, result = RAY_GOES_ON;
+    start_front(w);
     // All rays of a block come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
     // have one way out, here and in what they call, and few conditions: work-items that leave in several ways run apart after.
     do {

@@ -15,29 +15,29 @@ typedef struct {
     real shift;  // t = shift + u, u along (o, d)
 } local_ray;
 
-FN vec3 affine_linear(GLOBAL const real* p, vec3 v) {
+FN vec3 affine_linear(GLOBAL const parameter* p, vec3 v) {
     return make_vec3(dot3(make_vec3(p[3], p[4], p[5]), v), dot3(make_vec3(p[6], p[7], p[8]), v),
                      dot3(make_vec3(p[9], p[10], p[11]), v));
 }
 // A normal goes back by the transpose of L.
-FN vec3 affine_normal(GLOBAL const real* p, vec3 n) {
+FN vec3 affine_normal(GLOBAL const parameter* p, vec3 n) {
     return make_vec3(dot3(make_vec3(p[3], p[6], p[9]), n), dot3(make_vec3(p[4], p[7], p[10]), n),
                      dot3(make_vec3(p[5], p[8], p[11]), n));
 }
 
 #ifdef CSGRT_EYE_RELATIVE
-FN wide3 affine_center(GLOBAL const real* p, ray3 r) {
+FN wide3 affine_center(GLOBAL const parameter* p, ray3 r) {
     (void)p;  // its own center is rounded
     return r.center;
 }
 #else
-FN wide3 affine_center(GLOBAL const real* p, ray3 r) {
+FN wide3 affine_center(GLOBAL const parameter* p, ray3 r) {
     (void)r;
     return make_vec3(p[0], p[1], p[2]);
 }
 #endif
 
-INLINE_FN local_ray to_local(GLOBAL const real* p, ray3 r) {
+INLINE_FN local_ray to_local(GLOBAL const parameter* p, ray3 r) {
     local_ray l;
     offset3 from = offset_from(affine_center(p, r), r.o);
     vec3 o = affine_linear(p, leading(from));
@@ -48,7 +48,7 @@ INLINE_FN local_ray to_local(GLOBAL const real* p, ray3 r) {
 }
 
 // The same with the origin where it is: what the shift is good for shows in the difference.
-FN local_ray to_local_unmoved(GLOBAL const real* p, ray3 r) {
+FN local_ray to_local_unmoved(GLOBAL const parameter* p, ray3 r) {
     local_ray l;
     l.o = affine_linear(p, leading(offset_from(affine_center(p, r), r.o)));
     l.d = affine_linear(p, r.d);

@@ -10,7 +10,7 @@ FN hits arb_intersect(Geometry g, SolidRecord solid, ray3 r) {
     u32 i;
     for (i = 0; i < solid.plane_count; ++i) {
         s = clip_to_face(s, g, solid.first_plane + i, r, i);
-        if (!(s.low < s.high)) return no_hits();
+        if (none(s.low < s.high)) return no_hits();
     }
     return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
 }

@@ -7,79 +7,19 @@
 #ifndef CSGRT_HITS_H
 #define CSGRT_HITS_H
 
-#include "../shared/layout.h"
+#include "tables.h"
 
 typedef struct {
-    u32 count;  // segments: 0, 1 or 2
+    tag count;  // segments: 0, 1 or 2
     real in0, out0, in1, out1;
-    u32 in0_surface, out0_surface, in1_surface, out1_surface;
+    tag in0_surface, out0_surface, in1_surface, out1_surface;
 } hits;
 
 // A piece of the ray, with the surfaces that bound it.
 typedef struct {
     real low, high;
-    u32 low_surface, high_surface;
+    tag low_surface, high_surface;
 } span;
-
-// The tables that solids live in.
-typedef struct {
-    GLOBAL const SolidRecord* solids;
-    GLOBAL const real* reals;
-    GLOBAL const PlaneRecord* planes;
-    GLOBAL const PlaneRef* plane_refs;
-    GLOBAL const u32* words;
-    GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many parts
-#ifndef __OPENCL_VERSION__
-    u32 quartic;  // the host chooses as it runs; a program for a device has one method, so that it holds no other
-#endif
-} Geometry;
-
-// How quartics are solved; quartic.h.
-#define QUARTIC_BRACKETED 0
-#define QUARTIC_UNSHIFTED 1
-#define QUARTIC_FERRARI 2
-#define QUARTIC_YUKSEL 3
-#ifndef CSGRT_QUARTIC
-#define CSGRT_QUARTIC QUARTIC_BRACKETED
-#endif
-#ifdef __OPENCL_VERSION__
-#define QUARTIC_OF(g) CSGRT_QUARTIC
-#else
-#define QUARTIC_OF(g) (g).quartic
-#endif
-
-// Solids of which a ray may have more than two segments.
-#define MANY_SEGMENTS                                                                                            \
-    (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_SUPERELL | 1u << SOLID_PLATE | \
-     1u << SOLID_HRT | 1u << SOLID_METABALL)
-
-// Solids of which it has one at most.
-#define ONE_SEGMENT (1u << SOLID_ELL | 1u << SOLID_ARB | 1u << SOLID_HALF | 1u << SOLID_PART)
-
-// What a ray knows of the solid that it is put to.
-FN ray3 ray_at(SolidRecord solid, ray3 r) {
-#ifdef CSGRT_EYE_RELATIVE
-    r.center = make_wide3(solid.center[0], solid.center[1], solid.center[2]);
-#else
-    (void)solid;
-#endif
-    return r;
-}
-
-FN Geometry make_geometry(GLOBAL const SolidRecord* solids, GLOBAL const real* reals, GLOBAL const PlaneRecord* planes,
-                          GLOBAL const PlaneRef* plane_refs, GLOBAL const u32* words, GLOBAL const BvhNode* inner_nodes) {
-    Geometry g;
-    g.solids = solids;
-    g.reals = reals;
-    g.planes = planes;
-    g.plane_refs = plane_refs;
-    g.words = words;
-    g.inner_nodes = inner_nodes;
-#ifndef __OPENCL_VERSION__
-    g.quartic = CSGRT_QUARTIC;
-#endif
-    return g;
-}
 
 FN hits no_hits(void) {
     hits h;
@@ -98,21 +38,17 @@ FN span whole_line(void) {
 }
 
 // Appends [in, out] unless it is empty. A ray that only touches has no segment there.
-FN hits append(hits h, real in, u32 in_surface, real out, u32 out_surface) {
-    if (!(in < out)) return h;
-    if (h.count == 0) {
-        h.in0 = in;
-        h.out0 = out;
-        h.in0_surface = in_surface;
-        h.out0_surface = out_surface;
-        h.count = 1;
-    } else if (h.count == 1) {
-        h.in1 = in;
-        h.out1 = out;
-        h.in1_surface = in_surface;
-        h.out1_surface = out_surface;
-        h.count = 2;
-    }
+FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
+    const truth first = in < out && h.count == 0, second = in < out && h.count == 1;
+    h.in0 = first ? in : h.in0;
+    h.out0 = first ? out : h.out0;
+    h.in0_surface = first ? in_surface : h.in0_surface;
+    h.out0_surface = first ? out_surface : h.out0_surface;
+    h.in1 = second ? in : h.in1;
+    h.out1 = second ? out : h.out1;
+    h.in1_surface = second ? in_surface : h.in1_surface;
+    h.out1_surface = second ? out_surface : h.out1_surface;
+    h.count = first || second ? h.count + TAG(1) : h.count;
     return h;
 }
 

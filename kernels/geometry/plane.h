@@ -17,19 +17,13 @@ FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
         above = -above;
         rate = -rate;
     }
-    if (rate < 0) {
-        if (t > s.low) {
-            s.low = t;
-            s.low_surface = surface;
-        }
-    } else if (rate > 0) {
-        if (t < s.high) {
-            s.high = t;
-            s.high_surface = surface;
-        }
-    } else if (above > 0) {
-        s.low = REAL_INFINITY;
-        s.high = -REAL_INFINITY;
+    {
+        const truth enters = rate < 0, leaves = rate > 0, outside = !enters && !leaves && above > 0;
+        const truth raises = enters && t > s.low, lowers = leaves && t < s.high;
+        s.low_surface = raises ? TAG(surface) : s.low_surface;
+        s.high_surface = lowers ? TAG(surface) : s.high_surface;
+        s.low = outside ? REAL_INFINITY : raises ? t : s.low;
+        s.high = outside ? -REAL_INFINITY : lowers ? t : s.high;
     }
     return s;
 }

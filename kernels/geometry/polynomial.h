@@ -2,14 +2,7 @@
 #ifndef CSGRT_POLYNOMIAL_H
 #define CSGRT_POLYNOMIAL_H
 
-#include "hits.h"
-
-// a b - c d with an error of at most 1.5 ulps (Kahan; Jeannerod, Louvet, Muller 2013).
-FN real difference_of_products(real a, real b, real c, real d) {
-    real cd = c * d;
-    real lost = real_fma(-c, d, cd);
-    return real_fma(a, b, -cd) + lost;
-}
+#include "quadratic.h"
 
 // Where q(u) = a u^2 + 2 b u + c is negative, within `s` (in t = shift + u): up to two pieces.
 // `discriminant` is b^2 - a c, which the caller knows in a form that does not cancel. The roots are taken in the form
@@ -34,12 +27,8 @@ FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, 
         }
         return append(h, s.low, s.low_surface, s.high, s.high_surface);
     }
-    if (!(discriminant > 0)) {
-        if (a < 0) return append(h, s.low, s.low_surface, s.high, s.high_surface);
-        if (!(c < 0)) return h;
-        // Inside at u = 0, so there are roots, however far: along an asymptote, where a is rounding, the discriminant is, too.
-        discriminant = real_fma(b, b, -a * c);
-    }
+    if (a > 0) return between_roots(a, b, c, discriminant, shift, s, surface);
+    if (!(discriminant > 0)) return a < 0 ? append(h, s.low, s.low_surface, s.high, s.high_surface) : h;
     {
         real root = real_sqrt(discriminant);
         real q = b > 0 ? -(b + root) : root - b;
@@ -47,17 +36,6 @@ FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, 
         real u2 = c / q;
         low = shift + real_min(u1, u2);
         high = shift + real_max(u1, u2);
-    }
-    if (a > 0) {
-        if (low > s.low) {
-            s.low = low;
-            s.low_surface = surface;
-        }
-        if (high < s.high) {
-            s.high = high;
-            s.high_surface = surface;
-        }
-        return append(h, s.low, s.low_surface, s.high, s.high_surface);
     }
     if (low > s.low)
         h = append(h, s.low, s.low_surface, real_min(low, s.high), low < s.high ? surface : s.high_surface);

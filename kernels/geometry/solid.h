@@ -57,10 +57,9 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
     return no_hits();
 }
 
-// The outward unit normal of a solid where its `surface` is hit at t. Where a surface has none (an apex), against the ray.
-FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+// Along the outward normal of a solid where its `surface` is hit at t, of any length.
+FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 n = make_vec3(0, 0, 0);
-    real length2;
     r = ray_at(solid, r);
 #if HAS_SOLID(SOLID_ELL)
     if (solid.type == SOLID_ELL) n = ell_normal(g.reals + solid.first_real, r, t);
@@ -111,12 +110,12 @@ FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
 #if HAS_SOLID(SOLID_REVOLVE)
     if (solid.type == SOLID_REVOLVE) n = revolve_normal(g, solid, r, t, surface);
 #endif
-    length2 = dot3(n, n);
-    if (!(length2 > 0) || length2 == REAL_INFINITY) {
-        n = scale(r.d, REAL(-1));
-        length2 = dot3(n, n);
-    }
-    return scale(n, REAL(1) / real_sqrt(length2));
+    return n;
+}
+
+// The outward unit normal. Where a surface has none (an apex), against the ray.
+FN vec3 normal_at(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+    return unit_or_against(normal_of_any_length(g, solid, r, t, surface), r.d);
 }
 
 #endif

@@ -8,34 +8,19 @@
 #ifndef CSGRT_TGC_H
 #define CSGRT_TGC_H
 
-#include "affine.h"
-#include "plane.h"
+#include "cone.h"
 #include "quartic.h"
 
-#define TGC_SIDE 0
-#define TGC_BASE 1
-#define TGC_TOP 2
-
-// x^2 + y^2 = m^2 with m = m0 + m1 u. Its discriminant b^2 - a c equals |m0 d - m1 o|^2 - (o x d)^2 (all in x, y),
-// which does not cancel where b^2 and a c do. A ray steeper than the cone (a < 0) meets both of its nappes, one root on
-// each, and m changes sign between them: the piece on which m > 0 is the cone's.
-//
-// A cone with a true apex has it as its local origin (m0 = m1 z / d.z exactly), so that rays past the apex keep their digits.
+// The piece of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each, and m
+// changes sign between them: the piece on which m > 0 is the cone's.
 FN hits cone_inside(local_ray l, real m0, real m1, span s) {
-    real wx = difference_of_products(m0, l.d.x, m1, l.o.x);
-    real wy = difference_of_products(m0, l.d.y, m1, l.o.y);
-    real cross = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);
-    real w = real_sqrt(real_fma(wx, wx, wy * wy));
-    real discriminant = (w - real_abs(cross)) * (w + real_abs(cross));
-    real a = real_fma(l.d.x, l.d.x, l.d.y * l.d.y) - m1 * m1;
-    real b = real_fma(l.o.x, l.d.x, l.o.y * l.d.y) - m0 * m1;
-    real c = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - m0 * m0;
-    if (a < 0) {
+    const quadratic f = round_side(l, m0, m1);
+    if (f.a < 0) {
         real u = -m0 / m1;
-        if (discriminant > 0) {
-            real root = real_sqrt(discriminant);
-            real q = b > 0 ? -(b + root) : root - b;
-            real u1 = q / a, u2 = c / q;
+        if (f.discriminant > 0) {
+            real root = real_sqrt(f.discriminant);
+            real q = f.b > 0 ? -(f.b + root) : root - f.b;
+            real u1 = q / f.a, u2 = f.c / q;
             u = m1 > 0 ? real_max(u1, u2) : real_min(u1, u2);
         }
         u = l.shift + u;
@@ -48,7 +33,7 @@ FN hits cone_inside(local_ray l, real m0, real m1, span s) {
         }
         return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
     }
-    return quadratic_inside(a, b, c, discriminant, l.shift, s, TGC_SIDE);
+    return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
 }
 
 // Everything lies within radius2, so the quartic is solved on a bounded piece, with u in units of the direction's length.
@@ -100,9 +85,8 @@ FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
 
 FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = g.reals + solid.first_real;
-    span s = clip_to_face(whole_line(), g, solid.first_plane, r, TGC_BASE);
+    span s = between_ends(g, solid, r);
     local_ray l;
-    s = clip_to_face(s, g, solid.first_plane + 1, r, TGC_TOP);
     if (!(s.low < s.high)) return no_hits();
     l = to_local(p, r);
     if (p[16] == 0) return cone_inside(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z, s);
@@ -114,9 +98,9 @@ FN vec3 tgc_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 at;
     real a, b;
     if (surface != TGC_SIDE) return face_normal(g, solid.first_plane + surface - TGC_BASE);
+    if (p[16] == 0) return round_normal(p, r, t);
     at = local_point(to_local(p, r), t);
     a = real_fma(p[13], at.z, p[12]);
-    if (p[16] == 0) return affine_normal(p, make_vec3(at.x, at.y, -a * p[13]));
     b = real_fma(p[15], at.z, p[14]);
     return affine_normal(p, make_vec3(at.x * b * b, at.y * a * a,
                                       at.x * at.x * b * p[15] + at.y * at.y * a * p[13] -

@@ -3,7 +3,7 @@
 #ifndef CSGRT_LAYOUT_H
 #define CSGRT_LAYOUT_H
 
-#include "base.h"
+#include "vectors.h"
 
 // ---- Solids ----
 // A solid's parameters are `real`s from SolidRecord.first_real on; what they mean stands in geometry/<solid>.h.

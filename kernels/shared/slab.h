@@ -10,11 +10,11 @@
 #include "layout.h"
 
 typedef struct {
-    float px, py, pz;  // a point of the ray, relative to the center
-    float ix, iy, iz;  // 1 / direction
-    float t_min;       // in the hierarchy's own parameter
-    float pad;         // single precision: by which boxes grow
-    int hits_sphere;   // 0: nothing can be hit
+    single px, py, pz;  // a point of the ray, relative to the center
+    single ix, iy, iz;  // 1 / direction
+    single t_min;       // in the hierarchy's own parameter
+    single pad;         // single precision: by which boxes grow
+    truth hits_sphere;  // 0: nothing can be hit
     real shift, length;  // the hierarchy's parameter is length * t - shift
 } slab_ray;
 
@@ -31,37 +31,37 @@ FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
     vec3 p = moved(o, shift, d);
     real pad = (radius + real_max(real_abs(o.x.hi), real_max(real_abs(o.y.hi), real_abs(o.z.hi)))) * REAL(0x1p-16);
     real reach = radius * SLAB_REACH;
-    s.pad = (float)pad;
+    s.pad = to_single(pad);
     s.shift = shift;
     s.length = length;
     if (sizeof(real) == 4) reach = reach + REAL(2) * pad;
     s.hits_sphere = dot3(p, p) <= reach * reach;
-    s.px = (float)p.x;
-    s.py = (float)p.y;
-    s.pz = (float)p.z;
-    s.ix = 1.0f / (float)d.x;
-    s.iy = 1.0f / (float)d.y;
-    s.iz = 1.0f / (float)d.z;
-    s.t_min = (float)(real_max(t_min * length - shift, REAL(-4) * radius) - radius * SLAB_SLACK);
+    s.px = to_single(p.x);
+    s.py = to_single(p.y);
+    s.pz = to_single(p.z);
+    s.ix = SINGLE(1) / to_single(d.x);
+    s.iy = SINGLE(1) / to_single(d.y);
+    s.iz = SINGLE(1) / to_single(d.z);
+    s.t_min = to_single(real_max(t_min * length - shift, REAL(-4) * radius) - radius * SLAB_SLACK);
     return s;
 }
 
-FN float grown(float x, float pad) { return sizeof(real) == 4 ? x + pad : x; }
+FN single grown(float x, single pad) { return sizeof(real) == 4 ? x + pad : SINGLE(x); }
 
 #define BOX_MISSED 3.0e38f
 
 // Where the ray enters the box, or before that, in the hierarchy's parameter; BOX_MISSED: it does not.
 // fmin and fmax pass a NaN by: 0 * infinity arises only for a ray within a padded face's plane, outside the true box.
-FN float box_entry(slab_ray s, BvhNode node) {
-    float x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
-    float y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
-    float z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
-    float in = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), s.t_min));
-    float out = fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmax(z0, z1));
-    return in <= out ? in : BOX_MISSED;
+FN single box_entry(slab_ray s, BvhNode node) {
+    single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
+    single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
+    single z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
+    single in = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), s.t_min));
+    single out = fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmax(z0, z1));
+    return in <= out ? in : SINGLE(BOX_MISSED);
 }
 
-FN int box_is_hit(slab_ray s, BvhNode node) { return box_entry(s, node) < BOX_MISSED; }
+FN single_truth box_is_hit(slab_ray s, BvhNode node) { return box_entry(s, node) < BOX_MISSED; }
 
 // A distance along the ray that nothing in a box comes before which is entered at `at`. The box's padding covers the
 // rounding of its own test, not that of a far origin's distance.

@@ -122,7 +122,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     std::vector<Statistics> frames;
     for (int frame = 0; frame < arguments.repeat; ++frame) {
         progress.range(double(frame) / arguments.repeat, double(frame + 1) / arguments.repeat);
-        image = renderer.render(view);
+        renderer.render(view, image);  // into the same memory, as a viewer does
         frames.push_back(renderer.statistics());
         check_interrupt();
     }

@@ -1,6 +1,9 @@
 #include "device/kernel_source.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -28,17 +31,27 @@ std::string resolve(const std::string& includer, std::string_view included) {
     return folder.append(included);
 }
 
+/// What follows these words, between which there may be spaces; nothing if they are not what `line` begins with.
+std::optional<std::string_view> after(std::string_view line, std::initializer_list<std::string_view> words) {
+    for (const std::string_view word : words) {
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        if (!line.starts_with(word)) return std::nullopt;
+        line.remove_prefix(word.size());
+    }
+    return line;
+}
+
 /// What stands in the quotes of an #include line; empty for any other line.
 std::string_view included_file(std::string_view line) {
-    const auto skip_spaces = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
-    const auto skip = [&](std::string_view word) {
-        skip_spaces();
-        const bool there = line.starts_with(word);
-        if (there) line.remove_prefix(word.size());
-        return there;
-    };
-    if (!skip("#") || !skip("include") || !skip("\"")) return {};
-    return line.substr(0, line.find('"'));
+    const auto name = after(line, {"#", "include", "\""});
+    return name ? name->substr(0, name->find('"')) : std::string_view();
+}
+
+/// "geometry/ell.h" -> "CSGRT_ELL_H".
+std::string guard_of(const std::string& name) {
+    std::string guard = "CSGRT_" + name.substr(name.find_last_of('/') + 1);
+    for (char& c : guard) c = c == '.' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return guard;
 }
 
 class Assembly {
@@ -50,6 +63,8 @@ public:
         for (int line_number = 1; !rest.empty(); ++line_number) {
             const std::string_view line = rest.substr(0, rest.find('\n'));
             rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+            if (const auto guard = after(line, {"#", "undef", "CSGRT_"}))  // what it guards may be included once more
+                std::erase_if(done_, [&](const std::string& done) { return guard_of(done) == "CSGRT_" + std::string(*guard); });
             if (const std::string_view included = included_file(line); !included.empty()) {
                 add(resolve(name, included), name);
                 mark(line_number + 1, name);

@@ -5,9 +5,17 @@
 namespace csgrt {
 namespace {
 
-std::vector<std::string> defines(const CompiledScene& scene, const Settings& settings) {
+constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet.h
+
+// On a processor eight rays go side by side, in its vectors.
+bool in_packets(const Device& device, const Settings& settings) {
+    return device.info().type == "cpu" && settings.precision == Precision::double_;
+}
+
+std::vector<std::string> defines(const CompiledScene& scene, const Settings& settings, bool packets) {
     std::vector<std::string> all = defines_of(scene, settings);
     all.push_back("CSGRT_PRIVATE_ENDS");
+    if (packets) all.push_back("CSGRT_PACKETS");
     if (scene.solids.size() > 32) all.push_back("CSGRT_FEW=64u");  // measured: bench/NOTES.md
     return all;
 }
@@ -16,7 +24,10 @@ std::vector<std::string> defines(const CompiledScene& scene, const Settings& set
 
 FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
     : device_(device),
-      program_(device, assemble_program({"0_cull_blocks.cl", "first_hits.cl"}), defines(scene, settings),
+      rays_an_item_(in_packets(device, settings) ? packet_rays : 1),
+      program_(device,
+               assemble_program({"0_cull_blocks.cl", rays_an_item_ == 1 ? "first_hits.cl" : "first_hits_packets.cl"}),
+               defines(scene, settings, rays_an_item_ != 1),
                settings.precision != Precision::double_),
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")),
@@ -32,7 +43,7 @@ std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers
     const SceneBuffers& s = scene;
     overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
     overflows_.queue_fill(0, sizeof(cl_uint));
-    const Event draw = first_hits_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+    const Event draw = first_hits_.launch(rays / rays_an_item_, work_group / rays_an_item_, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                           s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
                                           tile.lights, cull_.lists(), tile.rays, overflows_, overflown_, tile.picture);
     const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();

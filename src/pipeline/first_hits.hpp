@@ -20,6 +20,7 @@ public:
 
 private:
     Device& device_;
+    std::uint32_t rays_an_item_;
     Program program_;
     Cull cull_;
     Kernel first_hits_;

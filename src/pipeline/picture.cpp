@@ -1,6 +1,7 @@
 #include "pipeline/picture.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "kernel_geometry.hpp"
 #include "parallel.hpp"
@@ -36,7 +37,13 @@ void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t e
                         const std::size_t place = places[static_cast<std::size_t>(block - drawn.begin())];
                         const float* source = values + p * size + place * BLOCK * BLOCK + y * BLOCK;
                         std::fill(line + x, line + at, planes[p].background);
-                        std::copy(source, source + (next - at), line + at);
+                        if (next - at == BLOCK) {
+                            std::array<float, BLOCK> eight;  // of a fixed size: no call
+                            std::copy_n(source, BLOCK, eight.begin());
+                            std::copy(eight.begin(), eight.end(), line + at);
+                        } else {
+                            std::copy_n(source, next - at, line + at);
+                        }
                         x = next;
                     }
                     const std::size_t line_end = std::min<std::size_t>((to - start) * BLOCK, width);

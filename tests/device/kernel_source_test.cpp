@@ -44,6 +44,15 @@ TEST_CASE("an assembled program has each file once and no #include left", "[devi
     CHECK(text.find("SolidRecord;") < text.find("__kernel void count_hits("));
 }
 
+TEST_CASE("a file whose guard is undefined is assembled once more where it is included again", "[device]") {
+    const std::string text = assemble_program({"first_hits_packets.cl"});
+    CHECK(count(text, "#include") == 0);
+    for (const char* twice : {"shared/vectors.h", "shared/slab.h", "geometry/ell.h", "geometry/cone.h", "plastic.h"})
+        CHECK(count(text, std::string("#line 1 \"kernels/") + twice + "\"") == 2);
+    for (const char* once : {"shared/base.h", "shared/layout.h", "geometry/tgc.h", "geometry/tor.h", "shading.h", "packet.h"})
+        CHECK(count(text, std::string("#line 1 \"kernels/") + once + "\"") == 1);
+}
+
 TEST_CASE("#line marks give every line its own place", "[device]") {
     // Reads the marks as a compiler does, and looks each line up in the file that they name.
     const std::string text = assemble_program({"1_count_hits.cl"});

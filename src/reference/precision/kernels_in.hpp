@@ -8,6 +8,7 @@
 #include "reference/reference_kernels.hpp"
 
 #undef CSGRT_BASE_H
+#undef CSGRT_VECTORS_H
 #undef CSGRT_LAYOUT_H
 #undef SOLID_CENTER
 #pragma GCC diagnostic ignored "-Wconversion"

@@ -1,0 +1,66 @@
+// The tables that solids live in, and what is known of their types.
+#ifndef CSGRT_TABLES_H
+#define CSGRT_TABLES_H
+
+#include "../shared/layout.h"
+
+typedef struct {
+    GLOBAL const SolidRecord* solids;
+    GLOBAL const real* reals;
+    GLOBAL const PlaneRecord* planes;
+    GLOBAL const PlaneRef* plane_refs;
+    GLOBAL const u32* words;
+    GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many parts
+#ifndef __OPENCL_VERSION__
+    u32 quartic;  // the host chooses as it runs; a program for a device has one method, so that it holds no other
+#endif
+} Geometry;
+
+// How quartics are solved; quartic.h.
+#define QUARTIC_BRACKETED 0
+#define QUARTIC_UNSHIFTED 1
+#define QUARTIC_FERRARI 2
+#define QUARTIC_YUKSEL 3
+#ifndef CSGRT_QUARTIC
+#define CSGRT_QUARTIC QUARTIC_BRACKETED
+#endif
+#ifdef __OPENCL_VERSION__
+#define QUARTIC_OF(g) CSGRT_QUARTIC
+#else
+#define QUARTIC_OF(g) (g).quartic
+#endif
+
+// Solids of which a ray may have more than two segments.
+#define MANY_SEGMENTS                                                                                            \
+    (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_SUPERELL | 1u << SOLID_PLATE | \
+     1u << SOLID_HRT | 1u << SOLID_METABALL)
+
+// Solids of which it has one at most.
+#define ONE_SEGMENT (1u << SOLID_ELL | 1u << SOLID_ARB | 1u << SOLID_HALF | 1u << SOLID_PART)
+
+// What a ray knows of the solid that it is put to.
+FN ray3 ray_at(SolidRecord solid, ray3 r) {
+#ifdef CSGRT_EYE_RELATIVE
+    r.center = make_wide3(solid.center[0], solid.center[1], solid.center[2]);
+#else
+    (void)solid;
+#endif
+    return r;
+}
+
+FN Geometry make_geometry(GLOBAL const SolidRecord* solids, GLOBAL const real* reals, GLOBAL const PlaneRecord* planes,
+                          GLOBAL const PlaneRef* plane_refs, GLOBAL const u32* words, GLOBAL const BvhNode* inner_nodes) {
+    Geometry g;
+    g.solids = solids;
+    g.reals = reals;
+    g.planes = planes;
+    g.plane_refs = plane_refs;
+    g.words = words;
+    g.inner_nodes = inner_nodes;
+#ifndef __OPENCL_VERSION__
+    g.quartic = CSGRT_QUARTIC;
+#endif
+    return g;
+}
+
+#endif

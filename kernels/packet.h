@@ -1,0 +1,194 @@
+// The closed-form solids once more, for a packet of rays side by side: a row of eight pixels of a block. For processors, whose
+// work-items have vectors: what a ray waits for, others use.
+//
+// The source is the same (one ray's `real` becomes a vector), so the bits are: vectors round each number as scalars do.
+#ifndef CSGRT_PACKET_H
+#define CSGRT_PACKET_H
+
+#include "camera.h"
+#include "geometry/solid.h"
+#include "plastic.h"
+#include "shared/slab.h"
+
+#define PACKET 8u
+
+FN double8 real_sqrt(double8 x) { return sqrt(x); }
+FN double8 real_fma(double8 a, double8 b, double8 c) { return fma(a, b, c); }
+FN double8 real_abs(double8 x) { return fabs(x); }
+FN double8 real_min(double8 a, double8 b) { return a < b ? a : b; }
+FN double8 real_max(double8 a, double8 b) { return a > b ? a : b; }
+FN float8 to_single(double8 x) { return convert_float8(x); }
+FN int none(long8 x) { return !any(x); }
+
+// What base.h calls these of one ray.
+#define real double8
+#define wide double8
+#define single float8
+#define truth long8
+#define single_truth int8
+#define tag ulong8
+
+// Types, and functions whose arguments do not tell the two kinds apart.
+#define vec3 packet_vec3
+#define wide3 packet_wide3
+#define pair packet_pair
+#define offset3 packet_offset3
+#define world_ray packet_world_ray
+#define ray3 packet_ray3
+#define slab_ray packet_slab_ray
+#define hits packet_hits
+#define span packet_span
+#define local_ray packet_local_ray
+#define quadratic packet_quadratic
+#define sight packet_sight
+#define finish packet_finish
+#define rgb packet_rgb
+#define make_vec3 packet_make_vec3
+#define make_wide3 packet_make_wide3
+#define no_hits packet_no_hits
+#define whole_line packet_whole_line
+#define plane_normal packet_plane_normal
+#define face_normal packet_face_normal
+
+#undef CSGRT_VECTORS_H
+#undef CSGRT_VIEW_H
+#undef CSGRT_SLAB_H
+#undef CSGRT_HITS_H
+#undef CSGRT_AFFINE_H
+#undef CSGRT_PLANE_H
+#undef CSGRT_QUADRATIC_H
+#undef CSGRT_ARB_H
+#undef CSGRT_ELL_H
+#undef CSGRT_HALF_H
+#undef CSGRT_CONE_H
+#undef CSGRT_PLASTIC_H
+#include "shared/vectors.h"
+#include "view.h"
+#include "shared/slab.h"
+#include "geometry/hits.h"
+#include "geometry/affine.h"
+#include "geometry/plane.h"
+#include "geometry/quadratic.h"
+#include "geometry/arb.h"
+#include "geometry/ell.h"
+#include "geometry/half.h"
+#include "geometry/cone.h"
+#include "plastic.h"
+
+// The side of a cylinder or of a cone that the rays are less steep than; *odd: the others, which tgc.h knows about.
+FN hits cone_inside(Geometry g, SolidRecord solid, ray3 r, truth* odd) {
+    GLOBAL const parameter* p = g.reals + solid.first_real;
+    const span s = between_ends(g, solid, r);
+    local_ray l;
+    quadratic f;
+    if (none(s.low < s.high)) return no_hits();
+    l = to_local(p, r);
+    f = round_side(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z);
+    *odd = s.low < s.high && !(f.a > 0);
+    return between_roots(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
+}
+
+#undef real
+#undef wide
+#undef single
+#undef truth
+#undef single_truth
+#undef tag
+#undef vec3
+#undef wide3
+#undef pair
+#undef offset3
+#undef world_ray
+#undef ray3
+#undef slab_ray
+#undef hits
+#undef span
+#undef local_ray
+#undef quadratic
+#undef sight
+#undef finish
+#undef rgb
+#undef make_vec3
+#undef make_wide3
+#undef no_hits
+#undef whole_line
+#undef plane_normal
+#undef face_normal
+
+// Is it a solid that packets know: of at most one segment, and without a quartic?
+FN int takes_packets(Geometry g, SolidRecord solid) {
+    return solid.type == SOLID_ARB || solid.type == SOLID_ELL || solid.type == SOLID_HALF ||
+           (solid.type == SOLID_TGC && g.reals[solid.first_real + 16] == 0);
+}
+
+// What each ray meets of such a solid. *odd: rays of which this does not say it.
+FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r, long8* odd) {
+    *odd = 0;
+#if HAS_SOLID(SOLID_ARB)
+    if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_ELL)
+    if (solid.type == SOLID_ELL) return ell_intersect(g.reals + solid.first_real, r);
+#endif
+#if HAS_SOLID(SOLID_HALF)
+    if (solid.type == SOLID_HALF) return half_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_TGC)
+    if (solid.type == SOLID_TGC) return cone_inside(g, solid, r, odd);
+#endif
+    return packet_no_hits();
+}
+
+// Along the outward normals where rays hit the same surface of such a solid at t; 0: it is not known here.
+FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
+#if HAS_SOLID(SOLID_ELL)
+    if (solid.type == SOLID_ELL) {
+        *n = ell_normal(g.reals + solid.first_real, r, t);
+        return 1;
+    }
+#endif
+#if HAS_SOLID(SOLID_TGC)
+    if (solid.type == SOLID_TGC && surface == TGC_SIDE && g.reals[solid.first_real + 16] == 0) {
+        *n = round_normal(g.reals + solid.first_real, r, t);
+        return 1;
+    }
+#endif
+    return 0;
+}
+
+// Bit k: ray k.
+FN u32 bits_of(int8 x) {
+    const int8 bit = x & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    const int4 four = bit.lo | bit.hi;
+    const int2 two = four.lo | four.hi;
+    return (u32)(two.x | two.y);
+}
+FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
+FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
+
+FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
+
+// The rays one by one.
+typedef struct {
+    real ox[PACKET], oy[PACKET], oz[PACKET], dx[PACKET], dy[PACKET], dz[PACKET];
+} packet_lanes;
+
+FN packet_lanes lanes_of(packet_ray3 r) {
+    packet_lanes lanes;
+    vstore8(r.o.x, 0, lanes.ox);
+    vstore8(r.o.y, 0, lanes.oy);
+    vstore8(r.o.z, 0, lanes.oz);
+    vstore8(r.d.x, 0, lanes.dx);
+    vstore8(r.d.y, 0, lanes.dy);
+    vstore8(r.d.z, 0, lanes.dz);
+    return lanes;
+}
+
+FN ray3 lane(const packet_lanes* lanes, u32 k) {
+    ray3 r;
+    r.o = make_wide3(lanes->ox[k], lanes->oy[k], lanes->oz[k]);
+    r.d = make_vec3(lanes->dx[k], lanes->dy[k], lanes->dz[k]);
+    return r;
+}
+
+#endif

@@ -1,0 +1,143 @@
+// From what a packet's rays see first to the channels of their pixels: shading.h's work, for eight at once.
+#ifndef CSGRT_PACKET_PIXELS_H
+#define CSGRT_PACKET_PIXELS_H
+
+#include "packet_hits.h"
+#include "shading.h"
+
+// Of what the rays of `hit` see first: along the surface's outward normal. The others look like the first of them.
+FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
+    real x[PACKET], y[PACKET], z[PACKET];
+    packet_vec3 n;
+    u32 rest = hit, k;
+    while (rest) {
+        const u32 first = lowest(rest);
+        const End seen = p->fronts[first].seen;
+        u32 same = 0;
+        for (k = first; k < PACKET; ++k) {
+            const End other = p->fronts[k].seen;
+            same |= other.solid == seen.solid && other.surface == seen.surface ? 1u << k & rest : 0;
+        }
+        if ((same & (same - 1u)) && packet_normals(g, g.solids[seen.solid], p->rays, t, seen.surface, &n)) {
+            real nx[PACKET], ny[PACKET], nz[PACKET];
+            vstore8(n.x, 0, nx);
+            vstore8(n.y, 0, ny);
+            vstore8(n.z, 0, nz);
+            for (k = first; k < PACKET; ++k)
+                if (same >> k & 1u) {
+                    x[k] = nx[k];
+                    y[k] = ny[k];
+                    z[k] = nz[k];
+                }
+        } else {
+            const vec3 one = normal_of_any_length(g, g.solids[seen.solid], lane(&p->lanes, first), seen.t, seen.surface);
+            same = 1u << first;
+            x[first] = one.x;
+            y[first] = one.y;
+            z[first] = one.z;
+        }
+        rest &= ~same;
+    }
+    for (k = 0; k < PACKET; ++k)
+        if (!(hit >> k & 1u)) {
+            x[k] = x[lowest(hit)];
+            y[k] = y[lowest(hit)];
+            z[k] = z[lowest(hit)];
+        }
+    n.x = vload8(0, x);
+    n.y = vload8(0, y);
+    n.z = vload8(0, z);
+    return n;
+}
+
+FN void put_channel(__global float* channel, u32 which, float8 values) {
+    if (which == 0xff) {
+        vstore8(values, 0, channel);
+    } else {
+        float one[PACKET];
+        vstore8(values, 0, one);
+        for (; which; which &= which - 1u) channel[lowest(which)] = one[lowest(which)];
+    }
+}
+
+// What the rays of `hit` see, of which there are some. The others look like the first of them.
+typedef struct {
+    packet_sight sight;
+    float8 region, solid;
+} packet_view;
+
+FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, __global const RegionRecord* regions,
+                       __global const MaterialRecord* materials, __global const LightRecord* lights, u32 hit) {
+    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], t[PACKET];
+    ulong shine[PACKET];
+    float region[PACKET], solid[PACKET];
+    u32 within = 0, k;
+    long8 flipped;
+    packet_finish finish;
+    packet_vec3 n;
+    packet_view view;
+    for (k = 0; k < PACKET; ++k) {
+        const front* w = p->fronts + (hit >> k & 1u ? k : lowest(hit));
+        const MaterialRecord m = materials[regions[w->region].material];
+        t[k] = w->seen.t;
+        region[k] = (float)(w->region + 1);
+        solid[k] = (float)(w->seen.solid + 1);
+        within |= w->from_within ? 1u << k : 0;
+        red[k] = m.r;
+        green[k] = m.g;
+        blue[k] = m.b;
+        specular[k] = m.specular;
+        diffuse[k] = m.diffuse;
+        ambient[k] = m.ambient;
+        shine[k] = m.shine;
+    }
+    finish.color.r = vload8(0, red);
+    finish.color.g = vload8(0, green);
+    finish.color.b = vload8(0, blue);
+    finish.specular = vload8(0, specular);
+    finish.diffuse = vload8(0, diffuse);
+    finish.ambient = vload8(0, ambient);
+    finish.shine = vload8(0, shine);
+    n = unit_or_against(seen_normals(p, g, hit, vload8(0, t)), p->rays.d);
+    flipped = convert_long8(of_bits(within));
+    n.x = flipped ? -n.x : n.x;
+    n.y = flipped ? -n.y : n.y;
+    n.z = flipped ? -n.z : n.z;
+    view.sight = look_at(f, lights, finish, p->rays, vload8(0, t), n, (double8)(p->t_min));
+    view.region = vload8(0, region);
+    view.solid = vload8(0, solid);
+    return view;
+}
+
+// The pixels of `which`; those of `hit` see something.
+FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, __global const RegionRecord* regions,
+                   __global const MaterialRecord* materials, __global const LightRecord* lights, __global float* picture,
+                   u32 which, u32 hit) {
+    const size_t size = f->ray_count;
+    const int8 seen = of_bits(hit);
+    packet_view v;
+    u32 k;
+    if (hit) v = view_of(p, f, g, regions, materials, lights, hit);
+#define PUT(value, background) put_channel(picture, which, seen ? value : (float8)(background)), picture += size
+    if (f->channels & CHANNEL_COLOR) {
+        PUT(convert_float8(v.sight.color.r), f->background[0]);
+        PUT(convert_float8(v.sight.color.g), f->background[1]);
+        PUT(convert_float8(v.sight.color.b), f->background[2]);
+        PUT((float8)(1), 0);
+    }
+    if (f->channels & CHANNEL_DISTANCE) PUT(convert_float8(v.sight.t), (float)REAL_INFINITY);
+    if (f->channels & CHANNEL_NORMAL) {
+        PUT(convert_float8(v.sight.n.x), 0);
+        PUT(convert_float8(v.sight.n.y), 0);
+        PUT(convert_float8(v.sight.n.z), 0);
+    }
+    if (f->channels & CHANNEL_IDS) {
+        PUT(v.region, 0);
+        PUT(v.solid, 0);
+    }
+    if (f->channels & CHANNEL_COUNTS)
+        for (k = 0; k < 3; ++k) PUT((float8)(0), 0);
+#undef PUT
+}
+
+#endif

@@ -1,0 +1,81 @@
+// BRL-CAD's plastic at a first hit: ambient light from the eye, diffuse and specular light from each light, no shadows.
+//
+//   colour * (ambient cos(n, eye)) + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
+//
+// The power is by squaring: multiplications only, so every device gives the same bits.
+#ifndef CSGRT_PLASTIC_H
+#define CSGRT_PLASTIC_H
+
+#include "shared/layout.h"
+
+typedef struct {
+    real r, g, b;
+} rgb;
+
+typedef struct {
+    rgb color;
+    real specular, diffuse, ambient;
+    tag shine;
+} finish;
+
+FN real whole_power(real x, tag n) {
+    real result = REAL(1);
+    while (!none(n != 0)) {
+        result = (n & 1u) != 0 ? result * x : result;
+        x = x * x;
+        n >>= 1;
+    }
+    return result;
+}
+
+// n: unit normal towards the viewer's side of the surface; d: direction of the ray, any length.
+FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, wide3 at, vec3 n, vec3 d) {
+    const vec3 view = scale(normalize3(d), REAL(-1));
+    const real facing = dot3(n, view);
+    const real ambient = facing > 0 ? facing * REAL(f->ambient) * m.ambient : REAL(0);
+    rgb c;
+    u32 i;
+    c.r = ambient * m.color.r;
+    c.g = ambient * m.color.g;
+    c.b = ambient * m.color.b;
+    for (i = 0; i < f->light_count; ++i) {
+        const LightRecord light = lights[i];
+        const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), at)));
+        const real cosine = dot3(n, to_light), diffuse = cosine * m.diffuse;
+        const real mirrored = dot3(subtract(scale(n, REAL(2) * cosine), to_light), view);
+        const truth lit = cosine > 0, shines = lit && mirrored > 0;
+        real specular = REAL(0);
+        if (none(lit)) continue;
+        if (!none(shines)) specular = shines ? whole_power(mirrored, m.shine) * m.specular : specular;
+        c.r = lit ? c.r + REAL(light.r) * (diffuse * m.color.r + specular) : c.r;
+        c.g = lit ? c.g + REAL(light.g) * (diffuse * m.color.g + specular) : c.g;
+        c.b = lit ? c.b + REAL(light.b) * (diffuse * m.color.b + specular) : c.b;
+    }
+    return c;
+}
+
+// What is seen of a surface with the outward unit normal n that is hit at t.
+typedef struct {
+    real t;
+    vec3 n;
+    rgb color;
+} sight;
+
+// Inside already (t < t_min): the hit is the eye itself, seen face on.
+FN sight look_at(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n, real t_min) {
+    const truth inside = t < t_min;
+    sight seen;
+    if (!none(inside)) {
+        const vec3 face_on = scale(normalize3(r.d), REAL(-1));
+        t = inside ? t_min : t;
+        n.x = inside ? face_on.x : n.x;
+        n.y = inside ? face_on.y : n.y;
+        n.z = inside ? face_on.z : n.z;
+    }
+    seen.t = t;
+    seen.n = n;
+    seen.color = plastic(f, lights, m, wide_add_scaled(r.o, t, widen(r.d)), n, r.d);
+    return seen;
+}
+
+#endif
