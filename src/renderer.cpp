@@ -153,7 +153,8 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     auto start = Clock::now();
     impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
     impl.statistics.ms.compile = milliseconds_since(start);
-    impl.kernels = make_kernels(impl.scene, settings.precision, settings.quartic);
+    const auto make = settings.reference ? make_kernels_to_run : make_kernels;
+    impl.kernels = make(impl.scene, settings.precision, settings.quartic);
     impl.statistics.precision = name_of(precision_names, settings.precision);
     if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
     impl.statistics.contraction = settings.contraction;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "kernel_geometry.hpp"
+#include "reference/precision/double_fma.hpp"
 
 namespace csgrt {
 
@@ -22,6 +23,13 @@ std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Preci
     if (precision == Precision::single_world) return make_single_world_kernels(scene, quartic);
     if (precision == Precision::quad) return make_quad_kernels(scene, quartic);
     return make_double_kernels(scene, quartic);
+}
+
+std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, Precision precision, Quartic quartic) {
+#ifdef CSGRT_DOUBLE_FMA
+    if (precision == Precision::double_ && __builtin_cpu_supports("fma")) return make_fused_kernels(scene, quartic);
+#endif
+    return make_kernels(scene, precision, quartic);
 }
 
 Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const {

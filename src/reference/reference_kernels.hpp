@@ -29,8 +29,11 @@ public:
 
 /// `scene` must outlive the result. Precision::quad is on the host only.
 std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Precision precision, Quartic quartic);
+/// The same for a reference, which computes with them: by the instructions that this processor has. The same bits.
+std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, Precision precision, Quartic quartic);
 
 std::unique_ptr<ReferenceKernels> make_double_kernels(const CompiledScene& scene, Quartic quartic);
+std::unique_ptr<ReferenceKernels> make_fused_kernels(const CompiledScene& scene, Quartic quartic);
 std::unique_ptr<ReferenceKernels> make_single_kernels(const CompiledScene& scene, Quartic quartic);
 std::unique_ptr<ReferenceKernels> make_single_world_kernels(const CompiledScene& scene, Quartic quartic);
 std::unique_ptr<ReferenceKernels> make_quad_kernels(const CompiledScene& scene, Quartic quartic);

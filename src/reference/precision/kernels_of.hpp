@@ -107,10 +107,12 @@ std::vector<std::byte> bytes_of(const T* values, std::size_t count) {
     return bytes;
 }
 
-// ---- A frame in this precision, made once and kept for the rays of one call. ----
+// ---- A frame in this precision. ----
 
-k::Frame convert_frame(const kernel::Frame& f) {
-    k::Frame frame{};
+[[maybe_unused]] const kernel::Frame& convert_frame(const kernel::Frame& f, const kernel::Frame*) { return f; }
+template <class Frame>
+Frame convert_frame(const kernel::Frame& f, const Frame*) {
+    Frame frame{};
     for (int i = 0; i < 3; ++i) {
         frame.eye[i] = static_cast<wide>(f.eye[i]);
         frame.u[i] = static_cast<wide>(f.u[i]);
@@ -138,6 +140,7 @@ k::Frame convert_frame(const kernel::Frame& f) {
     frame.channels = f.channels;
     return frame;
 }
+decltype(auto) convert_frame(const kernel::Frame& f) { return convert_frame(f, static_cast<const k::Frame*>(nullptr)); }
 
 k::world_ray convert_ray(const Ray& r) {
     return {{static_cast<wide>(r.origin.x), static_cast<wide>(r.origin.y), static_cast<wide>(r.origin.z)},
@@ -162,7 +165,7 @@ public:
         return {bytes(solids_), bytes(reals_), bytes(planes_), bytes(inner_nodes_), bytes(nodes_)};
     }
     std::vector<std::byte> frame(const kernel::Frame& f) const override {
-        const k::Frame frame = convert_frame(f);
+        const k::Frame& frame = convert_frame(f);
         return bytes_of(&frame, 1);
     }
     std::vector<std::byte> lights(const std::vector<kernel::LightRecord>& lights) const override {
@@ -200,7 +203,7 @@ public:
 
     double distance(const kernel::Frame& f, const Ray& ray, double t) const override {
 #ifdef CSGRT_EYE_RELATIVE
-        const k::Frame frame = convert_frame(f);
+        const k::Frame& frame = convert_frame(f);
         const double all = k::distance_along(k::geometry_ray(&frame, convert_ray(ray)), static_cast<real>(t));
         if (!frame.listed) return all;
         const Vec3& d = ray.direction;
@@ -213,7 +216,7 @@ public:
 #endif
     }
     Vec3 normal(const kernel::Frame& f, const Ray& ray, const kernel::End& end) const override {
-        const k::Frame frame = convert_frame(f);
+        const k::Frame& frame = convert_frame(f);
         const k::vec3 n = normal_at(k::geometry_ray(&frame, convert_ray(ray)), end);
         return {static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)};
     }
@@ -222,7 +225,7 @@ public:
         if constexpr (sizeof(real) > sizeof(double)) {
             return ReferenceKernels::camera_ray(f, x, y);
         } else {
-            const k::Frame frame = convert_frame(f);
+            const k::Frame& frame = convert_frame(f);
             const k::world_ray r = k::camera_ray(&frame, {x, y, 1});
             const auto point = [](const auto& p) {
                 return Vec3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
@@ -232,7 +235,7 @@ public:
     }
     std::vector<WovenPartition> trace(const kernel::Frame& f, const Ray& ray,
                                       std::vector<kernel::End>& ends) const override {
-        const k::Frame frame = convert_frame(f);
+        const k::Frame& frame = convert_frame(f);
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const real t_min = k::t_min_along(&frame, r);
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
@@ -253,13 +256,13 @@ public:
         return woven;
     }
     double t_min(const kernel::Frame& f, const Ray& ray) const override {
-        const k::Frame frame = convert_frame(f);
+        const k::Frame& frame = convert_frame(f);
         return static_cast<double>(k::t_min_along(&frame, k::geometry_ray(&frame, convert_ray(ray))));
     }
     kernel::Pixel hit_pixel(const kernel::Frame& f, const std::vector<kernel::LightRecord>& lights,
                             std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
                             const kernel::End& end, bool leaves) const override {
-        const k::Frame frame = convert_frame(f);
+        const k::Frame& frame = convert_frame(f);
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const auto& records = lights_of(lights);
         const k::End seen{static_cast<real>(end.t), end.solid, end.surface};

@@ -1,0 +1,36 @@
+// The kernels on the host in double once more, for x86 processors that have fma as an instruction: the same bits, without a
+// call of the C library for each.
+#include "reference/precision/double_fma.hpp"
+
+#ifdef CSGRT_DOUBLE_FMA
+#include "kernel_host.hpp"
+#include "reference/reference_kernels.hpp"
+
+// The kernels' own functions alone: what they share with other files must run on any processor.
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("fma"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("fma,prefer-vector-width=128")  // wider copies of structs wait for their parts to be stored
+#endif
+
+namespace csgrt::fused {
+
+using namespace kernel;  // records, and functions so small that they become part of those that call them
+
+#include "../kernels/camera.h"
+#include "../kernels/geometry/collect.h"
+#include "../kernels/shading.h"
+
+}  // namespace csgrt::fused
+
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+#define CSGRT_KERNELS fused
+#define CSGRT_MAKE_KERNELS make_fused_kernels
+#include "reference/precision/kernels_of.hpp"
+#endif
