@@ -155,7 +155,8 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<Cha
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
     frame.first_ray = tile.first;
     const std::uint64_t pixel_bytes = planes.size() * sizeof(float);
-    const auto [seen, places] = seen_blocks(frame, tile, counts);
+    const SeenBlocks blocks = seen_blocks(frame, tile, counts);
+    const auto &seen = blocks.numbers, &places = blocks.places;
     std::vector<std::uint32_t> drawn(seen.size());
     for (std::size_t i = 0; i < seen.size(); ++i) drawn[places[i]] = seen[i];
     if (!list_rays(frame, drawn, block_rays, pixel_bytes,

@@ -45,10 +45,10 @@ Faults FaultsOf::operator()(const Tor& s) const {
 Faults FaultsOf::operator()(const Eto& s) const {
     Faults faults;
     if (!all_finite(faults, s.v, s.n, s.c, s.r, s.r_d)) return faults;
-    const bool sound = require_length(faults, "the axis", s.n) & require_length(faults, "the semi-axis c", s.c);
+    const bool axis = require_length(faults, "the axis", s.n), semi_axis = require_length(faults, "the semi-axis c", s.c);
     require_positive(faults, "the radius", s.r);
     require_positive(faults, "the semi-axis d", s.r_d);
-    if (!sound || !faults.empty()) return faults;
+    if (!axis || !semi_axis || !faults.empty()) return faults;
     const double along_axis = dot(unit(s.n), unit(s.c));
     const double reach = std::hypot(length(cross(unit(s.n), s.c)), s.r_d * along_axis);
     if (reach > s.r * (1 + rounding)) faults.push_back("the ellipse must not reach across the axis");
