@@ -14,7 +14,7 @@ function(csgrt_target_options target)
     target_compile_options(${target} PRIVATE
         -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
         $<$<BOOL:${CSGRT_WERROR}>:-Werror>)
-    if(CSGRT_SANITIZE)  # g++ sees what is not there in what the sanitizers add
+    if(CSGRT_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # it sees what is not there in what the sanitizers add
         target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)

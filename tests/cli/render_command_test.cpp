@@ -4,6 +4,7 @@
 #include <csgrt/renderer.hpp>
 
 #include "cli/command.hpp"
+#include "sanitized.hpp"
 
 using namespace command_test;
 
@@ -155,7 +156,7 @@ TEST_CASE("too little device memory exits with 5") {
     CHECK(result.out.empty());
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these need the address space themselves
+#ifndef CSGRT_SANITIZED  // these need the address space themselves
 TEST_CASE("too little host memory exits with 5") {
     NEEDS_COMMAND();
     const Folder folder;

@@ -4,6 +4,7 @@
 #include "catch.hpp"
 
 #include "oracle/campaign.hpp"
+#include "sanitized.hpp"
 
 namespace csgrt {
 
@@ -11,7 +12,7 @@ namespace csgrt {
 void check_kernels(oracle::Kind kind, std::size_t rays, std::uint64_t seed);
 
 // The sanitizers look at what is run, not at how often.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef CSGRT_SANITIZED
 inline constexpr std::size_t short_run = 4'000;
 #else
 inline constexpr std::size_t short_run = 20'000;
