@@ -85,11 +85,11 @@ std::string scene_with(const std::string& form, const json& object) {
     if (form == "model_units" || form == "camera")
         scene[form] = object;
     else if (form == "light")
-        scene["lights"] = {object};
+        scene["lights"] = json::array({object});
     else if (form == "material")
         scene["materials"]["m"] = object;
     else if (form == "region_color")
-        scene["region_colors"] = {object};
+        scene["region_colors"] = json::array({object});
     else if (form == "combination")
         scene["combinations"]["c"] = object;
     else if (form == "postfix_operator")
@@ -97,14 +97,14 @@ std::string scene_with(const std::string& form, const json& object) {
     else if (form == "rotation")
         tree({{"object", "s"}, {"rotate", object}});
     else if (form == "plane")
-        scene["solids"]["t"] = {{"type", "arbn"}, {"planes", {object}}};
+        scene["solids"]["t"] = {{"type", "arbn"}, {"planes", json::array({object})}};
     else if (form == "metaball_point" || form == "pipe_point")
-        scene["solids"]["t"] = {{"type", form.substr(0, form.find('_'))}, {"points", {object}}};
+        scene["solids"]["t"] = {{"type", form.substr(0, form.find('_'))}, {"points", json::array({object})}};
     else if (form == "sketch")
         scene["solids"]["t"] = {
             {"type", "extrude"}, {"base", {0, 0, 0}}, {"height", {0, 0, 1}}, {"sketch", object}};
     else if (form == "line" || form == "arc" || form == "circle" || form == "bezier" || form == "nurb")
-        return scene_with("sketch", {{"vertices", json::array()}, {"curves", {object}}});
+        return scene_with("sketch", {{"vertices", json::array()}, {"curves", json::array({object})}});
     else if (std::find(solids.begin(), solids.end(), form) != solids.end())
         scene["solids"]["t"] = object;
     else
