@@ -180,7 +180,8 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizo
         }
         going = !found && is_complete(w, tolerance, horizon);
     }
-    return found;
+    // What is claimed when no more events come is claimed for ever.
+    return found || (w->region != NONE && horizon == REAL_INFINITY);
 }
 
 #define RAY_MISSES 0u

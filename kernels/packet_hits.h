@@ -81,8 +81,8 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
         real horizon;
         e = *next++;
         horizon = e.node == NONE ? REAL_INFINITY : (wide)e.entry + p->offset;
-        // Which have events that nothing in this node can join; those without any are due where boxes are missed.
-        going = bits_of(vload8(0, p->due) < e.entry) & which & ~*lost & ~hit;
+        // Which have events that nothing in this node can join; behind the last one all do, or stay in what they are in.
+        going = (e.node == NONE ? which : bits_of(vload8(0, p->due) < e.entry)) & which & ~*lost & ~hit;
         for (; going; going &= going - 1u) {
             front* w = p->fronts + lowest(going);
             if (advance(w, s, p->tolerance, p->t_min, horizon)) hit |= going & (0u - going);

@@ -1,0 +1,59 @@
+// On a processor first hits go by packets of eight rays: pictures that no packet fits, and rays that part ways in one.
+#include <string>
+
+#include <csgrt/csgrt.hpp>
+
+#include "catch.hpp"
+#include "formats/parse_text.hpp"
+#include "pipeline/same_answers.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+// Cones seen from above, so that some rays of a row are steeper than their sides; a tapered cone and a torus, which have no
+// packets; surfaces seen from within; and 40 shells one in another, more than a ray has room for while none is claimed.
+std::string scene() {
+    std::string text = R"({"csgrt": 1, "units": "mm", "solids": {
+        "blunt": {"type": "cone", "base": [0, 0, 0], "height": [0, 0, 10], "radius": 9, "top_radius": 2},
+        "sharp": {"type": "cone", "base": [20, 0, 0], "height": [0, 0, 10], "radius": 9, "top_radius": 0},
+        "leaning": {"type": "tgc", "base": [-20, 0, 0], "height": [3, 0, 10], "a": [8, 0, 0], "b": [0, 5, 0], "c": [3, 0, 0], "d": [0, 4, 0]},
+        "ring": {"type": "tor", "center": [0, 20, 4], "axis": [0, 0.1, 1], "radius": 6, "tube": 2},
+        "ball": {"type": "sphere", "center": [20, 20, 5], "radius": 7},
+        "box": {"type": "box", "low": [14, 14, 3], "high": [26, 26, 30]},
+        "floor": {"type": "half", "normal": [0, 0, 1], "distance": -1})";
+    std::string shells;
+    for (int i = 0; i < 40; ++i) {
+        const std::string name = "shell" + std::to_string(i), size = std::to_string(8 - 0.1 * i);
+        text += ", \"" + name + R"(": {"type": "sphere", "center": [-20, 20, 5], "radius": )" + size + "}";
+        shells += std::string(i == 0 ? "" : ", ") + "\"" + name + "\"";
+    }
+    return text + R"(}, "combinations": {
+        "cones": {"region": true, "tree": {"union": ["blunt", "sharp", "leaning", "ring"]}},
+        "bowl": {"region": true, "tree": {"difference": ["ball", "box"]}},
+        "core": {"region": true, "tree": {"intersection": [)" +
+           shells + R"(]}},
+        "ground": {"region": true, "tree": {"difference": ["floor", "blunt", "box"]}}}})";
+}
+
+}  // namespace
+
+TEST_CASE("first hits agree at every width, where cones are steep and where rays have no room", "[agreement]") {
+    const Scene parsed = scene_of(scene());
+    Settings by_reference;
+    by_reference.reference = true;
+    Renderer reference(parsed, {}, by_reference), device(parsed, {}, test::on_device());
+    View view;
+    view.every_partition = false;
+    for (const double elevation : {90.0, 60.0, 15.0})
+        for (const double perspective : {0.0, 50.0})
+            for (int width = 1; width <= 96; width += width < 17 ? 1 : 79) {
+                INFO("elevation " << elevation << ", perspective " << perspective << ", width " << width);
+                view.width = width;
+                view.height = width < 17 ? 5 : 96;
+                view.camera.azimuth = 35;
+                view.camera.elevation = elevation;
+                view.camera.perspective = perspective;
+                test::require_same(device.render(view), reference.render(view));
+            }
+}
