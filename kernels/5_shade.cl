@@ -45,5 +45,5 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     pixel.partitions = result.partitions;
     pixel.overlap = result.overlaps;
     results[id] = result;
-    put_pixel(frame, picture, id, pixel);
+    put_pixel(frame, picture + id, pixel);
 }

@@ -166,8 +166,6 @@ FN u32 bits_of(int8 x) {
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
-FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
-
 // The rays one by one.
 typedef struct {
     real ox[PACKET], oy[PACKET], oz[PACKET], dx[PACKET], dy[PACKET], dz[PACKET];

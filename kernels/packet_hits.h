@@ -1,5 +1,7 @@
 // The first claimed partitions of a packet's rays: first_hit.h's work, but the rays go through their block's nodes together and
 // the closed-form solids are put to all of them at once. Each ray's events are its own.
+//
+// Some of the rays (`which`, `lost`, `hit`) are a word whose bit k stands for ray k.
 #ifndef CSGRT_PACKET_HITS_H
 #define CSGRT_PACKET_HITS_H
 

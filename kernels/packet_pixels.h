@@ -66,8 +66,7 @@ typedef struct {
     float8 region, solid;
 } packet_view;
 
-FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, __global const RegionRecord* regions,
-                       __global const MaterialRecord* materials, __global const LightRecord* lights, u32 hit) {
+FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit) {
     real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], t[PACKET];
     ulong shine[PACKET];
     float region[PACKET], solid[PACKET];
@@ -78,7 +77,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, __g
     packet_view view;
     for (k = 0; k < PACKET; ++k) {
         const front* w = p->fronts + (hit >> k & 1u ? k : lowest(hit));
-        const MaterialRecord m = materials[regions[w->region].material];
+        const MaterialRecord m = a.materials[a.regions[w->region].material];
         t[k] = w->seen.t;
         region[k] = (float)(w->region + 1);
         solid[k] = (float)(w->seen.solid + 1);
@@ -103,21 +102,20 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, __g
     n.x = flipped ? -n.x : n.x;
     n.y = flipped ? -n.y : n.y;
     n.z = flipped ? -n.z : n.z;
-    view.sight = look_at(f, lights, finish, p->rays, vload8(0, t), n, (double8)(p->t_min));
+    view.sight = look_at(f, a.lights, finish, p->rays, vload8(0, t), n, (double8)(p->t_min));
     view.region = vload8(0, region);
     view.solid = vload8(0, solid);
     return view;
 }
 
 // The pixels of `which`; those of `hit` see something.
-FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, __global const RegionRecord* regions,
-                   __global const MaterialRecord* materials, __global const LightRecord* lights, __global float* picture,
-                   u32 which, u32 hit) {
+FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture, u32 which,
+                   u32 hit) {
     const size_t size = f->ray_count;
     const int8 seen = of_bits(hit);
     packet_view v;
     u32 k;
-    if (hit) v = view_of(p, f, g, regions, materials, lights, hit);
+    if (hit) v = view_of(p, f, g, a, hit);
 #define PUT(value, background) put_channel(picture, which, seen ? value : (float8)(background)), picture += size
     if (f->channels & CHANNEL_COLOR) {
         PUT(convert_float8(v.sight.color.r), f->background[0]);

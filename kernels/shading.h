@@ -6,6 +6,13 @@
 #include "geometry/solid.h"
 #include "plastic.h"
 
+// How regions look.
+typedef struct {
+    GLOBAL const RegionRecord* regions;
+    GLOBAL const MaterialRecord* materials;
+    GLOBAL const LightRecord* lights;
+} appearance_tables;
+
 FN Pixel background_pixel(GLOBAL const Frame* f) {
     Pixel p;
     p.rgba[0] = f->background[0];
@@ -59,11 +66,10 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
     return p;
 }
 
-// Stores what is seen of the tile's ray `id`, channel by channel.
-FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, u32 id, Pixel p) {
+// Stores what a ray sees, channel by channel; `picture`: its place in the tile's first.
+FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, Pixel p) {
     const size_t size = f->ray_count;
     u32 i;
-    picture += id;
     if (f->channels & CHANNEL_COLOR)
         for (i = 0; i < 4; ++i, picture += size) *picture = p.rgba[i];
     if (f->channels & CHANNEL_DISTANCE) {

@@ -85,6 +85,9 @@ FN single to_single(real x) { return (float)x; }
 #define BY_PRECISION(single, twofold, quadruple) \
     (sizeof(real) == 4 ? REAL(single) : sizeof(real) == 8 ? REAL(twofold) : REAL(quadruple))
 
+// The number of the lowest bit that is set; bits > 0.
+FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
+
 FN real real_min(real a, real b) { return a < b ? a : b; }
 FN real real_max(real a, real b) { return a > b ? a : b; }
 

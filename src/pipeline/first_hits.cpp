@@ -5,7 +5,7 @@
 namespace csgrt {
 namespace {
 
-constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet.h
+constexpr std::uint32_t packet_rays = 8;  // RAYS_AN_ITEM of kernels/first_hits_packet.h
 
 // On a processor eight rays go side by side, in its vectors.
 bool in_packets(const Device& device, const Settings& settings) {
@@ -26,7 +26,8 @@ FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings&
     : device_(device),
       rays_an_item_(in_packets(device, settings) ? packet_rays : 1),
       program_(device,
-               assemble_program({"0_cull_blocks.cl", rays_an_item_ == 1 ? "first_hits.cl" : "first_hits_packets.cl"}),
+               assemble_program({"0_cull_blocks.cl", rays_an_item_ == 1 ? "first_hits_ray.h" : "first_hits_packet.h",
+                                 "first_hits.cl"}),
                defines(scene, settings, rays_an_item_ != 1),
                settings.precision != Precision::double_),
       cull_(device, program_),
@@ -43,9 +44,10 @@ std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers
     const SceneBuffers& s = scene;
     overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
     overflows_.queue_fill(0, sizeof(cl_uint));
-    const Event draw = first_hits_.launch(rays / rays_an_item_, work_group / rays_an_item_, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                          s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
-                                          tile.lights, cull_.lists(), tile.rays, overflows_, overflown_, tile.picture);
+    const Event draw =
+        first_hits_.launch(rays / rays_an_item_, work_group / rays_an_item_, tile.frame, s.solids, s.reals, s.planes,
+                           s.plane_refs, s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
+                           tile.lights, cull_.lists(), tile.rays, overflows_, overflown_, tile.picture);
     const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();
     counts.first_hits += milliseconds(draw);
     return overflown_.read<std::uint32_t>(overflows);

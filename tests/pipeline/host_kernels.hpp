@@ -35,7 +35,7 @@ using std::size_t;
 #include "../../kernels/5_shade.cl"
 #define CSGRT_SOLIDS 0xffffffffu
 inline u32 atomic_inc(u32* place) { return (*place)++; }
-#include "../../kernels/first_hit.h"
+#include "../../kernels/first_hits_ray.h"
 #include "../../kernels/first_hits.cl"
 #undef CSGRT_SOLIDS
 #pragma GCC diagnostic pop

@@ -1,0 +1,28 @@
+// The first hit of one ray, drawn (first_hits.cl).
+#ifndef CSGRT_FIRST_HITS_RAY_H
+#define CSGRT_FIRST_HITS_RAY_H
+
+#include "first_hit.h"
+#include "shading.h"
+
+#define RAYS_AN_ITEM 1u
+
+// Draws the pixel at `at`, whose channels begin at `picture`. 1: the ray had no room, nothing is drawn.
+FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const BlockNode* list, pixel_position at,
+            __global float* picture) {
+    const ray3 r = geometry_ray(f, camera_ray(f, at));
+    front w;
+    const u32 found = first_hit(f, s, list, r, &w);
+    Pixel pixel;
+    if (found == RAY_OVERFLOWS) return 1;
+    if (found == RAY_HITS) {
+        const MaterialRecord material = a.materials[a.regions[w.region].material];
+        pixel = seen_pixel(f, a.lights, material, s.g, r, w.seen, w.from_within, w.region);
+    } else {
+        pixel = background_pixel(f);
+    }
+    put_pixel(f, picture, pixel);
+    return 0;
+}
+
+#endif
