@@ -1,0 +1,47 @@
+// How a range of boxes is cut in two: by the surface area heuristic, among the borders of bins; a few boxes are put in order
+// and cut anywhere. Boxes are moved, not pointed at, so that all passes are in sequence.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace csgrt::bvh {
+
+/// Four, so that a compiler makes one instruction of them. The last one of `low` and `high` is the box's number, in two
+/// parts that a float holds exactly; what the arithmetic of boxes makes of them means nothing.
+struct alignas(16) Quad {
+    float v[4];
+};
+
+struct FloatBox {
+    Quad low, high;
+};
+
+inline constexpr float largest = std::numeric_limits<float>::max();
+inline constexpr FloatBox nothing{{{largest, largest, largest, largest}}, {{-largest, -largest, -largest, -largest}}};  // of no box
+
+inline void unite(FloatBox& to, const FloatBox& box) {
+    for (int i = 0; i < 4; ++i) to.low.v[i] = box.low.v[i] < to.low.v[i] ? box.low.v[i] : to.low.v[i];
+    for (int i = 0; i < 4; ++i) to.high.v[i] = box.high.v[i] > to.high.v[i] ? box.high.v[i] : to.high.v[i];
+}
+inline Quad middle(const FloatBox& box) {
+    Quad m;
+    for (int i = 0; i < 4; ++i) m.v[i] = 0.5f * box.low.v[i] + 0.5f * box.high.v[i];
+    return m;
+}
+inline void extend(FloatBox& to, const Quad& p) { unite(to, {p, p}); }
+
+struct Range {
+    std::size_t first, last;
+    FloatBox box, middles;  ///< around the boxes and around their middles
+    std::size_t size() const { return last - first; }
+};
+
+/// Looks at the boxes of a range.
+void measure(const std::vector<FloatBox>& boxes, Range& range);
+
+/// Moves the boxes of a range so that those of `left` come first, and measures both. False: the range is a leaf.
+bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right);
+
+}  // namespace csgrt::bvh
