@@ -31,10 +31,18 @@ FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 
 #define FEW 32u
 #endif
 typedef struct {
-    u32 count;  // more than FEW: they are not listed
-    SolidFilter filter;
+    u32 count;      // more than FEW: they are not listed
+    u32 even, odd;  // the filter
     u32 solids[FEW];
 } covered_solids;
+
+// Word by word: a processor that has stored two words just now waits longer for both of them in one.
+FN SolidFilter filter_of_covered(const covered_solids* list) {
+    SolidFilter f;
+    f.even = list->even;
+    f.odd = list->odd;
+    return f;
+}
 
 // The next solid of those whose segments' bits are given, from the first of a word on.
 FN u32 take_solid_of(cover c, u32 word, u32* bits) {
@@ -57,12 +65,13 @@ FN void list_covered(cover c, covered_solids* list) {
         }
     }
     list->count = count;
-    list->filter = filter;
+    list->even = filter.even;
+    list->odd = filter.odd;
 }
 
 FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
     u32 low = 0, high = c.segments;
-    if (!within(filter_of(solid), list->filter)) return 0;
+    if (!within(filter_of(solid), filter_of_covered(list))) return 0;
     if (list->count <= FEW) {
         while (low < list->count && list->solids[low] != solid) ++low;
         return low < list->count;
@@ -247,7 +256,7 @@ FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
 
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     const u32 size = start.end_word - start.first_word;
-    u32 value = size == 1 ? 1u : within(start.needed, list->filter) ? ROLE_UNDECIDED : 0;
+    u32 value = size == 1 ? 1u : within(start.needed, filter_of_covered(list)) ? ROLE_UNDECIDED : 0;
     if (value == ROLE_UNDECIDED && start.roles != NONE && list->count <= FEW) value = ask_roles(c.trees + start.roles, list);
     if (value == ROLE_UNDECIDED) {
 #ifdef CSGRT_LARGE_TERMS

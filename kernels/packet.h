@@ -40,6 +40,7 @@ FN int none(long8 x) { return !any(x); }
 #define span packet_span
 #define local_ray packet_local_ray
 #define quadratic packet_quadratic
+#define tor_piece packet_tor_piece
 #define sight packet_sight
 #define finish packet_finish
 #define rgb packet_rgb
@@ -61,6 +62,9 @@ FN int none(long8 x) { return !any(x); }
 #undef CSGRT_ELL_H
 #undef CSGRT_HALF_H
 #undef CSGRT_CONE_H
+#undef CSGRT_TORUS_H
+#undef CSGRT_EHY_H
+#undef CSGRT_QUADRIC_H
 #undef CSGRT_PLASTIC_H
 #include "shared/vectors.h"
 #include "view.h"
@@ -73,19 +77,47 @@ FN int none(long8 x) { return !any(x); }
 #include "geometry/ell.h"
 #include "geometry/half.h"
 #include "geometry/cone.h"
+#include "geometry/torus.h"
 #include "plastic.h"
 
-// The side of a cylinder or of a cone that the rays are less steep than; *odd: the others, which tgc.h knows about.
-FN hits cone_inside(Geometry g, SolidRecord solid, ray3 r, truth* odd) {
+// A packet's count of segments where it takes more than is here to know: the ray is to go alone.
+#define UNDECIDED 3u
+
+FN hits undecided_where(truth which, hits h) {
+    h.count = which ? TAG(UNDECIDED) : h.count;
+    return h;
+}
+
+// As one ray's (polynomial.h), where a > 0.
+FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
+    return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
+}
+
+#include "geometry/ehy.h"
+#include "geometry/quadric.h"
+
+// As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be solved.
+FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
-    const span s = between_ends(g, solid, r);
+    span s = between_ends(g, solid, r);
     local_ray l;
-    quadratic f;
     if (none(s.low < s.high)) return no_hits();
-    l = to_local(p, r);
-    f = round_side(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z);
-    *odd = s.low < s.high && !(f.a > 0);
-    return between_roots(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
+    l = quartic_ray(p[16] == 0 ? QUARTIC_BRACKETED : QUARTIC_OF(g), p, r);
+    if (p[16] == 0) {
+        const quadratic f = round_side(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z);
+        return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
+    }
+    s = tapered_piece(QUARTIC_OF(g), p, l, s);
+    return undecided_where(s.low < s.high, no_hits());
+}
+
+// As far as no quartic is to be solved.
+FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
+    const span s = tor_bend(g, solid, r);
+    tor_piece piece;
+    if (none(s.low < s.high)) return no_hits();
+    piece = tor_piece_of(QUARTIC_OF(g), g.reals + solid.first_real, r);
+    return undecided_where(s.low < s.high && piece.low < piece.high, no_hits());
 }
 
 #undef real
@@ -105,6 +137,7 @@ FN hits cone_inside(Geometry g, SolidRecord solid, ray3 r, truth* odd) {
 #undef span
 #undef local_ray
 #undef quadratic
+#undef tor_piece
 #undef sight
 #undef finish
 #undef rgb
@@ -115,15 +148,14 @@ FN hits cone_inside(Geometry g, SolidRecord solid, ray3 r, truth* odd) {
 #undef plane_normal
 #undef face_normal
 
-// Is it a solid that packets know: of at most one segment, and without a quartic?
-FN int takes_packets(Geometry g, SolidRecord solid) {
-    return solid.type == SOLID_ARB || solid.type == SOLID_ELL || solid.type == SOLID_HALF ||
-           (solid.type == SOLID_TGC && g.reals[solid.first_real + 16] == 0);
+// Is it a solid that packets know?
+FN int takes_packets(SolidRecord solid) {
+    return (1u << SOLID_ARB | 1u << SOLID_ELL | 1u << SOLID_HALF | 1u << SOLID_TGC | 1u << SOLID_TOR | 1u << SOLID_EHY |
+            1u << SOLID_QUADRIC) >> solid.type & 1u;
 }
 
-// What each ray meets of such a solid. *odd: rays of which this does not say it.
-FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r, long8* odd) {
-    *odd = 0;
+// What each ray meets of such a solid: a segment, none, or UNDECIDED.
+FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
 #if HAS_SOLID(SOLID_ARB)
     if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
 #endif
@@ -134,26 +166,45 @@ FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r, lo
     if (solid.type == SOLID_HALF) return half_intersect(g, solid, r);
 #endif
 #if HAS_SOLID(SOLID_TGC)
-    if (solid.type == SOLID_TGC) return cone_inside(g, solid, r, odd);
+    if (solid.type == SOLID_TGC) return tgc_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_TOR)
+    if (solid.type == SOLID_TOR) return tor_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_EHY)
+    if (solid.type == SOLID_EHY) return ehy_intersect(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_QUADRIC)
+    if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
 #endif
     return packet_no_hits();
 }
 
-// Along the outward normals where rays hit the same surface of such a solid at t; 0: it is not known here.
+// Along the outward normals where rays hit the same surface of such a solid at t; 0: it is a plane.
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
+    int known = surface == 0;
 #if HAS_SOLID(SOLID_ELL)
-    if (solid.type == SOLID_ELL) {
-        *n = ell_normal(g.reals + solid.first_real, r, t);
-        return 1;
-    }
+    if (solid.type == SOLID_ELL) *n = ell_normal(g.reals + solid.first_real, r, t);
+    else
 #endif
 #if HAS_SOLID(SOLID_TGC)
-    if (solid.type == SOLID_TGC && surface == TGC_SIDE && g.reals[solid.first_real + 16] == 0) {
-        *n = round_normal(g.reals + solid.first_real, r, t);
-        return 1;
-    }
+    if (solid.type == SOLID_TGC) *n = tgc_normal(g, solid, r, t, surface);
+    else
 #endif
-    return 0;
+#if HAS_SOLID(SOLID_TOR)
+    if (solid.type == SOLID_TOR) *n = tor_normal(g, solid, r, t, surface);
+    else
+#endif
+#if HAS_SOLID(SOLID_EHY)
+    if (solid.type == SOLID_EHY) *n = ehy_normal(g, solid, r, t, surface);
+    else
+#endif
+#if HAS_SOLID(SOLID_QUADRIC)
+    if (solid.type == SOLID_QUADRIC) *n = quadric_normal(g, solid, r, t, surface);
+    else
+#endif
+        known = 0;
+    return known;
 }
 
 // Bit k: ray k.

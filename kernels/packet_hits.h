@@ -23,12 +23,10 @@ typedef struct {
 FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 which) {
     const SolidRecord solid = g.solids[index];
     u32 alone = which, lost = 0;
-    if ((which & (which - 1u)) && takes_packets(g, solid)) {
-        long8 odd;
-        const packet_hits h = packet_intersect(g, solid, p->rays, &odd);
-        u32 found = bits_of(h.count != 0 && h.out0 >= p->t_min);
-        alone &= bits_of(odd);
-        found &= which & ~alone;
+    if ((which & (which - 1u)) && takes_packets(solid)) {
+        const packet_hits h = packet_intersect(g, solid, p->rays);
+        u32 found = bits_of(h.count == 1 && h.out0 >= p->t_min) & which;
+        alone &= bits_of(h.count == UNDECIDED);
         if (found) {
             real in[PACKET], out[PACKET];
             ulong in_surface[PACKET], out_surface[PACKET];

@@ -13,12 +13,14 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
     while (rest) {
         const u32 first = lowest(rest);
         const End seen = p->fronts[first].seen;
+        const SolidRecord solid = g.solids[seen.solid];
         u32 same = 0;
         for (k = first; k < PACKET; ++k) {
             const End other = p->fronts[k].seen;
             same |= other.solid == seen.solid && other.surface == seen.surface ? 1u << k & rest : 0;
         }
-        if ((same & (same - 1u)) && packet_normals(g, g.solids[seen.solid], p->rays, t, seen.surface, &n)) {
+        if (!takes_packets(solid)) same = 1u << first;
+        if ((same & (same - 1u)) && packet_normals(g, solid, p->rays, t, seen.surface, &n)) {
             real nx[PACKET], ny[PACKET], nz[PACKET];
             vstore8(n.x, 0, nx);
             vstore8(n.y, 0, ny);
@@ -30,11 +32,13 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
                     z[k] = nz[k];
                 }
         } else {
-            const vec3 one = normal_of_any_length(g, g.solids[seen.solid], lane(&p->lanes, first), seen.t, seen.surface);
-            same = 1u << first;
-            x[first] = one.x;
-            y[first] = one.y;
-            z[first] = one.z;
+            const vec3 one = normal_of_any_length(g, solid, lane(&p->lanes, first), seen.t, seen.surface);
+            for (k = first; k < PACKET; ++k)
+                if (same >> k & 1u) {
+                    x[k] = one.x;
+                    y[k] = one.y;
+                    z[k] = one.z;
+                }
         }
         rest &= ~same;
     }

@@ -56,6 +56,14 @@ FN local_ray to_local_unmoved(GLOBAL const parameter* p, ray3 r) {
     return l;
 }
 
+// As quartics take it (quartic.h).
+FN local_ray quartic_ray(u32 method, GLOBAL const parameter* p, ray3 r) {
+    return method == QUARTIC_UNSHIFTED ? to_local_unmoved(p, r) : to_local(p, r);
+}
+
+// Where it comes closest, along the unit direction d: 0 if its origin was moved there.
+FN real quartic_middle(u32 method, vec3 o, vec3 d) { return method == QUARTIC_UNSHIFTED ? -dot3(o, d) : REAL(0); }
+
 FN vec3 local_point(local_ray l, real t) { return add_scaled(l.o, t - l.shift, l.d); }
 
 #endif

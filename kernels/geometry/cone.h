@@ -1,4 +1,5 @@
-// What a ray meets of a cylinder or cone, whatever the shape of its side: the two ends; and the side of a round one.
+// What a ray meets of a cylinder or cone, whatever the shape of its side: the two ends; the side of a round one; and where it may
+// meet that of another.
 // Parameters, planes and surfaces are the tgc's (tgc.h).
 #ifndef CSGRT_CONE_H
 #define CSGRT_CONE_H
@@ -36,9 +37,36 @@ FN quadratic round_side(local_ray l, real m0, real m1) {
     return f;
 }
 
+// The piece of `s` on which a side that is not round may be met, with u in units of the direction's length: everything lies
+// within radius2. Empty: low >= high.
+FN span tapered_piece(u32 method, GLOBAL const parameter* p, local_ray l, span s) {
+    const real length = real_sqrt(dot3(l.d, l.d));
+    const real middle = quartic_middle(method, l.o, scale(l.d, REAL(1) / length));
+    const real reach = REAL(1.0001) * real_sqrt(p[17] - (dot3(l.o, l.o) - middle * middle));
+    s.low = (s.low - l.shift) * length;
+    s.high = (s.high - l.shift) * length;
+    s.low = s.low > middle - reach ? s.low : middle - reach;
+    s.high = s.high < middle + reach ? s.high : middle + reach;
+    return s;
+}
+
 FN vec3 round_normal(GLOBAL const parameter* p, ray3 r, real t) {
     const vec3 at = local_point(to_local(p, r), t);
     return affine_normal(p, make_vec3(at.x, at.y, -real_fma(p[13], at.z, p[12]) * p[13]));
+}
+
+FN vec3 tapered_normal(GLOBAL const parameter* p, ray3 r, real t) {
+    const vec3 at = local_point(to_local(p, r), t);
+    const real a = real_fma(p[13], at.z, p[12]), b = real_fma(p[15], at.z, p[14]);
+    return affine_normal(p, make_vec3(at.x * b * b, at.y * a * a,
+                                      at.x * at.x * b * p[15] + at.y * at.y * a * p[13] -
+                                          a * b * real_fma(p[13], b, a * p[15])));
+}
+
+FN vec3 tgc_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
+    GLOBAL const parameter* p = g.reals + solid.first_real;
+    if (surface != TGC_SIDE) return face_normal(g, solid.first_plane + surface - TGC_BASE);
+    return p[16] == 0 ? round_normal(p, r, t) : tapered_normal(p, r, t);
 }
 
 #endif

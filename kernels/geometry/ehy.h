@@ -13,22 +13,19 @@
 #define EHY_BASE 1
 
 FN hits ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
-    GLOBAL const real* p = g.reals + solid.first_real;
+    GLOBAL const parameter* p = g.reals + solid.first_real;
     span s = clip_to_face(whole_line(), g, solid.first_plane, r, EHY_BASE);
     local_ray l = to_local(p, r);
-    real c = p[12];
-    real root_k = real_sqrt(REAL(1) / (REAL(1) + REAL(2) * c));
-    real zeta = c + REAL(0.5) * (REAL(1) - l.o.z), zeta_rate = REAL(-0.5) * l.d.z;
-    real m0 = root_k * zeta, m1 = root_k * zeta_rate, gap = root_k * c;
+    const parameter c = p[12];
+    const real root_k = real_sqrt(REAL(1) / (REAL(1) + REAL(2) * c));
+    const real zeta = c + REAL(0.5) * (REAL(1) - l.o.z), zeta_rate = REAL(-0.5) * l.d.z;
+    const real m0 = root_k * zeta, m1 = root_k * zeta_rate, gap = root_k * c;
+    const real apex = l.shift - zeta / zeta_rate;
     real a, b, at_zero, wx, wy, cross, discriminant;
     // The other sheet lies at zeta < 0; the cut may be anywhere between the two.
-    if (zeta_rate > 0) {
-        s.low = real_max(s.low, l.shift - zeta / zeta_rate);
-    } else if (zeta_rate < 0) {
-        s.high = real_min(s.high, l.shift - zeta / zeta_rate);
-    } else if (zeta < 0) {
-        return no_hits();
-    }
+    s.low = zeta_rate > 0 ? real_max(s.low, apex) : s.low;
+    s.high = zeta_rate < 0 ? real_min(s.high, apex) : s.high;
+    s.high = zeta_rate == 0 && zeta < 0 ? -REAL_INFINITY : s.high;
     a = real_fma(l.d.x, l.d.x, l.d.y * l.d.y) - m1 * m1;
     b = real_fma(l.o.x, l.d.x, l.o.y * l.d.y) - m0 * m1;
     at_zero = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - (m0 - gap) * (m0 + gap);
@@ -40,9 +37,9 @@ FN hits ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
 }
 
 FN vec3 ehy_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
-    GLOBAL const real* p = g.reals + solid.first_real;
+    GLOBAL const parameter* p = g.reals + solid.first_real;
+    const parameter c = p[12];
     vec3 at;
-    real c = p[12];
     if (surface != EHY_SIDE) return face_normal(g, solid.first_plane);
     at = local_point(to_local(p, r), t);
     return affine_normal(p, make_vec3(at.x, at.y, REAL(0.5) * (c + REAL(0.5) * (REAL(1) - at.z)) / (REAL(1) + REAL(2) * c)));

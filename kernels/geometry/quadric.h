@@ -19,19 +19,19 @@
 #define QUADRIC_PLANES 1
 
 // The form of v and w with nothing cancelled: what its rounding is relative to.
-FN real quadric_size(GLOBAL const real* p, vec3 v, vec3 w) {
+FN real quadric_size(GLOBAL const parameter* p, vec3 v, vec3 w) {
     return real_abs(p[12] * v.x * w.x) + real_abs(p[13] * v.y * w.y) + real_abs(p[14] * v.z * w.z);
 }
 
 FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
-    GLOBAL const real* p = g.reals + solid.first_real;
+    GLOBAL const parameter* p = g.reals + solid.first_real;
+    const parameter qx = p[12], qy = p[13], qz = p[14], linear = p[15], at_zero = p[16];
     span s = whole_line();
     local_ray l;
     u32 i;
-    real qx = p[12], qy = p[13], qz = p[14], linear = p[15], at_zero = p[16];
     real a, b, c, xy, yz, zx, discriminant;
     for (i = 0; i < solid.plane_count; ++i) s = clip_to_face(s, g, solid.first_plane + i, r, QUADRIC_PLANES + i);
-    if (!(s.low < s.high)) return no_hits();
+    if (none(s.low < s.high)) return no_hits();
     l = to_local(p, r);
     a = real_fma(qx * l.d.x, l.d.x, real_fma(qy * l.d.y, l.d.y, qz * l.d.z * l.d.z));
     b = real_fma(qx * l.o.x, l.d.x, real_fma(qy * l.o.y, l.d.y, qz * l.o.z * l.d.z));
@@ -52,14 +52,15 @@ FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
         b = b + half_rate;
         c = c + rest;
         // Along a straight line of the surface a, b and c vanish together: then they are the better witnesses.
-        if (real_abs(b) * all_b + real_abs(a) * all_c + real_abs(c) * all_a < REAL(0.0625) * of_squares)
-            discriminant = difference_of_products(b, b, a, c);
+        discriminant = real_abs(b) * all_b + real_abs(a) * all_c + real_abs(c) * all_a < REAL(0.0625) * of_squares
+                           ? difference_of_products(b, b, a, c)
+                           : discriminant;
     }
     return quadratic_inside(a, b, c, discriminant, l.shift, s, QUADRIC_SURFACE);
 }
 
 FN vec3 quadric_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
-    GLOBAL const real* p = g.reals + solid.first_real;
+    GLOBAL const parameter* p = g.reals + solid.first_real;
     vec3 at;
     if (surface != QUADRIC_SURFACE) return face_normal(g, solid.first_plane + surface - QUADRIC_PLANES);
     at = local_point(to_local(p, r), t);

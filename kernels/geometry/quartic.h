@@ -19,13 +19,6 @@
 // A solid polishes a root on a form of its own by steps up to this, in its own units.
 #define POLISH_STEP BY_PRECISION(1e-3, 1e-6, 1e-6)
 
-FN local_ray quartic_ray(u32 method, GLOBAL const real* p, ray3 r) {
-    return method == QUARTIC_UNSHIFTED ? to_local_unmoved(p, r) : to_local(p, r);
-}
-
-// Where the ray comes closest, along the unit direction d: 0 if its origin was moved there.
-FN real quartic_middle(u32 method, vec3 o, vec3 d) { return method == QUARTIC_UNSHIFTED ? -dot3(o, d) : REAL(0); }
-
 // Newton from the middle of [a, b], kept in what is left of it, until a step is no longer than the error.
 FN real yuksel_root(quartic p, quartic slope, real a, real b, int negative_at_a) {
     real u = REAL(0.5) * (a + b);

@@ -36,23 +36,15 @@ FN hits cone_inside(local_ray l, real m0, real m1, span s) {
     return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
 }
 
-// Everything lies within radius2, so the quartic is solved on a bounded piece, with u in units of the direction's length.
+// The quartic is solved on a bounded piece, with u in units of the direction's length.
 FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     real a0 = real_fma(p[13], l.o.z, p[12]), a1 = p[13] * l.d.z;
     real b0 = real_fma(p[15], l.o.z, p[14]), b1 = p[15] * l.d.z;
-    real dd = dot3(l.d, l.d);
-    real length = real_sqrt(dd), reach;
-    real middle = quartic_middle(method, l.o, scale(l.d, REAL(1) / length));
-    real reach2 = p[17] - (dot3(l.o, l.o) - middle * middle);
+    real length = real_sqrt(dot3(l.d, l.d));
     quartic g;
     real roots[4];
     int count, i, inside;
-    if (!(reach2 > 0)) return no_hits();
-    reach = REAL(1.0001) * real_sqrt(reach2);
-    s.low = (s.low - l.shift) * length;
-    s.high = (s.high - l.shift) * length;
-    if (!(s.low > middle - reach)) s.low = middle - reach;
-    if (!(s.high < middle + reach)) s.high = middle + reach;
+    s = tapered_piece(method, p, l, s);
     if (!(s.low < s.high)) return no_hits();
     {
         real dx = l.d.x / length, dy = l.d.y / length;
@@ -88,23 +80,9 @@ FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     span s = between_ends(g, solid, r);
     local_ray l;
     if (!(s.low < s.high)) return no_hits();
+    if (p[16] != 0) return tapered_inside(QUARTIC_OF(g), p, quartic_ray(QUARTIC_OF(g), p, r), s);
     l = to_local(p, r);
-    if (p[16] == 0) return cone_inside(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z, s);
-    return tapered_inside(QUARTIC_OF(g), p, QUARTIC_OF(g) == QUARTIC_UNSHIFTED ? to_local_unmoved(p, r) : l, s);
-}
-
-FN vec3 tgc_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
-    GLOBAL const real* p = g.reals + solid.first_real;
-    vec3 at;
-    real a, b;
-    if (surface != TGC_SIDE) return face_normal(g, solid.first_plane + surface - TGC_BASE);
-    if (p[16] == 0) return round_normal(p, r, t);
-    at = local_point(to_local(p, r), t);
-    a = real_fma(p[13], at.z, p[12]);
-    b = real_fma(p[15], at.z, p[14]);
-    return affine_normal(p, make_vec3(at.x * b * b, at.y * a * a,
-                                      at.x * at.x * b * p[15] + at.y * at.y * a * p[13] -
-                                          a * b * real_fma(p[13], b, a * p[15])));
+    return cone_inside(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z, s);
 }
 
 #endif
