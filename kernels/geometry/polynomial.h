@@ -137,7 +137,7 @@ FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
 
 // Where p has its turning points in (low, high): ascending, at most 3. Those of the derivative are the roots of a
 // quadratic, so each is alone in its bracket.
-FN int turning_points(quartic p, real low, real high, real* turns) {
+NOINLINE_FN int turning_points(quartic p, real low, real high, real* turns) {
     const quartic d1 = derivative(p);
     const real a = REAL(3) * d1.c[3], b = d1.c[2], c = d1.c[1];  // the second derivative: a u^2 + 2 b u + c
     const real discriminant = difference_of_products(b, b, a, c);
