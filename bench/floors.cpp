@@ -34,11 +34,11 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     const PreparedFrame prepared = prepare_frame(compiled, view, -1);
     kernel::counted = {};
     const test::HostRun run = test::run_kernels(compiled, prepared);
-    const double rays = static_cast<double>(run.results.size());
+    const double rays = static_cast<double>(run.tallies.size());
     const auto per_ray = [&](auto count) { return static_cast<double>(count) / rays; };
     const auto bytes_of = [](const auto& all) { return all.size() * sizeof all[0]; };
     std::uint64_t partitions = 0;
-    for (const kernel::RayResult& result : run.results) partitions += result.partitions;
+    for (const kernel::RayTally& tally : run.tallies) partitions += tally.partitions;
     Floor floor;
     floor.workload = workload;
     floor.boxes = per_ray(kernel::counted.boxes) / 2;  // two walks, one to count, one to list
@@ -47,7 +47,7 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     floor.segments = per_ray(run.ends.size()) / 2;
     floor.partitions = per_ray(partitions);
     floor.bytes = per_ray(bytes_of(run.offsets) + bytes_of(run.ends) + bytes_of(run.nodes) + bytes_of(run.bits) +
-                          bytes_of(run.results) + bytes_of(run.picture));
+                          bytes_of(run.firsts) + bytes_of(run.tallies) + bytes_of(run.picture));
     return floor;
 }
 

@@ -2,6 +2,8 @@
 // segment was kept by kernel 1, several are found again.
 //
 //   ends of a ray:   in out | in out | in out ...      by ascending solid, then by distance
+//
+// Whose an end is stands in the end's word of `bits` until kernel 3 has read it: the nodes may lie where `found` does.
 #include "camera.h"
 #include "geometry/collect.h"
 
@@ -9,7 +11,7 @@ __kernel void store_segments(__global const Frame* frame, __global const SolidRe
                              __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                              __global const BvhNode* inner_nodes, __global const RayRecord* rays, u32 size,
                              __global const Candidate* candidates, __global const End* found,
-                             __global const RayCount* offsets, __global End* ends, __global PartitionNode* nodes) {
+                             __global const RayCount* offsets, __global End* ends, __global u32* bits) {
     u32 id = (u32)get_global_id(0), i;
     size_t base;
     Candidate c;
@@ -29,5 +31,5 @@ __kernel void store_segments(__global const Frame* frame, __global const SolidRe
         ends[base] = found[2 * (size_t)id];
         ends[base + 1] = found[2 * (size_t)id + 1];
     }
-    for (i = 0; i < 2 * c.count; ++i) nodes[base + i].ray = c.ray;
+    for (i = 0; i < 2 * c.count; ++i) bits[base + i] = c.ray;
 }

@@ -14,8 +14,8 @@
 // 2 * segments nodes.
 #include "camera.h"
 
-// A work-item is an end.
-__kernel void order_ends(__global const RayCount* offsets, __global const End* all_ends, u32 size,
+// A work-item is an end. `rays`: whose each end is.
+__kernel void order_ends(__global const RayCount* offsets, __global const End* all_ends, __global const u32* rays, u32 size,
                          __global PartitionNode* all_nodes) {
     u32 id = (u32)get_global_id(0), number, count, i, place = 0;
     RayCount offset;
@@ -23,7 +23,8 @@ __kernel void order_ends(__global const RayCount* offsets, __global const End* a
     __global const End* ends;
     real t;
     if (id >= size) return;
-    i = all_nodes[id].ray;
+    i = rays[id];
+    all_nodes[id].owner = i;
     offset = offsets[i];
     count = 2 * (offsets[i + 1].segments - offset.segments);
     base = 2 * (size_t)offset.segments;
@@ -38,9 +39,9 @@ static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 
 
 __kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
                     __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
-                    __global RayResult* results) {
-    u32 id = (u32)get_global_id(0);
-    RayResult result;
+                    __global u32* firsts, __global RayTally* tallies) {
+    u32 id = (u32)get_global_id(0), first_node = NONE;
+    RayTally tally;
     RayCount offset;
     ray3 r;
     real tolerance, t_e;
@@ -50,12 +51,12 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     __global PartitionNode* list;
     __global u32* bits;
     if (id >= frame->ray_count) return;
-    result.first = NONE;
-    result.partitions = result.overlaps = 0;
+    tally.partitions = tally.overlaps = 0;
     offset = offsets[id];
     segments = offsets[id + 1].segments - offset.segments;
     if (segments == 0 || !ray_of(frame, rays, number_of(frame, rays, id), &r)) {
-        results[id] = result;
+        firsts[id] = first_node;
+        tallies[id] = tally;
         return;
     }
     ends = all_ends + 2 * (size_t)offset.segments;
@@ -121,14 +122,15 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
             if (last != NONE) {
                 list[last].next = event;
             } else {
-                result.first = event;
+                first_node = event;
             }
             last = open = open_bits = event;
-            ++result.partitions;
+            ++tally.partitions;
         } else {
             open = open_bits = NONE;
         }
     }
     if (last != NONE) list[last].next = NONE;
-    results[id] = result;
+    firsts[id] = first_node;
+    tallies[id] = tally;
 }

@@ -16,8 +16,8 @@ __kernel void evaluate(__global const SolidRecord* solids, __global const StartR
     if (id >= size) return;
     node = nodes[id];
     if (node.in_end == NONE) return;
-    offset = offsets[node.ray];
-    c.segments = offsets[node.ray + 1].segments - offset.segments;
+    offset = offsets[node.owner];
+    c.segments = offsets[node.owner + 1].segments - offset.segments;
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.bits = all_bits + offset.words + (id - 2 * offset.segments) * words_of(c.segments);
     c.solids = solids;
@@ -26,5 +26,5 @@ __kernel void evaluate(__global const SolidRecord* solids, __global const StartR
     c.trees = trees;
     list_covered(c, &covered);
     found = find_claim(c, &covered, 1, all_solids());
-    nodes[id].region = found.least | (found.other != NONE ? OVERLAP : 0u);
+    nodes[id].owner = found.least | (found.other != NONE ? OVERLAP : 0u);
 }

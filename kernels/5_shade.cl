@@ -7,9 +7,10 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
                     __global const RegionRecord* regions, __global const MaterialRecord* materials,
                     __global const LightRecord* lights, __global const RayCount* offsets,
                     __global const End* ends, __global const PartitionNode* nodes,
-                    __global RayResult* results, __global const RayRecord* rays, __global float* picture) {
-    u32 id = (u32)get_global_id(0);
-    RayResult result;
+                    __global const u32* firsts, __global RayTally* tallies, __global const RayRecord* rays,
+                    __global float* picture) {
+    u32 id = (u32)get_global_id(0), seen = NONE;
+    RayTally tally;
     Pixel pixel;
     pixel_position at;
     ray3 r;
@@ -17,33 +18,31 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     at = pixel_of(number_of(frame, rays, id), frame->width, frame->height);
     if (!at.inside) return;
     r = geometry_ray(frame, camera_ray(frame, at));
-    result = results[id];
+    tally = tallies[id];
     nodes += 2 * (size_t)offsets[id].segments;
     ends += 2 * (size_t)offsets[id].segments;
     {
         // The first claimed partition that does not end before t_min.
         const real t_min = t_min_along(frame, r);
-        u32 next = result.first;
-        result.first = NONE;
-        for (; next != NONE; next = nodes[next].next) {
-            const u32 region = nodes[next].region;
-            result.overlaps += region >> 31;
-            if (result.first == NONE && (region & ~OVERLAP) != NONE && ends[nodes[next].out_end].t > t_min)
-                result.first = next;
+        u32 next;
+        for (next = firsts[id]; next != NONE; next = nodes[next].next) {
+            const u32 region = nodes[next].owner;
+            tally.overlaps += region >> 31;
+            if (seen == NONE && (region & ~OVERLAP) != NONE && ends[nodes[next].out_end].t > t_min) seen = next;
         }
     }
-    if (result.first == NONE) {
+    if (seen == NONE) {
         pixel = background_pixel(frame);
     } else {
-        PartitionNode partition = nodes[result.first];
+        PartitionNode partition = nodes[seen];
         End end = ends[partition.in_end];
-        u32 region = partition.region & ~OVERLAP;
+        u32 region = partition.owner & ~OVERLAP;
         Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
         pixel = seen_pixel(frame, lights, materials[regions[region].material], g, r, end, partition.in_end & 1u, region);
     }
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
-    pixel.partitions = result.partitions;
-    pixel.overlap = result.overlaps;
-    results[id] = result;
+    pixel.partitions = tally.partitions;
+    pixel.overlap = tally.overlaps;
+    tallies[id].overlaps = tally.overlaps;
     put_pixel(frame, picture + id, pixel);
 }

@@ -219,18 +219,17 @@ typedef struct {
 typedef struct {
     u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition; NONE: the node is none
     u32 next;             // before weaving: the end that is in this place by distance; NONE: no more
-    u32 ray;
-    u32 region;           // after evaluation: the region that claimed it, or NONE; OVERLAP is set if several wanted it
+    u32 owner;            // before evaluation: the ray; after it: the region that claimed the partition, or NONE; OVERLAP is
+                          // set if several wanted it
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
 
-// 3 weave -> shade
+// 3 weave -> shade -> the host, which wants the sums: as RayCount, so that the scan adds them up.
 typedef struct {
-    u32 first;       // node of the first partition, then (shade) of the first one seen; NONE: none
     u32 partitions;  // woven
-    u32 overlaps;    // partitions that more than one region wanted
-} RayResult;
+    u32 overlaps;    // of them, those that more than one region wanted
+} RayTally;
 
 // What is seen at one pixel; what of it the host gets is in Frame.channels.
 typedef struct {

@@ -35,27 +35,26 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       shade_(program_.kernel("shade")),
       places_(device, "candidates' places"),
       counts_(device, "counts"),
-      results_(device, "results"),
+      firsts_(device, "first partitions"),
       candidates_(device, "candidates"),
-      found_(device, "candidates' segments"),
+      found_(device, "candidates' segments, then partitions"),
       ends_(device, "segments"),
-      partitions_(device, "partitions"),
       bits_(device, "partitions' bits") {}
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = cull_.held();
-    for (const Buffer* buffer : {&places_, &counts_, &results_, &candidates_, &found_, &ends_, &partitions_, &bits_})
+    for (const Buffer* buffer : {&places_, &counts_, &firsts_, &candidates_, &found_, &ends_, &bits_})
         sum += buffer->size();
     return sum;
 }
 
 void Exact::release() {
-    for (Buffer* buffer : {&places_, &counts_, &results_}) *buffer = Buffer(device_, buffer->name());
+    for (Buffer* buffer : {&places_, &counts_, &firsts_}) *buffer = Buffer(device_, buffer->name());
     release_counted();
 }
 
 void Exact::release_counted() {
-    for (Buffer* buffer : {&candidates_, &found_, &ends_, &partitions_, &bits_})
+    for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_})
         *buffer = Buffer(device_, buffer->name());
 }
 
@@ -79,14 +78,16 @@ kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts&
     return total;
 }
 
-// Makes room for the segments. Buffers only grow, unless that would not fit.
+// Makes room for the segments and, beside the candidates' or in place of them, the partitions. Buffers only grow, unless that
+// would not fit.
 bool Exact::reserve_counted(const kernel::RayCount& total) {
     if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
     const std::uint64_t nodes = 2 * std::uint64_t{total.segments};
     const std::pair<Buffer*, std::uint64_t> wanted[] = {{&ends_, nodes * kernels_.end_bytes()},
-                                                        {&partitions_, nodes * sizeof(kernel::PartitionNode)},
                                                         {&bits_, std::uint64_t{total.words} * sizeof(std::uint32_t)}};
-    std::uint64_t needed = 0, grown = 0, held = 0;
+    const std::uint64_t partitions = nodes * sizeof(kernel::PartitionNode), more = partitions > found_.size() ? partitions : 0;
+    std::uint64_t needed = more, grown = more, held = 0;
+    if (more > device_.max_buffer()) return false;
     for (const auto& [buffer, bytes] : wanted) {
         if (bytes > device_.max_buffer()) return false;
         needed += bytes;
@@ -106,7 +107,7 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     if (entries * ray_bytes > device_.available()) release_counted();
     places_.reserve(entries * sizeof(kernel::RayCount));
     counts_.reserve(entries * sizeof(kernel::RayCount));
-    results_.reserve(rays * sizeof(kernel::RayResult));
+    firsts_.reserve(rays * sizeof(cl_uint));
 
     const Buffer none(device_, "nothing");
     const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
@@ -135,17 +136,19 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     const cl_uint nodes = 2 * total_.segments;
     const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals,
                                                s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates,
-                                               candidates_, found_, counts_, ends_, partitions_);
-    const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, nodes, partitions_);
+                                               candidates_, found_, counts_, ends_, bits_);
+    Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
+    partitions.reserve(nodes * sizeof(kernel::PartitionNode));
+    const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, bits_, nodes, partitions);
     const Event weave =
-        weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions_, bits_, results_);
+        weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions, bits_, firsts_, places_);
     const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_,
-                                            bits_, nodes, partitions_);
+                                            bits_, nodes, partitions);
     Event shade;
     if (kind != Rays::listed)
         shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                              s.inner_nodes, s.regions, s.materials, tile.lights, counts_, ends_, partitions_, results_,
-                              tile.rays, tile.picture);
+                              s.inner_nodes, s.regions, s.materials, tile.lights, counts_, ends_, partitions, firsts_,
+                              places_, tile.rays, tile.picture);
     counts.store_segments += milliseconds(store);
     counts.weave += milliseconds(order) + milliseconds(weave);
     counts.evaluate += milliseconds(evaluate);
@@ -160,25 +163,29 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     return true;
 }
 
-void Exact::add_results(std::uint32_t rays, PipelineCounts& counts) const {
-    for (const kernel::RayResult& result : results_.read<kernel::RayResult>(rays)) {
-        counts.partitions_used += result.partitions;
-        counts.overlaps += result.overlaps;
+// The first step of a scan leaves the sums of blocks, so that not every ray's tally has to come to the host.
+void Exact::add_tallies(std::uint32_t rays, PipelineCounts& counts) {
+    const std::uint32_t blocks = (rays + scan_block - 1) / scan_block;
+    while (sums_.size() < 2) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
+    Buffer& sums = *sums_[1];
+    sums.reserve(blocks * sizeof(kernel::RayTally));
+    const Event sum = scan_blocks_.launch(std::size_t{blocks} * work_group, work_group, places_, sums, rays);
+    for (const kernel::RayTally& tally : sums.read<kernel::RayTally>(blocks)) {
+        counts.partitions_used += tally.partitions;
+        counts.overlaps += tally.overlaps;
     }
+    counts.scan += milliseconds(sum);
 }
 
-std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays, PipelineCounts& counts) const {
+std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {
     const auto offsets = counts_.read<kernel::RayCount>(std::size_t{rays} + 1);
-    const auto results = results_.read<kernel::RayResult>(rays);
+    const auto firsts = firsts_.read<std::uint32_t>(rays);
     const auto ends = kernels_.ends(ends_.read<std::byte>(2 * std::size_t{total_.segments} * kernels_.end_bytes()));
-    const auto nodes = partitions_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
+    const auto nodes = found_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
     const auto bits = bits_.read<std::uint32_t>(total_.words);
     std::vector<std::vector<ClaimedPartition>> claims(rays);
-    for (std::uint32_t i = 0; i < rays; ++i) {
-        counts.partitions_used += results[i].partitions;
-        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], results[i].first);
-        for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
-    }
+    for (std::uint32_t i = 0; i < rays; ++i)
+        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], firsts[i]);
     return claims;
 }
 
@@ -212,7 +219,7 @@ std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& e
     const std::size_t base = 2 * std::size_t{begin.segments};
     for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
         const kernel::PartitionNode& partition = nodes[base + node];
-        const std::uint32_t region = partition.region & ~OVERLAP;
+        const std::uint32_t region = partition.owner & ~OVERLAP;
         if (region == NONE) continue;
         ClaimedPartition claim;
         claim.in = ends[base + partition.in_end];
@@ -220,7 +227,7 @@ std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& e
         claim.in_leaves = partition.in_end % 2 == 1;
         claim.out_enters = partition.out_end % 2 == 0;
         claim.region = region;
-        if (partition.region & OVERLAP)
+        if (partition.owner & OVERLAP)
             claim.claimants =
                 claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
         claims.push_back(std::move(claim));

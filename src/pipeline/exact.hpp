@@ -25,13 +25,13 @@ public:
     bool run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
-    std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays, PipelineCounts& counts) const;
-    /// Adds up the last run's partitions and overlaps.
-    void add_results(std::uint32_t rays, PipelineCounts& counts) const;
+    std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays) const;
+    /// Adds up the last run's partitions and overlaps. Once a run.
+    void add_tallies(std::uint32_t rays, PipelineCounts& counts);
 
     Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes =
-        2 * sizeof(kernel::RayCount) + sizeof(kernel::RayResult) + 4;  ///< whatever a ray hits
+        2 * sizeof(kernel::RayCount) + sizeof(std::uint32_t) + 4;  ///< whatever a ray hits
     std::uint64_t held() const;
     void release();  ///< gives all its memory back: another use of the budget wants it
 
@@ -54,8 +54,11 @@ private:
     Cull cull_;
     Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
-    Buffer places_, counts_, results_;                      // one entry a ray
-    Buffer candidates_, found_, ends_, partitions_, bits_;  // by what was counted
+    Buffer places_;            // of the rays' candidates; from weaving on their tallies
+    Buffer counts_, firsts_;   // one entry a ray, too
+    Buffer candidates_;        // this and the others: by what was counted
+    Buffer found_;             // the candidates' only segments; once they are stored, the partitions
+    Buffer ends_, bits_;
     std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
     kernel::RayCount total_{};                              // of the last run
 };

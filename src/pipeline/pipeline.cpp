@@ -10,8 +10,14 @@ namespace csgrt {
 namespace {
 
 constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
-// Every partition of more takes more memory and, on a processor, no less time (bench/NOTES.md); a GPU wants many.
-constexpr std::uint64_t most_rays_of_processor = 1u << 16;
+
+// Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it gets half of a
+// picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
+std::uint64_t most_rays_woven(const Device& device, std::uint64_t rays) {
+    constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 18;
+    if (device.info().type == "cpu") return of_processor;
+    return std::clamp((rays + 1) / 2, of_gpu, most_rays);
+}
 
 }  // namespace
 
@@ -144,7 +150,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
         read_picture(frame.ray_count * pixel_bytes,
                      [&](const float* values) { put_rays(frame, picked, values, planes); });
-        if (frame.every_partition) exact().add_results(tile.rays, counts);
+        if (frame.every_partition) exact().add_tallies(tile.rays, counts);
         return true;
     });
 }
@@ -167,7 +173,7 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<Cha
     std::vector<std::uint32_t> overflown;
     if (frame.every_partition) {
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::blocks, counts)) return false;
-        exact().add_results(frame.ray_count, counts);
+        exact().add_tallies(frame.ray_count, counts);
     } else {
         overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
     }
@@ -184,7 +190,7 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
     const std::uint64_t bytes = planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
                                 (every ? Exact::ray_bytes : FirstHits::ray_bytes);
-    const std::uint64_t most = every && device_.info().type == "cpu" ? most_rays_of_processor : most_rays;
+    const std::uint64_t most = every ? most_rays_woven(device_, range.end - range.first) : most_rays;
     for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
         if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);
@@ -209,9 +215,12 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, R
         frame.ray_count = tile.rays;
         upload(frame);
         if (!exact().run(buffers_, tile_, tile.rays, Rays::listed, counts)) return false;
-        const auto claims = exact().claims(tile.rays, counts);
-        for (std::uint32_t i = 0; i < tile.rays; ++i)
+        exact().add_tallies(tile.rays, counts);
+        const auto claims = exact().claims(tile.rays);
+        for (std::uint32_t i = 0; i < tile.rays; ++i) {
             answers[tile.first + i] = to_partitions(kernels_, prepared.frame, rays[tile.first + i], claims[i]);
+            for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
+        }
         ++counts.tiles;
         return true;
     });

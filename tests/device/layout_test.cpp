@@ -34,8 +34,8 @@ using namespace csgrt;
     FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
-    FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, ray) FIELD(PartitionNode, region) \
-    RECORD(RayResult) FIELD(RayResult, first) FIELD(RayResult, partitions) FIELD(RayResult, overlaps) RECORD(Pixel) \
+    FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
+    RECORD(RayTally) FIELD(RayTally, partitions) FIELD(RayTally, overlaps) RECORD(Pixel) \
     FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(Pixel, normal) FIELD(Pixel, region) FIELD(Pixel, solid) \
     FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap)
 // clang-format on

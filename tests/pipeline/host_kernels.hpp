@@ -55,7 +55,8 @@ struct HostRun {
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
     std::vector<std::uint32_t> bits;
-    std::vector<kernel::RayResult> results;
+    std::vector<std::uint32_t> firsts;
+    std::vector<kernel::RayTally> tallies;
     std::vector<float> picture;  ///< the frame's channels, plane by plane
 };
 
@@ -143,17 +144,20 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
-    run.results.resize(count);
+    run.firsts.resize(count);
+    run.tallies.resize(count);
     std::vector<float> values(13 * count);
     each_of(candidates.size(), [&](u32 size) {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                        scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), found.data(), run.offsets.data(),
-                       run.ends.data(), run.nodes.data());
+                       run.ends.data(), run.bits.data());
     });
-    each_of(run.ends.size(), [&](u32 size) { order_ends(run.offsets.data(), run.ends.data(), size, run.nodes.data()); });
+    each_of(run.ends.size(), [&](u32 size) {
+        order_ends(run.offsets.data(), run.ends.data(), run.bits.data(), size, run.nodes.data());
+    });
     each([&] {
         kernel::weave(&frame, listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
-                      run.results.data());
+                      run.firsts.data(), run.tallies.data());
     });
     each_of(run.nodes.size(), [&](u32 size) {
         evaluate(scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
@@ -163,7 +167,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.results.data(), listed,
+                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.firsts.data(), run.tallies.data(), listed,
                   values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);

@@ -27,14 +27,15 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     const std::vector<kernel::RayCount> offsets = {{0, 0}, {segments, kernel::partitions_of(segments) * words}};
     std::vector<kernel::PartitionNode> nodes(ends.size());
     std::vector<std::uint32_t> bits(offsets[1].words, 0xdeadbeefu);  // memory comes as it was left
-    kernel::RayResult result{};
-    for (kernel::PartitionNode& node : nodes) node.ray = 0;
+    kernel::RayTally tally{};
+    std::uint32_t first = 0;
+    const std::vector<std::uint32_t> rays(ends.size());
     for (kernel::global_id = 0; kernel::global_id < ends.size(); ++kernel::global_id)
-        kernel::order_ends(offsets.data(), ends.data(), static_cast<std::uint32_t>(ends.size()), nodes.data());
+        kernel::order_ends(offsets.data(), ends.data(), rays.data(), static_cast<std::uint32_t>(ends.size()), nodes.data());
     kernel::global_id = 0;
-    kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &result);
+    kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &first, &tally);
     Woven woven;
-    for (std::uint32_t n = result.first; n != NONE; n = nodes[n].next) {
+    for (std::uint32_t n = first; n != NONE; n = nodes[n].next) {
         WovenPartition p;
         p.in_end = nodes[n].in_end;
         p.out_end = nodes[n].out_end;
@@ -44,7 +45,7 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
             if (bits[n * words + s / 32] >> (s % 32) & 1u) p.segments.push_back(s);
         woven.partitions.push_back(p);
     }
-    REQUIRE(woven.partitions.size() == result.partitions);
+    REQUIRE(woven.partitions.size() == tally.partitions);
     woven.ends = std::move(ends);
     return woven;
 }
