@@ -22,7 +22,8 @@ Vec3 across(const Vec3& n, Random& random) {
 
 /// Touches a surface at `point`, of outward unit normal n, along `d`.
 void touch(Builder& to, const Vec3& point, const Vec3& n, const Vec3& d, double size) {
-    to.ray_through(point + beside(to.random()) * size * n, d, to.random().whole(1, 3) * size);
+    const double back = to.random().whole(1, 3) * size;
+    to.ray_through(point + beside(to.random()) * size * n, d, back);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct Random {
     Wide wide() { return {(*this)(), (*this)(), (*this)()}; }
     /// Rotation, shear, stretch, perhaps a mirror.
     Matrix matrix() {
-        Matrix m = askew((*this)(0, 6), {(*this)(-50, 50), (*this)(-50, 50), (*this)(-50, 50)});
+        const Vec3 place{(*this)(-50, 50), (*this)(-50, 50), (*this)(-50, 50)};
+        Matrix m = askew((*this)(0, 6), place);
         for (const std::size_t i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) m[i] += 0.4 * (*this)();
         return m;
     }
@@ -248,7 +249,10 @@ TEST_CASE("polyhedra that are not bounded, or hold no point") {
 TEST_CASE("a polyhedron of 60,000 faces takes no time to speak of") {
     Random random;
     std::vector<Plane> planes;
-    for (int i = 0; i < 60000; ++i) planes.push_back(plane_through(glm::normalize(random.wide()), random.wide()));
+    for (int i = 0; i < 60000; ++i) {
+        const Wide point = random.wide();
+        planes.push_back(plane_through(glm::normalize(random.wide()), point));
+    }
     for (Plane& plane : planes) plane.distance = 1;
     const Box box = polyhedron_box(planes);
     CHECK(same(box, {{-1, -1, -1}, {1, 1, 1}}, 1e-3));

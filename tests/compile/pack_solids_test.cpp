@@ -58,7 +58,8 @@ struct Random {
     }
     Wide wide() { return {(*this)(), (*this)(), (*this)()}; }
     Matrix matrix(bool mirror) {
-        Matrix m = askew((*this)(0, 6), {(*this)(-50, 50), (*this)(-50, 50), (*this)(-50, 50)});
+        const Vec3 place{(*this)(-50, 50), (*this)(-50, 50), (*this)(-50, 50)};
+        Matrix m = askew((*this)(0, 6), place);
         for (const std::size_t i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) m[i] += 0.3 * (*this)();
         if (mirror)
             for (const std::size_t i : {0, 4, 8}) m[i] = -m[i];
@@ -95,7 +96,8 @@ TEST_CASE("packed ellipsoids: local points lie on the unit sphere") {
 TEST_CASE("packed cones: semi-axes are linear along z, caps look outward") {
     Random random;
     for (int round = 0; round < 200; ++round) {
-        const Tgc s = cone(random(0.5, 2), random(0.5, 2), random(0, 2), random(0, 2));
+        const double top_d = random(0, 2), top_c = random(0, 2), base_b = random(0.5, 2), base_a = random(0.5, 2);
+        const Tgc s = cone(base_a, base_b, top_c, top_d);
         const Matrix m = random.matrix(round % 2 == 1);
         const Packed packed(s, m);
         CHECK(packed.solid().type == SOLID_TGC);

@@ -139,7 +139,8 @@ TEST_CASE("a million different planes stay apart") {
     const Box box{{-1, -1, -1}, {1, 1, 1}};
     constexpr std::size_t count = 1'000'000;
     for (std::size_t i = 0; i < count; ++i) {
-        const Wide n(gauss(random), gauss(random), gauss(random));
+        const double z = gauss(random), y = gauss(random), x = gauss(random);
+        const Wide n(x, y, z);
         table.add(i % 2 == 0 ? plane_through(Wide(gauss(random)), n) : Plane{{0, 0, 1}, static_cast<double>(i) * 1e-4},
                   box);
     }

@@ -37,7 +37,8 @@ TEST_CASE("plates, needles and blocks with one thin edge, of any lean, keep thei
     for (double thin = 1e-2; thin > 2e-10; thin /= 3)
         for (int i = 0; i < 40; ++i) {
             const double x = side(random), y = side(random), z = thin * x, size = x + y;
-            const Matrix m = askew(angle(random), {place(random), place(random), place(random)});
+            const Vec3 at{place(random), place(random), place(random)};
+            const Matrix m = askew(angle(random), at);
             INFO(thin << " " << i);
             check_sides(stood(block_shape({0, 0, 0}, {x, y, z}), m), size + 10);  // a plate
             check_sides(stood(block_shape({0, 0, 0}, {z, 2 * z, y}), m), size + 10);

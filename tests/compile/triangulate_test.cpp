@@ -122,8 +122,10 @@ TEST_CASE("triangulate: rough faces with many rough holes", "[compile]") {
         ring(0, 0, 8, 12, 5 + round, unit(random) < 0.5);
         for (int x = -3; x <= 3; ++x)
             for (int y = -3; y <= 3; ++y)
-                if (unit(random) < 0.3)
-                    ring(x, y, 0.05, 0.49, 3 + static_cast<int>(9 * unit(random)), unit(random) < 0.5);
+                if (unit(random) < 0.3) {
+                    const bool backward = unit(random) < 0.5;
+                    ring(x, y, 0.05, 0.49, 3 + static_cast<int>(9 * unit(random)), backward);
+                }
         drawing.check();
         // The same upright in space, leaning.
         for (Vec3& v : drawing.vertices) v = {v.y - 0.3 * v.x, 0.2 * v.x, v.x};

@@ -20,8 +20,10 @@ public:
                 return static_cast<double>(random_() % 2000) - 1000;
             case 1:
                 return random_() % 2 ? 0.0 : -0.0;
-            case 2:
-                return std::ldexp(1 + uniform_(random_), static_cast<int>(random_() % 600) - 300);
+            case 2: {
+                const int power = static_cast<int>(random_() % 600) - 300;
+                return std::ldexp(1 + uniform_(random_), power);
+            }
             case 3:
                 return -uniform_(random_);
             case 4:
@@ -118,10 +120,18 @@ std::vector<Cell> random_cells(Numbers& n, std::size_t count) {
 inline Shape random_shape(Numbers& n, std::size_t type) {
     const auto point = [&] { return n.vector(); };
     const auto count = [&] { return static_cast<std::uint32_t>(n.below(6)); };
+    const auto some_sphere = [&] {
+        const double radius = 1 + n.color().x;
+        return sphere(n.vector(), radius);
+    };
+    const auto some_cone = [&] {
+        const bool cylinder = n.coin();
+        return cone(n.vector(), {0, 0, 3}, 2, cylinder ? 2 : 0);
+    };
     const Shape kinds[] = {
-        n.coin() ? Ell{n.vector(), n.vector(), n.vector(), n.vector()} : sphere(n.vector(), 1 + n.color().x),
+        n.coin() ? Ell{n.vector(), n.vector(), n.vector(), n.vector()} : some_sphere(),
         n.coin() ? Tgc{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()}
-                 : cone(n.vector(), {0, 0, 3}, 2, n.coin() ? 2 : 0),
+                 : some_cone(),
         arb(list_of(4 + n.below(5), point)),
         Arbn{list_of(n.below(5), [&] { return Plane{n.direction(), n()}; })},
         Half{{n.direction(), n()}},

@@ -43,9 +43,13 @@ public:
                 return edge();
             case RayFamily::parallel: {
                 QVec d = random_.coin() ? random_.axis() : pick(case_.features.directions);
-                if (random_.below(4) == 0) d = unit(d) + quad(random_.unit()) * random_.axis();
+                if (random_.below(4) == 0) {
+                    const QVec axis = random_.axis();
+                    d = unit(d) + quad(random_.unit()) * axis;
+                }
                 d = unit(d);
-                return rounded(target() - quad(random_.between(0, 5)) * size() * d, d);
+                const quad back = quad(random_.between(0, 5)) * size();
+                return rounded(target() - back * d, d);
             }
             case RayFamily::far:
                 return ordinary(1e5);
@@ -53,8 +57,10 @@ public:
                 const Ray ray = random_.coin() ? tangent() : random_.coin() ? edge() : ordinary(3);
                 return rounded(ray.origin, quad(random_.power(-6, 6)) * QVec(ray.direction));
             }
-            case RayFamily::inside:
-                return rounded(target(), random_.direction());
+            case RayFamily::inside: {
+                const QVec d = random_.direction();
+                return rounded(target(), d);
+            }
             default:
                 return ordinary(random_.between(1.5, 5));
         }
@@ -89,13 +95,16 @@ private:
         const QVec across = oracle::any_across(t.normal), other = cross(t.normal, across);
         const double turn = random_.between(-3.2, 3.2);
         const QVec d = quad(std::cos(turn)) * across + quad(std::sin(turn)) * other;
-        const QVec p = t.point + quad(random_.sign() * random_.power(-12, -3)) * size() * t.normal;
+        const QVec p = t.point + quad(random_.signed_power(-12, -3)) * size() * t.normal;
         return rounded(p - quad(random_.between(0, 5)) * size() * d, d);
     }
     /// Through corners, along edges, or a hair beside them.
     Ray edge() {
         QVec p = pick(case_.features.points);
-        if (random_.coin()) p = p + quad(random_.unit()) * (pick(case_.features.points) - p);
+        if (random_.coin()) {
+            const QVec way = pick(case_.features.points) - p;
+            p = p + quad(random_.unit()) * way;
+        }
         QVec d;
         switch (random_.below(4)) {
             case 0:
@@ -112,9 +121,10 @@ private:
         }
         if (!(dot(d, d) > 0)) d = random_.axis();
         d = unit(d);
-        if (random_.coin()) p = p + quad(random_.power(-12, -1)) * size() * random_.direction();
-        if (random_.below(4) == 0) d = unit(d + quad(random_.power(-12, -1)) * random_.direction());
-        return rounded(p - quad(random_.between(-1, 5)) * size() * d, quad(random_.sign()) * d);
+        if (random_.coin()) p = p + random_.hair(-12, -1, size());
+        if (random_.below(4) == 0) d = unit(d + random_.hair(-12, -1));
+        const quad sign = random_.sign();
+        return rounded(p - quad(random_.between(-1, 5)) * size() * d, sign * d);
     }
 
     const OutlineCase& case_;

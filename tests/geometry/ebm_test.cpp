@@ -17,8 +17,8 @@ Ebm picture(std::uint32_t width, std::uint32_t depth, std::vector<std::uint8_t> 
 OutlineCase ebm_case(std::size_t index, oracle::Random& random) {
     using namespace oracle;
     const std::size_t place = index % std::size(oracle::detail::placements);
-    Ebm shape =
-        picture(1 + static_cast<std::uint32_t>(random.below(9)), 1 + static_cast<std::uint32_t>(random.below(9)), {});
+    const auto depth = 1 + static_cast<std::uint32_t>(random.below(9));
+    Ebm shape = picture(1 + static_cast<std::uint32_t>(random.below(9)), depth, {});
     const double share = random.between(0.2, 1.1);
     for (std::uint32_t i = 0; i < shape.width * shape.depth; ++i)
         shape.cells.push_back(random.unit() < share ? static_cast<std::uint8_t>(1 + random.below(255)) : 0);

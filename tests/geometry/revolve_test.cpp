@@ -55,8 +55,10 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
     for (std::size_t i = 0; i + 4 < one.features.points.size(); ++i)
         one.features.directions.push_back(one.features.points[i + 4] - one.features.points[i]);
     for (const Vec3& v : {shape.axis, shape.axis, shape.r}) one.features.directions.push_back(map.direction(v));
-    for (int i = 0; i < 4; ++i)  // across the axis, up to rounding
-        one.features.directions.push_back(map.direction(stand.vector(random.between(-1, 1), random.between(-1, 1), 0)));
+    for (int i = 0; i < 4; ++i) {  // across the axis, up to rounding
+        const double y = random.between(-1, 1), x = random.between(-1, 1);
+        one.features.directions.push_back(map.direction(stand.vector(x, y, 0)));
+    }
     std::erase_if(one.features.directions, [](const QVec& d) { return !(dot(d, d) > 0); });
     one.shape = std::move(shape);
     return one;

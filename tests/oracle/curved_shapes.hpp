@@ -156,9 +156,10 @@ inline Shape eto_form(std::size_t form, const Stand &s, Random &random) {
     return of(0.5, 0.25, 0, 1);
   case 1:
     return of(0.5, 0.25, 1.5707963267948966, stretch);
-  case 2:
-    return of(random.between(0.5, 0.9), random.between(0.1, 0.5), angle,
-              stretch);
+  case 2: {
+    const double d = random.between(0.1, 0.5);
+    return of(random.between(0.5, 0.9), d, angle, stretch);
+  }
   case 3:
     return of(0.5, 0.5, angle, stretch); // a torus
   case 4:
@@ -192,6 +193,11 @@ inline Shape superell_form(std::size_t form, const Stand &s, Random &random) {
                     n,
                     e};
   };
+  const auto some = [&](double n_least, double n_most, double e_least,
+                        double e_most) {
+    const double e = random.between(e_least, e_most);
+    return of(random.between(n_least, n_most), e);
+  };
   switch (form) {
   case 0:
     return of(1, 1); // a sphere
@@ -200,15 +206,15 @@ inline Shape superell_form(std::size_t form, const Stand &s, Random &random) {
   case 2:
     return of(0.05, 0.05); // nearly a box
   case 3:
-    return of(random.between(0.2, 2), random.between(0.2, 2));
+    return some(0.2, 2, 0.2, 2);
   case 4:
     return of(2, 2); // an octahedron
   case 5:
     return of(3, 3); // a star
   case 6:
-    return of(random.between(2, 4), random.between(0.2, 2));
+    return some(2, 4, 0.2, 2);
   case 7:
-    return of(random.between(0.2, 2), random.between(2, 4));
+    return some(0.2, 2, 2, 4);
   case 8:
     return of(1, 2); // a double cone of square outline
   default:

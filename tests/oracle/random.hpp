@@ -1,4 +1,6 @@
-// Random numbers that are the same with every standard library (its distributions are not).
+// Random numbers that are the same with every standard library (its distributions are not). Which number goes where must
+// not be the compiler's choice, either: a call's arguments, and what an operator stands between, are computed in any
+// order. What draws twice has a name for the one drawn first, or stands in braces.
 #pragma once
 
 #include <cmath>
@@ -22,6 +24,11 @@ public:
     std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
     bool coin() { return unit() < 0.5; }
     double sign() { return coin() ? 1 : -1; }
+    /// power(), with either sign.
+    double signed_power(double low, double high) {
+        const double s = sign();
+        return s * power(low, high);
+    }
 
     /// Uniform on the unit sphere.
     QVec direction() {
@@ -30,6 +37,11 @@ public:
             const quad square = dot(v, v);
             if (square > quad(1e-4) && square <= 1) return oracle::unit(v);
         }
+    }
+    /// In any direction, of the length 10^x times `unit` with x between the two.
+    QVec hair(double low, double high, quad unit = 1) {
+        const QVec d = direction();
+        return quad(power(low, high)) * unit * d;
     }
     /// Uniform in the cube from -1 to 1.
     QVec in_cube() {

@@ -190,7 +190,8 @@ Ray RayMaker::rounded(const QVec& o, const QVec& d) { return {to_vec3(o), to_vec
 QVec RayMaker::target() {
     if (random_.coin()) return solid_.center + size() * random_.in_cube();
     const QVec p = random_point(), q = random_point();
-    return p + quad(random_.unit()) * (q - p) + quad(0.05) * size() * random_.in_cube();
+    const QVec off = quad(0.05) * size() * random_.in_cube();
+    return p + quad(random_.unit()) * (q - p) + off;
 }
 
 Ray RayMaker::ordinary(double away) {
@@ -219,14 +220,17 @@ Ray RayMaker::tangent() {
     const QVec across = any_across(t.normal), other = cross(t.normal, across);
     const double turn = random_.between(-3.2, 3.2);
     QVec d = quad(std::cos(turn)) * across + quad(std::sin(turn)) * other;
-    if (!solid_.bounded) d = unit(d + quad(random_.sign() * random_.power(-12, 0)) * t.normal);
-    const QVec p = t.point + quad(random_.sign() * random_.power(-12, -3)) * size() * t.normal;
+    if (!solid_.bounded) d = unit(d + quad(random_.signed_power(-12, 0)) * t.normal);
+    const QVec p = t.point + quad(random_.signed_power(-12, -3)) * size() * t.normal;
     return rounded(p - quad(random_.between(0, 5)) * size() * d, d);
 }
 
 Ray RayMaker::edge() {
     QVec p = random_point();
-    if (random_.coin()) p = p + quad(random_.unit()) * (random_point() - p);
+    if (random_.coin()) {
+        const QVec way = random_point() - p;
+        p = p + quad(random_.unit()) * way;
+    }
     QVec d;
     switch (random_.below(4)) {
         case 0:
@@ -243,18 +247,23 @@ Ray RayMaker::edge() {
     }
     if (!(dot(d, d) > 0)) d = random_.axis();
     d = unit(d);
-    if (random_.coin()) p = p + quad(random_.power(-12, -1)) * size() * random_.direction();
-    if (random_.below(4) == 0) d = unit(d + quad(random_.power(-12, -1)) * random_.direction());
-    return rounded(p - quad(random_.between(-1, 5)) * size() * d, random_.sign() * d);
+    if (random_.coin()) p = p + random_.hair(-12, -1, size());
+    if (random_.below(4) == 0) d = unit(d + random_.hair(-12, -1));
+    const quad sign = random_.sign();
+    return rounded(p - quad(random_.between(-1, 5)) * size() * d, sign * d);
 }
 
 Ray RayMaker::parallel() {
     QVec d = random_.axis();
     if (random_.coin()) d = features_.directions[random_.below(features_.directions.size())];
-    if (random_.below(4) == 0) d = d + quad(random_.unit()) * random_.axis();
+    if (random_.below(4) == 0) {
+        const QVec axis = random_.axis();
+        d = d + quad(random_.unit()) * axis;
+    }
     if (!(dot(d, d) > 0)) d = {1, 0, 0};
     d = unit(d);
-    return rounded(target() - quad(random_.between(0, 5)) * size() * d, d);
+    const quad back = quad(random_.between(0, 5)) * size();
+    return rounded(target() - back * d, d);
 }
 
 Ray RayMaker::inside() {
@@ -267,7 +276,8 @@ Ray RayMaker::inside() {
     if (answer.intervals.empty()) return through;
     const Interval& i = answer.intervals[random_.below(answer.intervals.size())];
     const double in = std::isfinite(i.in.t) ? i.in.t : -3 * size_, out = std::isfinite(i.out.t) ? i.out.t : 3 * size_;
-    return rounded(last_.point(random_.between(in, out)), random_.direction());
+    const QVec d = random_.direction();
+    return rounded(last_.point(random_.between(in, out)), d);
 }
 
 }  // namespace csgrt::oracle

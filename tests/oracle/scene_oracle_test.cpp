@@ -167,7 +167,7 @@ TEST_CASE("scene oracle: what is said in double to pass a solid by does", "[orac
             for (int i = 0; i < 12; ++i) {
                 // Beside the ball by a little, or by its half; near, or far away.
                 const QVec d = random.direction(), aside = unit(cross(d, random.direction()));
-                const double off = i % 3 == 0 ? random.between(0, 1) : 1 + random.sign() * random.power(-9, -1);
+                const double off = i % 3 == 0 ? random.between(0, 1) : 1 + random.signed_power(-9, -1);
                 const double back = random.power(0, 6);
                 const QVec o = center + quad(solid.reach.radius) * (quad(off) * aside - quad(back) * d);
                 const Ray ray{to_vec3(o), to_vec3(quad(random.power(-3, 3)) * d)};

@@ -43,7 +43,8 @@ void look_again(const ExactSolid& solid, const Ray& ray, Random& random, ShakenA
     const double rounding = answer.delta / solid.condition;
     const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
     for (int i = 0; i < 400; ++i) {
-        const QVec c = quad(i % 2 == 0 ? 1 : random.unit()) * random.in_cube();
+        const QVec corner = random.in_cube();
+        const QVec c = quad(i % 2 == 0 ? 1 : random.unit()) * corner;
         answer.shaken.push_back(solid.along(o + solid.frame.direction({c.x * most.x, c.y * most.y, c.z * most.z}), d));
         answer.tie = answer.tie || leaps(answer.exact, answer.shaken.back(), quad(1e-3 * solid.radius) / length(d));
     }

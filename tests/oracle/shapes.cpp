@@ -21,8 +21,10 @@ Shape ell_form(std::size_t form, const Stand& s, Random& random) {
             return of(1, 1, 1);
         case 1:
             return of(r, r, r);
-        case 2:
-            return of(r, random.between(0.5, 2), random.between(0.5, 2));
+        case 2: {
+            const double c = random.between(0.5, 2), b = random.between(0.5, 2);
+            return of(r, b, c);
+        }
         case 3:
             return of(r, random.between(0.5, 2), 1e-3);  // pancake
         case 4:
@@ -179,6 +181,12 @@ Shape arbn_form(std::size_t form, const Stand& s, Random& random) {
         plane({1, 0, 0}, x), plane({-1, 0, 0}, x), plane({0, 1, 0}, y), plane({0, -1, 0}, y), plane({0, 0, 1}, z),
             plane({0, 0, -1}, z);
     };
+    const auto some_planes = [&](int count, double least, double most) {
+        for (int i = 0; i < count; ++i) {
+            const double reach = random.between(least, most);
+            plane(random.direction(), reach);
+        }
+    };
     switch (form) {
         case 0:
             box(1, 1, 1);
@@ -191,11 +199,11 @@ Shape arbn_form(std::size_t form, const Stand& s, Random& random) {
             break;
         case 2:  // random faces
             box(2, 2, 2);
-            for (int i = 0; i < 12; ++i) plane(random.direction(), random.between(0.7, 1.3));
+            some_planes(12, 0.7, 1.3);
             break;
         case 3:  // a thin plate, cut
             box(2, 2, 1e-3);
-            for (int i = 0; i < 6; ++i) plane(random.direction(), random.between(0.5, 1));
+            some_planes(6, 0.5, 1);
             break;
         default:  // faces that touch nothing, and one that is there twice
             box(1, 1.5, 0.5);
@@ -273,8 +281,10 @@ Matrix detail::placement(std::size_t index, double size, Random& random) {
             const double s = random.power(-3, 3);
             return to_matrix(turn * stretch(s, s, s));
         }
-        case 4:
-            return to_matrix(turn * stretch(random.power(-1, 1), random.power(-1, 1), random.power(-1, 1)) * first);
+        case 4: {
+            const double z = random.power(-1, 1), y = random.power(-1, 1), x = random.power(-1, 1);
+            return to_matrix(turn * stretch(x, y, z) * first);
+        }
         case 5: {
             const QAffine shear{
                 {1, 0, 0}, {random.between(-2, 2), 1, 0}, {random.between(-2, 2), random.between(-2, 2), 1}, {}};

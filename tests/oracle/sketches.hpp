@@ -41,9 +41,11 @@ public:
                 loop(around(6, 0.8), 0);
                 loop({{-0.25, -0.25}, {0.25, -0.25}, {0, 0.25}}, 0);
                 break;
-            case 3:
-                circle(random_.between(-1, 1), 0, random_.between(0.2, 1));
+            case 3: {
+                const double r = random_.between(0.2, 1);
+                circle(random_.between(-1, 1), 0, r);
                 break;
+            }
             case 4:
                 circle(0, 0, 1);
                 circle(0.1, 0.1, random_.between(0.1, 0.85));
@@ -76,8 +78,7 @@ public:
                 break;
             default: {
                 Sketch::Bezier bezier;
-                for (int i = 0; i < 12; ++i)
-                    bezier.points.push_back(vertex(random_.between(-1, 1), random_.between(-1, 1)));
+                for (int i = 0; i < 12; ++i) bezier.points.push_back(some_vertex(1));
                 bezier.points.push_back(bezier.points.front());
                 sketch_.curves = {bezier};
             }
@@ -92,6 +93,11 @@ private:
     std::uint32_t vertex(double u, double v) {
         sketch_.vertices.push_back({u, v});
         return static_cast<std::uint32_t>(sketch_.vertices.size() - 1);
+    }
+    /// In the square from -reach to reach.
+    std::uint32_t some_vertex(double reach) {
+        const double v = random_.between(-reach, reach), u = random_.between(-reach, reach);
+        return vertex(u, v);
     }
     /// Around the origin, between `least` and 1 away from it.
     Points around(int count, double least) {
@@ -122,7 +128,7 @@ private:
             } else {
                 Sketch::Bezier bezier{{a}};
                 for (std::size_t k = 1 + random_.below(5); k > 0; --k)
-                    bezier.points.push_back(vertex(random_.between(-1.2, 1.2), random_.between(-1.2, 1.2)));
+                    bezier.points.push_back(some_vertex(1.2));
                 bezier.points.push_back(b);
                 sketch_.curves.push_back(bezier);
             }

@@ -107,8 +107,12 @@ TEST_CASE("kernel 3 weaves as the reference does", "[weave]") {
         std::uniform_real_distribution<double> unit(0, 1);
         std::vector<kernel::End> ends;
         for (int s = 0; s < segments; ++s) {
-            double in = static_cast<double>(random() % static_cast<unsigned>(grid)) + jitter * unit(random);
-            double out = in + static_cast<double>(random() % static_cast<unsigned>(grid)) + jitter * unit(random) + 1e-9;
+            const auto some = [&] {
+                const auto place = static_cast<double>(random() % static_cast<unsigned>(grid));
+                return place + jitter * unit(random);
+            };
+            double in = some();
+            double out = in + some() + 1e-9;
             if (random() % 40 == 0) in = -infinity;
             if (random() % 40 == 0) out = infinity;
             ends.push_back({in, static_cast<std::uint32_t>(s), 0});
