@@ -8,3 +8,16 @@
 #define CSGRT_SANITIZED
 #endif
 #endif
+
+namespace csgrt::test {
+
+#ifdef CSGRT_SANITIZED
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+/// How often random cases are tried: the sanitizers look at what is run, not at how often.
+constexpr int tries(int number) { return sanitized ? (number + 7) / 8 : number; }
+
+}  // namespace csgrt::test

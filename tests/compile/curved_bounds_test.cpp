@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "compile/bounds.hpp"
 #include "compile/linear.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
@@ -81,7 +82,7 @@ struct Axes {
 TEST_CASE("the boxes of paraboloids and of parabolic and hyperbolic cylinders "
           "are tight") {
   Random random;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::tries(12); ++round) {
     const Matrix m = random.matrix();
     const Axes axes(random);
     const Wide v = 3.0L * random.wide(),
@@ -114,7 +115,7 @@ TEST_CASE("the boxes of paraboloids and of parabolic and hyperbolic cylinders "
 
 TEST_CASE("the boxes of hyperboloids and elliptical tori are tight") {
   Random random;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::tries(12); ++round) {
     const Matrix m = random.matrix();
     const Axes axes(random);
     const Wide v = 3.0L * random.wide(),
@@ -147,7 +148,7 @@ TEST_CASE("the boxes of hyperboloids and elliptical tori are tight") {
 
 TEST_CASE("the box of a particle is that of its two balls") {
   Random random;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::tries(12); ++round) {
     const Matrix m = random.matrix();
     const Axes axes(random);
     const Wide v = 3.0L * random.wide(), h = random.wide();
@@ -167,7 +168,7 @@ TEST_CASE("the box of a particle is that of its two balls") {
 TEST_CASE("the box of a superellipsoid is tight, for exponents that bulge and "
           "that pinch") {
   Random random;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < test::tries(12); ++round) {
     const Matrix m = random.matrix();
     const Axes axes(random);
     const Wide v = 3.0L * random.wide(), a = 2.0L * axes.x,
