@@ -182,29 +182,23 @@ FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
 
 // Along the outward normals where rays hit the same surface of such a solid at t; 0: it is a plane.
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
-    int known = surface == 0;
+    if (surface != 0 || solid.type == SOLID_ARB || solid.type == SOLID_HALF) return 0;
 #if HAS_SOLID(SOLID_ELL)
     if (solid.type == SOLID_ELL) *n = ell_normal(g.reals + solid.first_real, r, t);
-    else
 #endif
 #if HAS_SOLID(SOLID_TGC)
     if (solid.type == SOLID_TGC) *n = tgc_normal(g, solid, r, t, surface);
-    else
 #endif
 #if HAS_SOLID(SOLID_TOR)
     if (solid.type == SOLID_TOR) *n = tor_normal(g, solid, r, t, surface);
-    else
 #endif
 #if HAS_SOLID(SOLID_EHY)
     if (solid.type == SOLID_EHY) *n = ehy_normal(g, solid, r, t, surface);
-    else
 #endif
 #if HAS_SOLID(SOLID_QUADRIC)
     if (solid.type == SOLID_QUADRIC) *n = quadric_normal(g, solid, r, t, surface);
-    else
 #endif
-        known = 0;
-    return known;
+    return 1;
 }
 
 // Bit k: ray k.
