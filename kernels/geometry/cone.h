@@ -45,6 +45,7 @@ FN span tapered_piece(u32 method, GLOBAL const parameter* p, local_ray l, span s
     const real reach = REAL(1.0001) * real_sqrt(p[17] - (dot3(l.o, l.o) - middle * middle));
     s.low = (s.low - l.shift) * length;
     s.high = (s.high - l.shift) * length;
+    // Of a miss the reach is not a number, and so are both ends then.
     s.low = s.low > middle - reach ? s.low : middle - reach;
     s.high = s.high < middle + reach ? s.high : middle + reach;
     return s;

@@ -12,7 +12,8 @@
 typedef struct {
     local_ray l;
     vec3 d;
-    real length, low, high;  // of l.d
+    real length;  // of l.d
+    real low, high;
 } tor_piece;
 
 FN real axis_distance2(vec3 o, vec3 d, real u) {
@@ -24,7 +25,7 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     const parameter ratio = p[12];
     const real outer = (REAL(1) + ratio) * TOR_MARGIN, tube = ratio * TOR_MARGIN;
     const real inner = (REAL(1) - ratio) * (REAL(2) - TOR_MARGIN);
-    real middle, reach, z0, z1;
+    real middle, reach, z0, z1, first, last;
     truth crosses, outside;
     tor_piece s;
     s.l = quartic_ray(method, p, r);
@@ -35,8 +36,13 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     z0 = (-tube - s.l.o.z) / s.d.z;
     z1 = (tube - s.l.o.z) / s.d.z;
     crosses = s.d.z != 0;
-    s.low = crosses ? real_max(middle - reach, real_min(z0, z1)) : middle - reach;
-    s.high = crosses ? real_min(middle + reach, real_max(z0, z1)) : middle + reach;
+    first = real_min(z0, z1);
+    last = real_max(z0, z1);
+    s.low = middle - reach;
+    s.high = middle + reach;
+    // Asked so that what is not a number stays: the ray misses the sphere, whatever it meets of the slab.
+    s.low = crosses && first > s.low ? first : s.low;
+    s.high = crosses && last < s.high ? last : s.high;
     outside = !(s.low < s.high) || (!crosses && real_abs(s.l.o.z) > ratio);
     // Most rays through the box of a thin ring pass within it. The distance from the axis is greatest at an end of the piece.
     if (ratio < 1)
