@@ -12,6 +12,7 @@ namespace kernel {
 
 namespace {
 constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
+std::uint32_t blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
 }
 
 Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
@@ -58,18 +59,20 @@ void Exact::release_counted() {
         *buffer = Buffer(device_, buffer->name());
 }
 
+Event Exact::sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level) {
+    while (sums_.size() <= level) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
+    sums_[level]->reserve(blocks_of(size) * sizeof(kernel::RayCount));
+    return scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries, *sums_[level], size);
+}
+
 kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times) {
     const kernel::RayCount zero{};
     counts.upload(&zero, sizeof zero, rays * sizeof zero);
     std::vector<std::uint32_t> sizes{rays + 1};
-    while (sizes.back() > 1) sizes.push_back((sizes.back() + scan_block - 1) / scan_block);
-    while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
+    while (sizes.back() > 1) sizes.push_back(blocks_of(sizes.back()));
     std::vector<Event> events;
     const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
-        level(i + 1).reserve(sizes[i + 1] * sizeof(kernel::RayCount));
-        events.push_back(scan_blocks_.launch(sizes[i + 1] * work_group, work_group, level(i), level(i + 1), sizes[i]));
-    }
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) events.push_back(sum_blocks(level(i), sizes[i], i + 1));
     for (std::size_t i = sizes.size() - 1; i-- > 1;)
         events.push_back(scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
     kernel::RayCount total;
@@ -165,12 +168,8 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
 
 // The first step of a scan leaves the sums of blocks, so that not every ray's tally has to come to the host.
 void Exact::add_tallies(std::uint32_t rays, PipelineCounts& counts) {
-    const std::uint32_t blocks = (rays + scan_block - 1) / scan_block;
-    while (sums_.size() < 2) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
-    Buffer& sums = *sums_[1];
-    sums.reserve(blocks * sizeof(kernel::RayTally));
-    const Event sum = scan_blocks_.launch(std::size_t{blocks} * work_group, work_group, places_, sums, rays);
-    for (const kernel::RayTally& tally : sums.read<kernel::RayTally>(blocks)) {
+    const Event sum = sum_blocks(places_, rays, 1);
+    for (const kernel::RayTally& tally : sums_[1]->read<kernel::RayTally>(blocks_of(rays))) {
         counts.partitions_used += tally.partitions;
         counts.overlaps += tally.overlaps;
     }

@@ -36,6 +36,8 @@ public:
     void release();  ///< gives all its memory back: another use of the budget wants it
 
 private:
+    /// A step of the scan: of each block of entries the sum, in sums_[level]; the entries become sums within their block.
+    Event sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level);
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set; returns the last sum.
     kernel::RayCount scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times);
     void release_counted();  // what holds segments and partitions
