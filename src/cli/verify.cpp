@@ -14,7 +14,7 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr std::size_t chunk = 16'384;  ///< rays
+constexpr std::size_t rays_at_once = 16'384;
 
 }  // namespace
 
@@ -43,8 +43,8 @@ Status run(const VerifyArguments& arguments) {
         const auto total = static_cast<double>(reader ? reader->count() : sample.size());
         std::size_t done = 0;
         const auto next = [&] {
-            if (reader) return reader->next(rays, chunk);
-            const std::size_t end = std::min(done + chunk, sample.size());
+            if (reader) return reader->next(rays, rays_at_once);
+            const std::size_t end = std::min(done + rays_at_once, sample.size());
             rays.assign(sample.begin() + static_cast<std::ptrdiff_t>(done),
                         sample.begin() + static_cast<std::ptrdiff_t>(end));
             return !rays.empty();

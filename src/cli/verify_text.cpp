@@ -31,7 +31,7 @@ std::string numbers_of(const Ray& ray, const char* between) {
     return text;
 }
 
-std::string row(const char* name, const std::string& value) {
+std::string figure_row(const char* name, const std::string& value) {
     std::string text = name;
     text.resize(std::max<std::size_t>(text.size() + 2, 18), ' ');
     return text + value + "\n";
@@ -64,9 +64,9 @@ std::string lines_of(const RegionDifference& difference, const char* found, cons
 }
 
 std::string error_row(const char* name, const EndError& error, const Renderer& judged) {
-    if (!(error.millimetres > 0)) return row(name, "0");
+    if (!(error.millimetres > 0)) return figure_row(name, "0");
     std::string text =
-        row(name, brief(error.millimetres) + " mm, " + brief(error.ulps) + " ulp, " + brief(error.distance) +
+        figure_row(name, brief(error.millimetres) + " mm, " + brief(error.ulps) + " ulp, " + brief(error.distance) +
                       " mm along ray " + std::to_string(error.index) + " at " + path(judged, error.region));
     return text + line_of(error);
 }
@@ -115,11 +115,11 @@ std::string json_error(const char* name, const EndError& error, const Renderer& 
 std::string to_text(const Verification& result, const Renderer& judged) {
     const bool alone = result.device.empty();
     std::string text =
-        row("device", alone ? "none, the reference alone" : result.device) + row("rays", std::to_string(result.rays)) +
-        row("hits", std::to_string(result.hits)) + row("decided", std::to_string(result.decided)) +
-        row("ties", std::to_string(result.ties)) + row("wrong regions", std::to_string(result.wrong)) +
-        row("bit differences", alone ? "not compared" : std::to_string(result.bit_differences)) +
-        row("distances", std::to_string(result.ends) + ", and " + std::to_string(result.leaping_ends) + " that leap") +
+        figure_row("device", alone ? "none, the reference alone" : result.device) + figure_row("rays", std::to_string(result.rays)) +
+        figure_row("hits", std::to_string(result.hits)) + figure_row("decided", std::to_string(result.decided)) +
+        figure_row("ties", std::to_string(result.ties)) + figure_row("wrong regions", std::to_string(result.wrong)) +
+        figure_row("bit differences", alone ? "not compared" : std::to_string(result.bit_differences)) +
+        figure_row("distances", std::to_string(result.ends) + ", and " + std::to_string(result.leaping_ends) + " that leap") +
         error_row("most millimetres", result.farthest, judged) + error_row("most ulps", result.worst, judged);
     for (std::size_t i = 0; i < std::min(result.wrong_rays.size(), most_printed); ++i) {
         const WrongRay& ray = result.wrong_rays[i];

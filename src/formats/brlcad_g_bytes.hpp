@@ -12,6 +12,8 @@
 
 namespace csgrt {
 
+constexpr std::size_t word_size = 4, real_size = 8;  // bytes of a whole number and of a double
+
 class ByteSource : public Source {
 public:
     /// `name` is what diagnostics call the file.

@@ -13,7 +13,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::size_t word_size = 4, real_size = 8, point_size = 3 * real_size;
+constexpr std::size_t point_size = 3 * real_size;
 constexpr std::uint8_t has_normals = 0x01, has_texture = 0x08;
 
 int choice(ByteReader& b, int last, const char* what) {

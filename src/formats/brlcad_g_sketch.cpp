@@ -13,7 +13,6 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::size_t word_size = 4, real_size = 8;
 constexpr std::uint32_t is_rational = 1;  // in the type of a nurb's points
 
 Sketch::Curve line(ByteReader& b, std::size_t vertices) {

@@ -8,8 +8,6 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::size_t real_size = 8;
-
 // Braces evaluate their parts from left to right, which is the order of the file.
 
 Shape tor(ByteReader& b) { return Tor{b.vec3("V"), b.vec3("H"), b.real("r_a"), b.real("r_h")}; }

@@ -73,6 +73,7 @@ public:
         const Field field = next(what);
         return read_integer(field.text, field.offset, low, high);
     }
+    std::uint32_t count(const char* what) { return static_cast<std::uint32_t>(integer(what, 0)); }
     template <std::size_t count>
     std::array<double, count> numbers(const char* what) {
         std::array<double, count> values{};

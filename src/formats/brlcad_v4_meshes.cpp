@@ -26,13 +26,9 @@ Line next_line(LineReader& lines, std::uint64_t done, std::uint64_t count, std::
     return lines.take();
 }
 
-std::uint32_t count_field(Fields& fields, const char* what) {
-    return static_cast<std::uint32_t>(fields.integer(what, 0));
-}
-
 std::uint32_t index_field(Fields& fields, const char* what, std::size_t end) {
     const std::size_t at = fields.offset();
-    const std::uint32_t index = count_field(fields, what);
+    const std::uint32_t index = fields.count(what);
     if (index >= end) {
         throw Fault{at,
                     "there is no number " + std::to_string(index) + ": there are only " + std::to_string(end) +
@@ -52,8 +48,8 @@ Shape read_v4_bot(Fields& fields, LineReader& lines) {
     bot.mode = static_cast<Bot::Mode>(fields.integer("the mode", 1, 4) - 1);
     bot.orientation = static_cast<Bot::Orientation>(fields.integer("the orientation", 1, 3) - 1);
     fields.integer("the error mode");
-    const std::uint64_t vertices = count_field(fields, "the number of vertices");
-    const std::uint64_t faces = count_field(fields, "the number of faces");
+    const std::uint64_t vertices = fields.count("the number of vertices");
+    const std::uint64_t faces = fields.count("the number of faces");
     const bool plate = bot.mode == Bot::Mode::plate;
     const std::uint64_t all = vertices + faces + (plate ? 1 : 0);
     for (std::uint64_t i = 0; i < vertices; ++i) {
@@ -103,10 +99,10 @@ Shape read_v4_ars(Fields& fields, LineReader& lines, std::string& name) {
     fields.integer("the solid's type");
     name = fields.next("the solid's name").text;
     const std::size_t counts_at = fields.offset();
-    const std::uint64_t curves = count_field(fields, "the number of curves");
-    const std::uint64_t length = count_field(fields, "the points of a curve");
+    const std::uint64_t curves = fields.count("the number of curves");
+    const std::uint64_t length = fields.count("the points of a curve");
     fields.integer("the records of a curve");
-    const std::uint64_t records = count_field(fields, "the number of records");
+    const std::uint64_t records = fields.count("the number of records");
     constexpr std::uint64_t points_a_record = 8;
     const std::uint64_t needed = curves * ((length + points_a_record - 1) / points_a_record);
     if (records != needed) {
@@ -142,10 +138,10 @@ Shape read_v4_nmg(Fields& fields, LineReader& lines, std::string& name) {
     }
     name = fields.next("the solid's name").text;
     constexpr std::uint64_t lines_a_granule = 4;
-    const std::uint64_t granules = count_field(fields, "the number of granules");
+    const std::uint64_t granules = fields.count("the number of granules");
     Fields line(next_line(lines, 0, 1, " 0123456789", "lines of counts"));
     NmgCounts counts;
-    for (std::uint32_t& count : counts) count = count_field(line, "a count of the nmg's records");
+    for (std::uint32_t& count : counts) count = line.count("a count of the nmg's records");
     std::string bytes;
     for (std::uint64_t i = 0; i < lines_a_granule * granules; ++i) {
         const Line data = next_line(lines, i, lines_a_granule * granules, "0123456789abcdefABCDEF", "lines of data");

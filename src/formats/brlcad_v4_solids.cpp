@@ -120,10 +120,6 @@ void take_lines(LineReader& lines, std::uint64_t count, std::string_view starts,
     }
 }
 
-std::uint64_t count_field(Fields& fields, const char* what) {
-    return static_cast<std::uint64_t>(fields.integer(what, 0));
-}
-
 Shape polysolid(LineReader& lines) {
     take_lines(lines, 1, "Q", "faces");
     while (lines.peek().text.starts_with('Q')) lines.take();
@@ -132,7 +128,7 @@ Shape polysolid(LineReader& lines) {
 
 Shape spline(Fields& fields, LineReader& lines) {
     constexpr int max_mesh = 32'767;  // a record holds it in 16 bits
-    const std::uint64_t surfaces = count_field(fields, "the number of surfaces");
+    const std::uint64_t surfaces = fields.count("the number of surfaces");
     for (std::uint64_t i = 0; i < surfaces; ++i) {
         const Line head = lines.peek();
         if (!head.text.starts_with('D')) throw Fault{head.offset, "a surface of the spline is missing", {}};
@@ -140,8 +136,8 @@ Shape spline(Fields& fields, LineReader& lines) {
         surface.next("the letter D");
         surface.integer("the order in u");
         surface.integer("the order in v");
-        std::uint64_t numbers = count_field(surface, "the number of knots in u");
-        numbers += count_field(surface, "the number of knots in v");
+        std::uint64_t numbers = surface.count("the number of knots in u");
+        numbers += surface.count("the number of knots in v");
         const auto rows = static_cast<std::uint64_t>(surface.integer("the rows of the mesh", 0, max_mesh));
         const auto columns = static_cast<std::uint64_t>(surface.integer("the columns of the mesh", 0, max_mesh));
         numbers += rows * columns * static_cast<std::uint64_t>(surface.integer("the coordinates of a point", 0, 4));

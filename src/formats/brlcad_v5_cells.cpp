@@ -1,5 +1,4 @@
 // Solids of the newer text form whose cells stand in a file or an object of their own.
-#include <limits>
 
 #include "formats/brlcad_codes.hpp"
 #include "formats/brlcad_v5_solids.hpp"
@@ -8,8 +7,6 @@
 namespace csgrt {
 
 namespace {
-
-constexpr int largest = std::numeric_limits<int>::max();
 
 /// "o": cells in an object; "f", or as older databases have it "4": in a file.
 bool read_source(Parameters& p) {
@@ -58,7 +55,7 @@ BrlcadItem read_v5_dsp(Parameters& p) {
     dsp.file = read_name(p, "file");
     dsp.width = p.count("w");
     dsp.depth = p.count("n");
-    dsp.smooth = p.integer("sm", -largest, largest) != 0;
+    dsp.smooth = p.integer("sm", -largest_integer, largest_integer) != 0;
     if (p.has("cut")) {
         const TclWord& cut = p.take("cut");
         dsp.cut = read_cut(cut.text, cut.offset);

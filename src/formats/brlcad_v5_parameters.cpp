@@ -1,14 +1,11 @@
 #include "formats/brlcad_v5_parameters.hpp"
 
-#include <limits>
 
 #include "formats/brlcad_values.hpp"
 
 namespace csgrt {
 
 namespace {
-
-constexpr int largest = std::numeric_limits<int>::max();
 
 [[noreturn]] void fail_count(std::size_t offset, std::string_view what, std::size_t found, std::size_t expected) {
     const std::string amount = found > expected ? "more than " : std::to_string(found) + " of ";
@@ -63,7 +60,7 @@ int Parameters::integer(std::string_view key, int low, int high) {
     return read_integer(word.text, word.offset, low, high);
 }
 
-std::uint32_t Parameters::count(std::string_view key) { return static_cast<std::uint32_t>(integer(key, 1, largest)); }
+std::uint32_t Parameters::count(std::string_view key) { return static_cast<std::uint32_t>(integer(key, 1, largest_integer)); }
 
 Vec3 Parameters::vec3(std::string_view key) {
     const auto v = numbers<3>(key);
@@ -131,7 +128,7 @@ std::vector<std::uint32_t> read_v5_indices(const TclWord& list, std::size_t end,
     std::vector<std::uint32_t> out;
     TclList elements(list, store);
     for (TclWord element; elements.next(element);) {
-        const int index = read_integer(element.text, element.offset, 0, largest);
+        const int index = read_integer(element.text, element.offset, 0, largest_integer);
         if (static_cast<std::size_t>(index) >= end) {
             throw Fault{element.offset,
                         "there is no number " + std::to_string(index) + ": there are only " + std::to_string(end) +

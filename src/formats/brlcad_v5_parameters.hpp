@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@
 #include "formats/tcl_words.hpp"
 
 namespace csgrt {
+
+constexpr int largest_integer = std::numeric_limits<int>::max();
 
 using Triangle = std::array<std::uint32_t, 3>;
 

@@ -1,5 +1,4 @@
 // Sketches of the newer text form, and the solids that they make.
-#include <limits>
 
 #include "formats/brlcad_v5_solids.hpp"
 #include "formats/brlcad_values.hpp"
@@ -7,8 +6,6 @@
 namespace csgrt {
 
 namespace {
-
-constexpr int largest = std::numeric_limits<int>::max();
 
 std::uint32_t vertex(Parameters& p, std::string_view key, std::size_t vertices) {
     const std::size_t offset = p.place_of(key);
@@ -34,7 +31,7 @@ Sketch::Curve arc(Parameters& p, std::size_t vertices) {
 
 Sketch::Curve bezier(Parameters& p, std::size_t vertices) {
     const std::size_t offset = p.place_of("D");
-    const int degree = p.integer("D", 1, largest);
+    const int degree = p.integer("D", 1, largest_integer);
     Sketch::Bezier curve{p.indices("P", vertices)};
     if (curve.points.size() != static_cast<std::size_t>(degree) + 1) {
         throw Fault{offset,
@@ -108,7 +105,7 @@ Sketch read_v5_sketch(Parameters& p) {
 Shape read_v5_extrude(Parameters& p) {
     Extrude solid{p.vec3("V"), p.vec3("H"), p.vec3("A"), p.vec3("B"), {}};
     solid.sketch.name = p.take("S").text;
-    if (p.has("K")) p.integer("K", -largest, largest);  // which vertex is the key point, for an editor
+    if (p.has("K")) p.integer("K", -largest_integer, largest_integer);  // which vertex is the key point, for an editor
     return solid;
 }
 

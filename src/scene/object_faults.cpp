@@ -10,9 +10,6 @@ namespace csgrt {
 
 namespace {
 
-/// A matrix that makes less than this part of the volume that its columns could span is not inverted reliably.
-constexpr double least_volume = 1e-10;
-
 bool in_range(double value, double low, double high) {
     return value >= low && value <= high;  // false for what is not a number
 }
@@ -69,7 +66,7 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
         return;
     }
     const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
-    if (!plainly_independent(x, y, z) && std::abs(dot(unit(x), cross(unit(y), unit(z)))) < least_volume) {
+    if (dependent(x, y, z)) {
         report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
     }
 }

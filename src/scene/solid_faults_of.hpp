@@ -61,14 +61,6 @@ struct FaultsOf {
 /// vectors of single precision, off by up to 1e-6; its ray tracer refuses beyond a cosine of 0.999.
 inline constexpr double angle_slack = 1e-3;
 
-/// Three vectors whose box has less than this part of the volume of a right-angled one lie in a plane, as far as
-/// double precision can tell after they have been inverted.
-inline constexpr double least_volume = 1e-10;
-
-inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return !plainly_independent(a, b, c) && std::abs(dot(unit(a), cross(unit(b), unit(c)))) < least_volume;
-}
-
 /// Vertices of meshes are at most this far from the origin: squares of such lengths are numbers still.
 inline constexpr double most_distant = 1e150;
 

@@ -54,4 +54,12 @@ inline Matrix compose(const Matrix& outer, const Matrix& inner) {
 inline constexpr double unit_slack = 1e-9;
 inline bool is_unit(const Vec3& a) { return std::abs(length(a) - 1) <= unit_slack; }
 
+/// Three vectors whose box has less than this part of the volume of a right-angled one lie in a plane, as far as
+/// double precision can tell after they have been inverted.
+inline constexpr double least_volume = 1e-10;
+
+inline bool dependent(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return !plainly_independent(a, b, c) && std::abs(dot(unit(a), cross(unit(b), unit(c)))) < least_volume;
+}
+
 }  // namespace csgrt
