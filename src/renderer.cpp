@@ -96,6 +96,7 @@ struct Renderer::Impl {
     std::optional<Reference> reference;
     Statistics statistics;
     double build_ms = 0;  // of the device, without its kernels
+    double built_before = 0;  // ms.build when the call began
 
     void start_call(std::uint64_t rays, int width, int height) {
         Statistics fresh;
@@ -106,11 +107,15 @@ struct Renderer::Impl {
         fresh.tolerance = statistics.tolerance;
         fresh.contraction = statistics.contraction;
         fresh.ms.compile = statistics.ms.compile;
-        fresh.ms.build = statistics.ms.build;
+        fresh.ms.build = built_before = statistics.ms.build;
         fresh.rays = rays;
         fresh.width = width;
         fresh.height = height;
         statistics = fresh;
+    }
+    /// What compiling kernels took of the call is `build`'s.
+    void end_call(Clock::time_point start) {
+        statistics.ms.frame = milliseconds_since(start) - (statistics.ms.build - built_before);
     }
     void take(const PipelineCounts& c) {
         statistics.hits = c.hits;
@@ -227,7 +232,7 @@ void Renderer::render(const View& view, Image& image) {
         for (const std::string& solid : impl.scene.skipped) skipped += (skipped.empty() ? "" : "; ") + solid;
     }
     describe_camera(prepared, image);
-    impl.statistics.ms.frame = milliseconds_since(start);
+    impl.end_call(start);
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
@@ -257,7 +262,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
         answers = impl.pipelines->shoot(prepared, rays, impl.settings.progress, counts);
         impl.take(counts);
     }
-    impl.statistics.ms.frame = milliseconds_since(start);
+    impl.end_call(start);
     return answers;
 }
 

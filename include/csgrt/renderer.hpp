@@ -104,6 +104,7 @@ struct Statistics {
     std::uint64_t device_bytes = 0, segment_bytes = 0, partition_bytes = 0;
     std::uint32_t tiles = 0;
     struct {
+        /// `build`: of the device and all kernels so far, which the calls that compile them do not count as `frame`.
         double load = 0, compile = 0, build = 0, count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0,
                shade = 0, cull_blocks = 0, first_hits = 0, frame = 0, write = 0;
         /// All that the device did for the frame.
