@@ -24,7 +24,7 @@ SeenBlocks Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const k
         lists_.reserve(std::size_t{count} * LISTED_NODES * sizeof(kernel::BlockNode));
     else
         lists_ = Buffer(device_, lists_.name());
-    const Event cull = cull_blocks_.launch(count, work_group, tile.frame, scene.nodes, costs_, lists_);
+    const Event cull = cull_blocks_.launch(count, uneven_group(device_), tile.frame, scene.nodes, costs_, lists_);
     const auto costs = costs_.read<unsigned char>(count);
     counts.cull_blocks += milliseconds(cull);
 

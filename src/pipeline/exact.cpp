@@ -114,7 +114,7 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
 
     const Buffer none(device_, "nothing");
     const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
-    const Event find = find_candidates_.launch(rays, work_group, tile.frame, s.nodes, lists, tile.rays, places_, none);
+    const Event find = find_candidates_.launch(rays, uneven_group(device_), tile.frame, s.nodes, lists, tile.rays, places_, none);
     const cl_uint candidates = scan(places_, rays, counts).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
     const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
@@ -126,10 +126,10 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
         candidates_.reserve(candidate_bytes);
         found_.reserve(found_bytes);
     }
-    const Event list = find_candidates_.launch(candidates ? rays : 0, work_group, tile.frame, s.nodes, lists, tile.rays,
+    const Event list = find_candidates_.launch(candidates ? rays : 0, uneven_group(device_), tile.frame, s.nodes, lists, tile.rays,
                                                places_, candidates_);
     const Event count =
-        count_hits_.launch(candidates, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+        count_hits_.launch(candidates, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                            s.inner_nodes, tile.rays, candidates, candidates_, found_);
     const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);
     total_ = scan(counts_, rays, counts);
@@ -144,7 +144,7 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
     const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, bits_, nodes, partitions);
     const Event weave =
-        weave_.launch(rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions, bits_, firsts_, places_);
+        weave_.launch(rays, uneven_group(device_), tile.frame, tile.rays, counts_, ends_, partitions, bits_, firsts_, places_);
     const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_,
                                             bits_, nodes, partitions);
     Event shade;

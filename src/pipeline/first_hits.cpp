@@ -45,7 +45,7 @@ std::vector<std::uint32_t> FirstHits::run(const SceneBuffers& scene, TileBuffers
     overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
     overflows_.queue_fill(0, sizeof(cl_uint));
     const Event draw =
-        first_hits_.launch(rays / rays_an_item_, work_group / rays_an_item_, tile.frame, s.solids, s.reals, s.planes,
+        first_hits_.launch(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes,
                            s.plane_refs, s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
                            tile.lights, cull_.lists(), tile.rays, overflows_, overflown_, tile.picture);
     const std::uint32_t overflows = overflows_.read<cl_uint>(1).front();

@@ -16,6 +16,8 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const Hos
       materials(device, "materials", scene.materials),
       nodes(device, "bounding volumes", tables.nodes) {}
 
+std::size_t uneven_group(const Device& device) { return device.info().type == "cpu" ? 1 : work_group; }
+
 PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     hits += other.hits;
     segments += other.segments;

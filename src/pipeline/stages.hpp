@@ -11,7 +11,11 @@
 
 namespace csgrt {
 
-inline constexpr std::size_t work_group = 64;  // work-items: one size for all kernels, so that each is compiled once
+// Work-items in a group, always the same for a kernel, so that each is compiled once.
+inline constexpr std::size_t work_group = 64;
+/// The same for kernels whose items differ much in what they do. A processor's thread takes whole groups: 64 of the longest
+/// would keep it busy after all others have ended, and what a loop over items has to keep for each of them is no small thing.
+std::size_t uneven_group(const Device& device);
 
 inline constexpr std::uint32_t block_rays = BLOCK * BLOCK;
 
