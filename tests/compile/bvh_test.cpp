@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "compile/bvh.hpp"
 #include "compile/linear.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
@@ -169,7 +170,7 @@ TEST_CASE("no ray passes a box that it hits, and few others are met") {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
     std::size_t hits = 0, met_count = 0, tests = 0;
-    constexpr int rays = 2000;
+    constexpr int rays = test::tries(2000);
     for (int ray = 0; ray < rays; ++ray) {
         // At a point of some box, its sides and corners included; every third along an axis.
         const Box& aim = s.boxes[random() % s.boxes.size()];

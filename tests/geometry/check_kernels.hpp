@@ -11,7 +11,7 @@ namespace csgrt {
 /// `rays` rays in equal parts of the seven families; 42 at each solid.
 void check_kernels(oracle::Kind kind, std::size_t rays, std::uint64_t seed);
 
-inline constexpr std::size_t short_run = test::sanitized ? 4'000 : 20'000;
+inline constexpr std::size_t short_run = test::tries(20'000);
 inline constexpr std::size_t long_run = 1'000'000;
 
 }  // namespace csgrt
