@@ -120,7 +120,7 @@ TEST_CASE("json round trip: friendly solids stay friendly, and others keep their
 }
 
 TEST_CASE("json round trip: every type of solid, in all units") {
-    constexpr std::size_t types = std::variant_size_v<Shape>;
+    constexpr std::size_t types = std::variant_size_v<Shape::variant>;
     Numbers n(11);
     for (std::size_t type = 0; type < types; ++type) {
         for (int i = 0; i < test::tries(40); ++i) {

@@ -162,10 +162,10 @@ inline Shape random_shape(Numbers& n, std::size_t type) {
         Extrude{n.vector(), n.vector(), n.vector(), n.vector(), random_sketch(n)},
         Revolve{n.vector(), n.vector(), n.vector(), n.coin() ? n() : std::abs(std::fmod(n(), 6.3)), random_sketch(n)},
         Unsupported{"grip \"\\ \u00e9\n"}};
-    static_assert(std::size(kinds) == std::variant_size_v<Shape>);
+    static_assert(std::size(kinds) == std::variant_size_v<Shape::variant>);
     return kinds[type];
 }
 
-inline Shape random_shape(Numbers& n) { return random_shape(n, n.below(std::variant_size_v<Shape>)); }
+inline Shape random_shape(Numbers& n) { return random_shape(n, n.below(std::variant_size_v<Shape::variant>)); }
 
 }  // namespace csgrt

@@ -1,0 +1,13 @@
+// What of a shape is compiled once, for all of its types.
+#include <csgrt/solids.hpp>
+
+namespace csgrt {
+
+Shape::Shape() noexcept = default;
+Shape::Shape(const Shape& other) = default;
+Shape::Shape(Shape&& other) noexcept = default;
+Shape& Shape::operator=(const Shape& other) = default;
+Shape& Shape::operator=(Shape&& other) noexcept = default;
+Shape::~Shape() = default;
+
+}  // namespace csgrt
