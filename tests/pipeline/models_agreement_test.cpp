@@ -4,12 +4,15 @@
 #include <csgrt/csgrt.hpp>
 
 #include "catch.hpp"
+#include "compile/compiled_scene.hpp"
+#include "pipeline/every_type.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
 
 using namespace csgrt;
 using test::require_agreement;
 using test::require_same;
+using test::with_every_type;
 
 TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement]") {
     const std::string folder = test::folder("CSGRT_BRLCAD");
@@ -19,8 +22,18 @@ TEST_CASE("device and reference agree on BRL-CAD's models", "[agreement]") {
     }
     for (const test::Model& model : test::models()) {
         INFO(model.file);
-        require_agreement(load_scene(folder + "/" + model.file), model.objects, model.main ? 64 : 24, 200);
+        Scene scene = load_scene(folder + "/" + model.file);
+        std::vector<std::string> objects = model.objects;
+        if (!model.main) scene = with_every_type(std::move(scene), objects);
+        require_agreement(scene, objects, model.main ? 64 : 24, 200);
     }
+}
+
+TEST_CASE("the scene of every type has every type", "[agreement]") {
+    if (test::folder("CSGRT_SCENES").empty()) return;
+    std::vector<std::string> objects;
+    const Scene scene = with_every_type(load_scene(test::folder("CSGRT_SCENES") + "/onion.json"), objects);
+    CHECK(compile(scene, objects).solid_types == (1u << SOLID_TYPES) - 1);
 }
 
 TEST_CASE("device and reference agree on BRL-CAD's models, 512 x 512", "[.long][agreement]") {

@@ -6,6 +6,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "pipeline/every_type.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scene_of_kinds.hpp"
 #include "pipeline/scenes.hpp"
@@ -21,29 +22,25 @@ std::vector<Settings> in_single() {
     return {eye, world};
 }
 
-// What an OpenCL compiler takes for a program in each precision is most of the time here. So by default only scenes of
-// what the hard rays below do not meet are asked, and the world's coordinates, which share all but the camera with the
-// eye's, of the first of them and of the first model only.
-std::vector<Settings> asked(std::size_t number, bool all) {
-    std::vector<Settings> settings = in_single();
-    if (!all && number != 0) settings.pop_back();
-    return settings;
+// By default all in one program for each precision, since what an OpenCL compiler takes for each is most of the time here;
+// and of the world's coordinates, which share all but the camera with the eye's, every fourth. `all`: each in its own, in both.
+void require(Scene scene, std::vector<std::string> objects, int size, int rays, std::size_t number, bool all) {
+    if (!all) scene = test::with_every_type(std::move(scene), objects);
+    std::vector<Settings> asked = in_single();
+    if (!all && number % 4 != 0) asked.pop_back();
+    for (const Settings& settings : asked) {
+        INFO(name_of(precision_names, settings.precision));
+        test::require_agreement(scene, objects, size, rays, settings);
+    }
 }
 
 void require_scenes(bool all) {
-    std::vector<std::string> files = test::scene_files();
+    const std::vector<std::string> files = test::scene_files();
     if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
-    const auto is_asked = [](const std::string& file) {
-        for (const char* name : {"/solids.json", "/cells.json", "/meshes.json", "/operators.json", "/sketches.json"})
-            if (file.ends_with(name)) return true;
-        return false;
-    };
-    if (!all) std::erase_if(files, [&](const std::string& file) { return !is_asked(file); });
-    for (std::size_t i = 0; i < files.size(); ++i)
-        for (const Settings& settings : asked(i, all)) {
-            INFO(files[i] << " " << name_of(precision_names, settings.precision));
-            test::require_agreement(load_scene(files[i]), {}, 64, 200, settings);
-        }
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        INFO(files[i]);
+        require(load_scene(files[i]), {}, 64, 200, i, all);
+    }
 }
 
 void require_models(bool all) {
@@ -55,24 +52,23 @@ void require_models(bool all) {
     std::size_t number = 0;
     for (const test::Model& model : test::models()) {
         if (!model.main) continue;
-        for (const Settings& settings : asked(number++, all)) {
-            INFO(model.file << " " << name_of(precision_names, settings.precision));
-            test::require_agreement(load_scene(folder + "/" + model.file), model.objects, 64, 100, settings);
-        }
+        INFO(model.file);
+        require(load_scene(folder + "/" + model.file), model.objects, 64, 100, number++, all);
     }
 }
 
 void require_hard_rays() {
     using oracle::Kind;
     std::vector<Ray> rays;
-    const Scene scene =
-        test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays);
+    std::vector<std::string> objects = {"all"};
+    const Scene scene = test::with_every_type(
+        test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays), objects);
     for (Settings settings : in_single()) {
         INFO(name_of(precision_names, settings.precision));
-        Renderer device(scene, {"all"}, settings);
+        Renderer device(scene, objects, settings);
         settings.reference = true;
         settings.device.clear();
-        Renderer reference(scene, {"all"}, settings);
+        Renderer reference(scene, objects, settings);
         // From afar, coordinates of the world in float put solids outside their boxes: the device's hierarchy does not
         // see those there.
         const std::vector<Ray> some = settings.precision == Precision::single ? rays : test::near_only(rays);
@@ -90,7 +86,7 @@ TEST_CASE("device and reference agree in single precision on rays that methods f
     require_hard_rays();
 }
 
-TEST_CASE("device and reference agree in both single precisions everywhere", "[.long][agreement]") {
+TEST_CASE("device and reference agree in both single precisions, each scene with its own program", "[.long][agreement]") {
     require_scenes(true);
     require_models(true);
 }

@@ -1,0 +1,67 @@
+// A scene with a solid of every type in it. What a device's compiler takes for a program hangs little on the types in it,
+// so tests of many scenes give all of them one program; those of our own scenes have one for each set of types.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <csgrt/csgrt.hpp>
+
+#include "pipeline/scenes.hpp"
+
+namespace csgrt::test {
+
+/// `scene`, and five of our own scenes that have a solid of every type between them, in a row at the middle of `objects`
+/// (empty: of the top objects) and a tenth as wide. `objects` gets their name. Empty CSGRT_SCENES: nothing is added.
+inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    if (folder.empty()) return scene;
+    if (objects.empty()) objects = top_objects(scene);
+    const auto bounds_of = [](const Scene& what, const std::vector<std::string>& which) {
+        Settings settings;
+        settings.reference = true;
+        return Renderer(what, which, settings).bounds();
+    };
+    const auto middle = [](const Box& box) {
+        return Vec3{(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2, (box.low.z + box.high.z) / 2};
+    };
+    const auto diagonal = [](const Box& box) {
+        return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z);
+    };
+    const Box box = bounds_of(scene, objects);
+    const double width = diagonal(box) / 50;
+    int place = -2;
+
+    Combination all;
+    all.name = "every type";
+    for (const char* name : {"solids", "quadrics", "blobs", "meshes", "sketches"}) {
+        const Scene own = load_scene(folder + "/" + name + ".json");
+        const std::string before = all.name + "/" + name + "/";
+        const Box own_box = bounds_of(own, {});
+        const double size = width / diagonal(own_box);
+        const Vec3 from = middle(own_box), to = middle(box);
+        const Matrix placed = {size, 0,    0,    to.x - size * from.x + place++ * width,
+                               0,    size, 0,    to.y - size * from.y,
+                               0,    0,    size, to.z - size * from.z,
+                               0,    0,    0,    1};
+        for (const std::string& top : top_objects(own))
+            all.tree.nodes.push_back({Operator::leaf, 0, before + top, placed, {}});
+        for (Object object : own.objects) {
+            if (Combination* combination = std::get_if<Combination>(&object)) {
+                combination->name.insert(0, before);
+                for (TreeNode& node : combination->tree.nodes)
+                    if (node.op == Operator::leaf) node.object.insert(0, before);
+            } else {
+                std::get<Solid>(object).name.insert(0, before);
+            }
+            scene.objects.push_back(std::move(object));
+        }
+    }
+    all.tree.nodes.push_back({Operator::union_, static_cast<std::uint32_t>(all.tree.nodes.size()), "", identity, {}});
+    objects.push_back(all.name);
+    scene.objects.push_back(std::move(all));
+    return scene;
+}
+
+}  // namespace csgrt::test
