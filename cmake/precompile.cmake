@@ -1,8 +1,7 @@
 # What most files include is read once. A compiler cache does not keep what is compiled so; with one every file reads it.
-# A build with CMAKE_DISABLE_PRECOMPILE_HEADERS=ON tells whether each file includes what it needs.
 set(CSGRT_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <sstream>
     <string> <string_view> <unordered_map> <utility> <variant> <vector> <csgrt/scene.hpp>)
-if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if(CSGRT_TOGETHER AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     file(CONFIGURE OUTPUT common.cpp CONTENT "")
     add_library(csgrt_common OBJECT ${CMAKE_CURRENT_BINARY_DIR}/common.cpp)
     csgrt_target_options(csgrt_common)

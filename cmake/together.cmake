@@ -1,6 +1,7 @@
 # Files whose headers take longer to read than they do themselves are compiled together, each group as one.
-# A build with CSGRT_TOGETHER=OFF tells whether each file includes what it needs.
-option(CSGRT_TOGETHER "Compile groups of small files as one: sooner all, later one" ON)
+# A build with CSGRT_TOGETHER=OFF, without common headers (precompile.cmake) either, tells whether each file of the
+# library and of the command includes what it needs.
+option(CSGRT_TOGETHER "Compile groups of small files as one, and common headers once: sooner all, later one" ON)
 
 # csgrt_together(TARGET REGEX...): a group of those of its sources that match, for each expression.
 function(csgrt_together target)

@@ -7,11 +7,12 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
 TEST_CASE("scenes of parts have the solids asked for and compile") {
-    for (const std::uint32_t count : {3u, 4u, 7u, 100u, 101u, 102u, 103u, 2000u}) {
+    for (const std::uint32_t count : {3u, 4u, 7u, 100u, 101u, 102u, 103u, std::uint32_t{test::tries(2000)}}) {
         const Scene scene = bench::scene_of_parts(count);
         CHECK(validate(scene).empty());
         const CompiledScene compiled = compile(scene);
@@ -30,6 +31,7 @@ TEST_CASE("a seed gives one scene, another seed another") {
 TEST_CASE("whatever their number, parts cover the picture about alike, about as deep") {
     std::vector<double> covered, deep;
     for (const std::uint32_t count : {100u, 1000u, 10'000u}) {
+        if (test::sanitized && count > 1000) break;
         Renderer renderer(bench::scene_of_parts(count));
         View view;
         view.width = view.height = 96;

@@ -224,9 +224,8 @@ TEST_CASE("json round trip: BRL-CAD's models") {
     }
     for (const auto& entry : std::filesystem::directory_iterator(models)) {
         if (entry.path().extension() != ".asc" && entry.path().extension() != ".g") continue;
-        // The other form of the same model.
-        if (test::sanitized && entry.path().extension() == ".g" && exists(std::filesystem::path(entry).replace_extension(".asc")))
-            continue;
+        // One form of each, and not the two greatest.
+        if (test::sanitized && (entry.path().extension() == ".asc" || entry.file_size() > 400'000)) continue;
         INFO(entry.path().filename());
         check_round_trip(load_scene(entry.path().string()));
     }

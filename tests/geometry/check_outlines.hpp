@@ -6,6 +6,7 @@
 #include "catch.hpp"
 
 #include "geometry/kernel_answer.hpp"
+#include "sanitized.hpp"
 #include "oracle/print.hpp"
 #include "oracle/rays.hpp"
 #include "oracle/shaken.hpp"

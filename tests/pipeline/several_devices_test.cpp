@@ -15,7 +15,7 @@ TEST_CASE("two devices give what one gives", "[.two_devices]") {
     REQUIRE(devices().size() == 2);
     const std::string folder = test::folder("CSGRT_SCENES");
     REQUIRE(!folder.empty());
-    for (const char* file : {"/operators.json", "/onion.json", "/overlap.json"}) {
+    for (const char* file : {"/operators.json", "/overlap.json"}) {
         INFO(file);
         const Scene scene = load_scene(folder + file);
         Settings settings;
