@@ -8,6 +8,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "kernel_geometry.hpp"
+#include "parallel.hpp"
 #include "pipeline/pipelines.hpp"
 #include "reference/reference.hpp"
 
@@ -212,8 +213,10 @@ void Renderer::render(const View& view, Image& image) {
     if (impl.reference) {
         ReferenceCounts counts;
         const std::vector<kernel::Pixel> pixels = impl.reference->render(prepared, impl.settings.progress, counts);
-        for (std::size_t c = 0; c < wanted.size(); ++c)
-            for (std::size_t i = 0; i < pixels.size(); ++i) planes[c].pixels[i] = wanted[c]->value(pixels[i]);
+        for_chunks(pixels.size(), 16'384, impl.settings.threads, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t c = 0; c < wanted.size(); ++c)
+                for (std::size_t i = first; i < last; ++i) planes[c].pixels[i] = wanted[c]->value(pixels[i]);
+        });
         impl.take(counts);
     } else {
         PipelineCounts counts;

@@ -83,7 +83,7 @@ FN hits collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
 
 // Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
 // two a segment, in then out, by ascending distance. `index` is the solid's own.
-FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
     hits h;
     u32 count;
     r = ray_at(solid, r);

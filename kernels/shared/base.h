@@ -45,6 +45,8 @@ typedef uint u32;
 #endif
 // What is large and seldom reached: inlined, it takes a GPU's registers from all that is.
 #define NOINLINE_FN FN __attribute__((noinline))
+// What takes all that it calls into itself where that pays: a compiler for a device does so in any case.
+#define WHOLE_FN FN
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
 FN real real_fma(real a, real b, real c) { return fma(a, b, c); }
@@ -60,6 +62,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #define FN [[maybe_unused]] static inline
 #define INLINE_FN FN
 #define NOINLINE_FN FN
+#define WHOLE_FN FN
 FN real real_sqrt(real x) { return host::root(x); }
 FN real real_fma(real a, real b, real c) { return host::fma(a, b, c); }
 FN real real_abs(real x) { return x < 0 ? -x : x; }

@@ -14,6 +14,9 @@ namespace csgrt {
 struct Reference::Claims {
     std::vector<kernel::End> ends;
     std::vector<ClaimedPartition> partitions;
+    Weaver weaver;
+    std::vector<std::uint32_t> solids, table, claimants;  ///< of a partition: its solids, their regions, those that claim it
+    std::vector<std::uint8_t> values;
     std::size_t woven = 0, overlaps = 0;
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };
@@ -51,17 +54,18 @@ Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels
 }
 
 // The tree's nodes stand in postfix order: an operator finds its operands' values on the stack.
-bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& solids) const {
-    std::vector<bool> values;
+bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& solids,
+                       std::vector<std::uint8_t>& values) const {
+    values.clear();
     for (const FlatTree::Node& node : scene_.flat_trees[region].nodes) {
         if (node.op == Operator::leaf) {
             values.push_back(std::binary_search(solids.begin(), solids.end(), node.solid));
             continue;
         }
         const std::size_t first = values.size() - node.arity;
-        bool value = values[first];
+        bool value = values[first] != 0;
         for (std::size_t i = first + 1; i < values.size(); ++i) {
-            const bool operand = values[i];
+            const bool operand = values[i] != 0;
             if (node.op == Operator::union_) value = value || operand;
             if (node.op == Operator::intersection) value = value && operand;
             if (node.op == Operator::difference) value = value && !operand;
@@ -71,19 +75,19 @@ bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& s
         values.resize(first);
         values.push_back(value);
     }
-    return !values.empty() && values.back();
+    return !values.empty() && values.back() != 0;
 }
 
 void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const {
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
     claims.first_seen = SIZE_MAX;
-    const std::vector<WovenPartition> woven = kernels_.trace(frame, ray, claims.ends);
+    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, claims.ends, claims.weaver);
     if (claims.ends.empty()) return;
     claims.woven = woven.size();
     const double t_min = kernels_.t_min(frame, ray);
 
-    std::vector<std::uint32_t> solids, table, claimants;
+    auto &solids = claims.solids, &table = claims.table, &claimants = claims.claimants;
     for (const WovenPartition& partition : woven) {
         solids.clear();
         table.clear();
@@ -95,7 +99,7 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
         std::sort(table.begin(), table.end());
         table.erase(std::unique(table.begin(), table.end()), table.end());
         for (const std::uint32_t region : table)
-            if (inside(region, solids)) claimants.push_back(region);
+            if (inside(region, solids, claims.values)) claimants.push_back(region);
 
         if (claimants.size() > 1) ++claims.overlaps;
         if (claimants.empty()) continue;

@@ -29,7 +29,7 @@ public:
 private:
     struct Claims;
     void evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const;
-    bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids) const;
+    bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids, std::vector<std::uint8_t>& values) const;
     template <class Work>
     void parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const;
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "compile/host_kernels.hpp"
@@ -16,9 +17,9 @@ public:
     virtual Ray camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const;
     /// The ends of all segments along a ray, every solid tried, no hierarchy (in 113 bits those
     /// whose boxes are met): two a segment, by ascending solid.
-    /// Segments that end before the frame's t_min are left out. Then what they weave.
-    virtual std::vector<WovenPartition> trace(const kernel::Frame& frame, const Ray& ray,
-                                              std::vector<kernel::End>& ends) const = 0;
+    /// Segments that end before the frame's t_min are left out. Then what they weave, which is `weaver`'s.
+    virtual std::span<const WovenPartition> trace(const kernel::Frame& frame, const Ray& ray,
+                                                  std::vector<kernel::End>& ends, Weaver& weaver) const = 0;
     /// The frame's t_min as it is compared with ends.
     virtual double t_min(const kernel::Frame& frame, const Ray& ray) const = 0;
     /// A pixel that shows a region's surface at an end; `leaves`: from within.

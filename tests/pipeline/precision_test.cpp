@@ -121,7 +121,8 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
                 const oracle::Answer answer = oracle::intersect(solid, ray);
                 if (answer.tie) continue;
                 std::vector<kernel::End> ends;
-                kernels->trace(frame, ray, ends);
+                Weaver weaver;
+                kernels->trace(frame, ray, ends, weaver);
                 REQUIRE(ends.size() == 2 * answer.intervals.size());
                 for (std::size_t i = 0; i < ends.size(); ++i, ++ends_seen) {
                     const auto& interval = answer.intervals[i / 2];

@@ -14,6 +14,11 @@
 #pragma GCC target("fma,prefer-vector-width=128")  // wider copies of structs wait for their parts to be stored
 #endif
 
+#ifdef __OPTIMIZE__
+#undef WHOLE_FN
+#define WHOLE_FN __attribute__((flatten)) FN
+#endif
+
 namespace csgrt::fused {
 
 using namespace kernel;  // records, and functions so small that they become part of those that call them

@@ -233,8 +233,8 @@ public:
             return {point(r.o), point(r.d)};
         }
     }
-    std::vector<WovenPartition> trace(const kernel::Frame& f, const Ray& ray,
-                                      std::vector<kernel::End>& ends) const override {
+    std::span<const WovenPartition> trace(const kernel::Frame& f, const Ray& ray, std::vector<kernel::End>& ends,
+                                          Weaver& weaver) const override {
         const k::Frame& frame = convert_frame(f);
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const real t_min = k::t_min_along(&frame, r);
@@ -251,7 +251,7 @@ public:
         } else {
             meet_boxes(frame, r, t_min, meet);
         }
-        std::vector<WovenPartition> woven = weave(own, k::tolerance_along(&frame, r));
+        const std::span<const WovenPartition> woven = weave(own, k::tolerance_along(&frame, r), weaver);
         ends = ends_of(std::move(own));
         return woven;
     }
