@@ -156,6 +156,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     Impl& impl = *impl_;
     impl.settings = settings;
     impl.title = scene.title;
+    if (!settings.reference) prepare_devices();
     auto start = Clock::now();
     impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
     impl.statistics.ms.compile = milliseconds_since(start);
@@ -205,17 +206,19 @@ void Renderer::render(const View& view, Image& image) {
     image.channels.resize(wanted.size());
     const kernel::Pixel background = kernel::background_pixel(&prepared.frame);
     std::vector<ChannelPlane> planes;
+    const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
+    const unsigned threads = pixels < 200'000 ? 1 : 0;  // memory that is new is cleared, page by page
+    for_chunks(wanted.size(), 1, threads, [&](std::size_t i, std::size_t, std::size_t) { image.channels[i].resize(pixels); });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         image.names.emplace_back(wanted[i]->name);
-        image.channels[i].resize(std::size_t{prepared.frame.width} * prepared.frame.height);
         planes.push_back({image.channels[i].data(), wanted[i]->value(background)});
     }
     if (impl.reference) {
         ReferenceCounts counts;
-        const std::vector<kernel::Pixel> pixels = impl.reference->render(prepared, impl.settings.progress, counts);
-        for_chunks(pixels.size(), 16'384, impl.settings.threads, [&](std::size_t first, std::size_t last, std::size_t) {
+        const std::vector<kernel::Pixel> seen = impl.reference->render(prepared, impl.settings.progress, counts);
+        for_chunks(pixels, 16'384, impl.settings.threads, [&](std::size_t first, std::size_t last, std::size_t) {
             for (std::size_t c = 0; c < wanted.size(); ++c)
-                for (std::size_t i = first; i < last; ++i) planes[c].pixels[i] = wanted[c]->value(pixels[i]);
+                for (std::size_t i = first; i < last; ++i) planes[c].pixels[i] = wanted[c]->value(seen[i]);
         });
         impl.take(counts);
     } else {

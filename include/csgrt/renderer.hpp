@@ -22,6 +22,9 @@ struct DeviceInfo {
 };
 /// Every OpenCL device, in the order of their numbers; empty if there is none.
 CSGRT_API std::vector<DeviceInfo> devices();
+/// Begins to look for them on a thread of its own, once in a process; later calls do nothing. A driver takes some 30 ms to
+/// start: called before a scene is loaded, this spares its Renderer the wait. Renderer calls it before it compiles.
+CSGRT_API void prepare_devices();
 
 struct Settings {
     bool reference = false;       ///< the CPU reference in place of a device

@@ -27,6 +27,7 @@ Status run(const VerifyArguments& arguments) {
     {
         Progress progress;
         progress.stage("loading");
+        if (!arguments.settings.reference) prepare_devices();
         Scene scene = load_scene(arguments.scene);
         std::optional<RayReader> reader;
         if (!arguments.rays.empty()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <future>
 #include <mutex>
 #include <sstream>
 
@@ -59,6 +60,12 @@ std::string lower(std::string text) {
     return text;
 }
 
+// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
+void ensure_cache_folder_once() {
+    static std::once_flag once;
+    std::call_once(once, ensure_cache_folder);
+}
+
 [[noreturn]] void refuse(const std::vector<DeviceInfo>& devices, const std::string& why) {
     std::string list;
     for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -78,12 +85,10 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::vector<FoundDevice> find_devices() {
+    ensure_cache_folder_once();
     // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
-    // PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
-    static std::once_flag once;
-    std::call_once(once, ensure_cache_folder);
 
     cl_uint platform_count = 0;
     const cl_int found = clGetPlatformIDs(0, nullptr, &platform_count);
@@ -165,5 +170,16 @@ std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
 }
 
 std::vector<DeviceInfo> devices() { return infos_of(find_devices()); }
+
+void prepare_devices() {
+    ensure_cache_folder_once();  // on this thread, since it may write to the environment
+    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them.
+    static const std::future<void> looking = std::async(std::launch::async, [] {
+        try {
+            find_devices();
+        } catch (const std::exception&) {
+        }
+    });
+}
 
 }  // namespace csgrt
