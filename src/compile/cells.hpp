@@ -51,6 +51,13 @@ public:
         return before;
     }
 
+    /// Keeps the memory, unless it is far more than what was in it: that would be cleared in vain once more.
+    void clear() {
+        if (slots_.size() > 64 * (count_ + 1)) slots_.clear();
+        std::fill(slots_.begin(), slots_.end(), Slot{0, none});
+        count_ = 0;
+    }
+
 private:
     struct Slot {
         std::uint64_t hash;

@@ -75,9 +75,12 @@ public:
           chunks_((order.size() + PackedChunk::size - 1) / PackedChunk::size) {}
 
     void pack() {
-        compiled_.solids.resize(order_.size());
-        compiled_.solid_info.resize(order_.size());
-        compiled_.solid_boxes.resize(order_.size());
+        // New memory is cleared, page by page: by several threads, if there is much.
+        for_chunks(3, 1, order_.size() < 100'000 ? 1 : 0, [this](std::size_t which, std::size_t, std::size_t) {
+            if (which == 0) compiled_.solids.resize(order_.size());
+            if (which == 1) compiled_.solid_info.resize(order_.size());
+            if (which == 2) compiled_.solid_boxes.resize(order_.size());
+        });
         for_each_chunk([this](std::size_t number) {
             const std::size_t first = number * PackedChunk::size;
             const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
@@ -161,8 +164,8 @@ private:
                 shards.chunk(number).add(surfaces_.coarse_cells(surface));
         });
         shards.sort();
-        shards.for_each([&](std::span<const Shards::Member> members, std::size_t) {
-            SurfaceTable table = surfaces_;
+        shards.for_each(surfaces_, [&](SurfaceTable& table, std::span<const Shards::Member> members, std::size_t) {
+            table.clear();
             const SurfaceTable::RealsOf reals_of = [&](std::uint32_t solid) {
                 PackedChunk& chunk = chunks_[solid / PackedChunk::size];
                 const PackedChunk::Part& part = chunk.parts[solid % PackedChunk::size];

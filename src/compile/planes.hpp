@@ -45,6 +45,13 @@ public:
     /// Throws Error (scene) if there are more records than references can tell apart.
     static void check_count(std::size_t records);
     std::size_t size() const { return records_.size(); }
+    /// Without planes, in the memory that it has.
+    void clear() {
+        records_.clear();
+        entries_.clear();
+        links_.clear();
+        cells_.clear();
+    }
     std::vector<kernel::PlaneRecord> take() { return std::move(records_); }
 
 private:

@@ -98,15 +98,26 @@ public:
                 members_[chunk.next_[chunk.of_[i]]++] = {static_cast<std::uint32_t>(c), i};
         });
     }
-    /// Calls work(members, shard) for each shard that has any, several at once.
+    /// Calls work(table, members, shard) for each shard that has any, several at once, each thread with a table of its own
+    /// that begins as a copy of `empty`: memory for every shard anew took a tenth of the time.
+    template <class Table, class Work>
+    void for_each(const Table& empty, const Work& work) const {
+        constexpr std::size_t few = 8192;  // threads would take longer to begin
+        const unsigned threads = members_.size() < few ? 1 : thread_count(0);
+        std::atomic<std::size_t> next{0};
+        for_chunks(threads, 1, threads, [&](std::size_t, std::size_t, std::size_t) {
+            Table table = empty;
+            for (std::size_t shard = next++; shard < count; shard = next++) {
+                const std::span<const Member> all(members_);
+                if (first_[shard] < first_[shard + 1])
+                    work(table, all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
+            }
+        });
+    }
     template <class Work>
     void for_each(const Work& work) const {
-        constexpr std::size_t few = 8192;  // threads would take longer to begin
-        for_chunks(count, 1, members_.size() < few ? 1 : 0, [&](std::size_t shard, std::size_t, std::size_t) {
-            const std::span<const Member> all(members_);
-            if (first_[shard] < first_[shard + 1])
-                work(all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
-        });
+        struct None {};
+        for_each(None{}, [&](None, std::span<const Member> members, std::size_t shard) { work(members, shard); });
     }
 
 private:

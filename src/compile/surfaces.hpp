@@ -48,6 +48,12 @@ public:
     /// those.
     void share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene);
 
+    /// Without surfaces, in the memory that it has.
+    void clear() {
+        entries_.clear();
+        cells_.clear();
+    }
+
 private:
     struct Entry {
         std::uint32_t number;
