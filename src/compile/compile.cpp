@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "compile/bvh.hpp"
 #include "compile/flatten.hpp"
@@ -95,9 +96,11 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     set_sphere(measured.boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(measured.boxes, compiled);
     pack_solids(scene, flat, measured, order, common_box(scene, flat, compiled), compiled);
+    // Read by one thread while another goes through the regions, which it mostly does alone.
+    std::future<std::uint64_t> geometry = std::async([&compiled] { return hash_of_geometry(compiled); });
     pack_regions(flat, order, measured.brlcad_boxes, compiled);
     list_terms(compiled);
-    compiled.hash = hash_of(compiled);
+    compiled.hash = hash_of(compiled, geometry.get());
     return compiled;
 }
 

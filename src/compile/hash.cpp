@@ -41,14 +41,21 @@ private:
 
 }  // namespace
 
-std::uint64_t hash_of(const CompiledScene& scene) {
+std::uint64_t hash_of_geometry(const CompiledScene& scene) {
     Fnv1a hash;
-    hash.add_all(scene.solids);
     hash.add_all(scene.reals);
     hash.add_all(scene.planes);
     hash.add_all(scene.plane_refs);
     hash.add_all(scene.words);
     hash.add_all(scene.inner_nodes);
+    hash.add_all(scene.nodes);
+    return hash.state();
+}
+
+std::uint64_t hash_of(const CompiledScene& scene, std::uint64_t geometry) {
+    Fnv1a hash;
+    hash.add(geometry);
+    hash.add_all(scene.solids);
     hash.add_all(scene.starts);
     hash.add_all(scene.leaves);
     hash.add_all(scene.regions);
@@ -60,7 +67,6 @@ std::uint64_t hash_of(const CompiledScene& scene) {
         for (const double position : {light.x, light.y, light.z}) hash.add(position);
         for (const float color : {light.r, light.g, light.b}) hash.add(color);
     }
-    hash.add_all(scene.nodes);
     hash.add(scene.unbounded_count);
     for (const double value :
          {scene.center.x, scene.center.y, scene.center.z, scene.radius, scene.ambient, scene.tolerance})

@@ -173,8 +173,9 @@ std::vector<DeviceInfo> devices() { return infos_of(find_devices()); }
 
 void prepare_devices() {
     ensure_cache_folder_once();  // on this thread, since it may write to the environment
-    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them.
-    static const std::future<void> looking = std::async(std::launch::async, [] {
+    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
+    // had, nothing is looked for before.
+    static const std::future<void> looking = std::async([] {
         try {
             find_devices();
         } catch (const std::exception&) {
