@@ -1,5 +1,6 @@
 #include <csgrt/renderer.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <optional>
@@ -207,8 +208,10 @@ void Renderer::render(const View& view, Image& image) {
     const kernel::Pixel background = kernel::background_pixel(&prepared.frame);
     std::vector<ChannelPlane> planes;
     const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
-    const unsigned threads = pixels < 200'000 ? 1 : 0;  // memory that is new is cleared, page by page
-    for_chunks(wanted.size(), 1, threads, [&](std::size_t i, std::size_t, std::size_t) { image.channels[i].resize(pixels); });
+    // Memory that is new is cleared, page by page: by several threads, if there is much.
+    const bool much_is_new = pixels > 200'000 && std::any_of(image.channels.begin(), image.channels.end(),
+                                                             [&](const auto& values) { return values.capacity() < pixels; });
+    for_chunks(wanted.size(), 1, much_is_new ? 0 : 1, [&](std::size_t i, std::size_t, std::size_t) { image.channels[i].resize(pixels); });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         image.names.emplace_back(wanted[i]->name);
         planes.push_back({image.channels[i].data(), wanted[i]->value(background)});

@@ -253,6 +253,7 @@ TEST_CASE("the first devices of a process may be asked for by many threads at on
     for (std::string& name : names)
         threads.emplace_back([&name] {
             try {
+                prepare_devices();
                 name = Device().info().name;
             } catch (const Error& error) {
                 name = error.what();
