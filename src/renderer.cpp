@@ -211,7 +211,8 @@ void Renderer::render(const View& view, Image& image) {
     // Memory that is new is cleared, page by page: by several threads, if there is much.
     const bool much_is_new = pixels > 200'000 && std::any_of(image.channels.begin(), image.channels.end(),
                                                              [&](const auto& values) { return values.capacity() < pixels; });
-    for_chunks(wanted.size(), 1, much_is_new ? 0 : 1, [&](std::size_t i, std::size_t, std::size_t) { image.channels[i].resize(pixels); });
+    for_chunks(wanted.size(), 1, much_is_new ? 0 : 1,
+               [&](std::size_t i, std::size_t, std::size_t) { image.channels[i].resize(pixels); });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         image.names.emplace_back(wanted[i]->name);
         planes.push_back({image.channels[i].data(), wanted[i]->value(background)});

@@ -76,7 +76,6 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
 
     std::vector<std::vector<Shards::Member>> firsts(Shards::count);  // where the records of each shard's table came from
     shards.for_each(empty, [&](PlaneTable& table, std::span<const Shards::Member> members, std::size_t shard) {
-        table.clear();
         const auto plane_at = [&](std::size_t i) -> PackedPlane& {
             return chunks[members[i].chunk].planes[members[i].index];
         };

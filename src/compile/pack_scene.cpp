@@ -165,7 +165,6 @@ private:
         });
         shards.sort();
         shards.for_each(surfaces_, [&](SurfaceTable& table, std::span<const Shards::Member> members, std::size_t) {
-            table.clear();
             const SurfaceTable::RealsOf reals_of = [&](std::uint32_t solid) {
                 PackedChunk& chunk = chunks_[solid / PackedChunk::size];
                 const PackedChunk::Part& part = chunk.parts[solid % PackedChunk::size];

@@ -98,8 +98,8 @@ public:
                 members_[chunk.next_[chunk.of_[i]]++] = {static_cast<std::uint32_t>(c), i};
         });
     }
-    /// Calls work(table, members, shard) for each shard that has any, several at once, each thread with a table of its own
-    /// that begins as a copy of `empty`: memory anew for every shard was a seventh of the pages that compiling took.
+    /// Calls work(table, members, shard) for each shard that has any, several at once, with a table that is cleared before. Each
+    /// thread has one of its own, which begins as a copy of `empty`: memory anew for every shard was a seventh of the pages that compiling took.
     template <class Table, class Work>
     void for_each(const Table& empty, const Work& work) const {
         constexpr std::size_t few = 8192;  // threads would take longer to begin
@@ -109,14 +109,17 @@ public:
             Table table = empty;
             for (std::size_t shard = next++; shard < count; shard = next++) {
                 const std::span<const Member> all(members_);
-                if (first_[shard] < first_[shard + 1])
-                    work(table, all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
+                if (first_[shard] == first_[shard + 1]) continue;
+                table.clear();
+                work(table, all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
             }
         });
     }
     template <class Work>
     void for_each(const Work& work) const {
-        struct None {};
+        struct None {
+            void clear() {}
+        };
         for_each(None{}, [&](None, std::span<const Member> members, std::size_t shard) { work(members, shard); });
     }
 

@@ -16,7 +16,7 @@ struct Reference::Claims {
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
     std::vector<std::uint32_t> solids, table, claimants;  ///< of a partition: its solids, their regions, those that claim it
-    std::vector<std::uint8_t> values;
+    std::vector<std::uint8_t> values;  ///< of a tree's operands, while it is evaluated
     std::size_t woven = 0, overlaps = 0;
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };

@@ -66,7 +66,9 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
 
 }  // namespace
 
-TEST_CASE("geometry: revolve agrees with the oracle", "[geometry]") { check_outlines(revolve_case, test::sanitized ? 1'000 : 4'000, 1); }
+TEST_CASE("geometry: revolve agrees with the oracle", "[geometry]") {
+    check_outlines(revolve_case, test::sanitized ? 1'000 : 4'000, 1);
+}
 TEST_CASE("geometry: a ray along the axis of a revolve has normals along it, too") {
     Revolve shape;
     shape.axis = {0, 0, 1}, shape.r = {1, 0, 0};

@@ -2,12 +2,13 @@
 // so tests of many scenes give all of them one program; those of our own scenes have one for each set of types.
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include <csgrt/csgrt.hpp>
 
+#include "compile/compiled_scene.hpp"
+#include "compile/linear.hpp"
 #include "pipeline/scenes.hpp"
 
 namespace csgrt::test {
@@ -18,18 +19,10 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     const std::string folder = test::folder("CSGRT_SCENES");
     if (folder.empty()) return scene;
     if (objects.empty()) objects = top_objects(scene);
-    const auto bounds_of = [](const Scene& what, const std::vector<std::string>& which) {
-        Settings settings;
-        settings.reference = true;
-        return Renderer(what, which, settings).bounds();
-    };
     const auto middle = [](const Box& box) {
         return Vec3{(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2, (box.low.z + box.high.z) / 2};
     };
-    const auto diagonal = [](const Box& box) {
-        return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z);
-    };
-    const Box box = bounds_of(scene, objects);
+    const Box box = compile(scene, objects).bounds;
     const double width = diagonal(box) / 50;
     int place = -2;
 
@@ -38,7 +31,7 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     for (const char* name : {"solids", "quadrics", "blobs", "meshes", "sketches"}) {
         const Scene own = load_scene(folder + "/" + name + ".json");
         const std::string before = all.name + "/" + name + "/";
-        const Box own_box = bounds_of(own, {});
+        const Box own_box = compile(own).bounds;
         const double size = width / diagonal(own_box);
         const Vec3 from = middle(own_box), to = middle(box);
         const Matrix placed = {size, 0,    0,    to.x - size * from.x + place++ * width,
