@@ -53,8 +53,8 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     view.every_partition = every_partition;
     const double setup = renderer.statistics().ms.build;
     const auto start = Clock::now();
-    Image image;
-    renderer.render(view, image);  // compiles kernels and takes memory
+    Framebuffer framebuffer;
+    renderer.render(view, framebuffer);  // compiles kernels and takes memory
     Figures f;
     f.ms = {{"compile", renderer.statistics().ms.compile}, {"build", renderer.statistics().ms.build}};
     f.ms.emplace_back("first",
@@ -63,7 +63,7 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     const int count = options.orbit > 0 ? options.orbit : options.frames;
     for (int i = 0; i < count; ++i) {
         if (options.orbit > 0) view.camera.azimuth = 35 + 360.0 * i / options.orbit;
-        renderer.render(view, image);
+        renderer.render(view, framebuffer);
         frames.push_back(renderer.statistics());
     }
     const Statistics& s = frames.front();

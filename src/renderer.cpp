@@ -1,6 +1,7 @@
 #include <csgrt/renderer.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <limits>
 #include <optional>
@@ -187,12 +188,12 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::render(const View& view) {
-    Image image;
-    render(view, image);
-    return image;
+    Framebuffer framebuffer;
+    render(view, framebuffer);
+    return framebuffer.take();
 }
 
-void Renderer::render(const View& view, Image& image) {
+void Renderer::render(const View& view, Framebuffer& framebuffer) {
     Impl& impl = *impl_;
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
@@ -201,23 +202,22 @@ void Renderer::render(const View& view, Image& image) {
     std::vector<const ChannelSource*> wanted;
     for (const ChannelSource& source : channels)
         if (prepared.frame.channels & source.group) wanted.push_back(&source);
-    image.width = view.width;
-    image.height = view.height;
-    image.names.clear();
-    image.channels.resize(wanted.size());
-    const kernel::Pixel background = kernel::background_pixel(&prepared.frame);
-    std::vector<ChannelPlane> planes;
-    const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
-    // Memory that is new is cleared, page by page: by several threads, if there is much.
-    const bool much_is_new = pixels > 200'000 && std::any_of(image.channels.begin(), image.channels.end(),
-                                                             [&](const auto& values) { return values.capacity() < pixels; });
-    for_chunks(wanted.size(), 1, much_is_new ? 0 : 1,
-               [&](std::size_t i, std::size_t, std::size_t) { image.channels[i].resize(pixels); });
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        image.names.emplace_back(wanted[i]->name);
-        planes.push_back({image.channels[i].data(), wanted[i]->value(background)});
+    const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
+    std::vector<std::string> names;
+    std::vector<float> background;
+    for (const ChannelSource* source : wanted) {
+        names.emplace_back(source->name);
+        background.push_back(source->value(background_pixel));
     }
+    const bool is_new = framebuffer.fit(view.width, view.height, std::move(names), std::move(background));
+    Image& image = framebuffer.image_;
+    std::vector<ChannelPlane> planes;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        planes.push_back({image.channels[i].data(), framebuffer.background_[i],
+                          is_new && std::bit_cast<std::uint32_t>(framebuffer.background_[i]) == 0});
+    const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
     if (impl.reference) {
+        std::fill(framebuffer.drawn_.begin(), framebuffer.drawn_.end(), std::uint8_t{1});
         ReferenceCounts counts;
         const std::vector<kernel::Pixel> seen = impl.reference->render(prepared, impl.settings.progress, counts);
         for_chunks(pixels, 16'384, impl.settings.threads, [&](std::size_t first, std::size_t last, std::size_t) {
@@ -227,7 +227,7 @@ void Renderer::render(const View& view, Image& image) {
         impl.take(counts);
     } else {
         PipelineCounts counts;
-        impl.pipelines->render(prepared, planes, impl.settings.progress, counts);
+        impl.pipelines->render(prepared, {planes, framebuffer.drawn_}, impl.settings.progress, counts);
         impl.take(counts);
     }
     image.attributes.clear();

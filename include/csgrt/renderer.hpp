@@ -117,6 +117,24 @@ struct Statistics {
     } ms;
 };
 
+/// A picture that is drawn again and again, as a viewer does. Of a frame like the last one (size, channels, background) only
+/// the blocks of pixels are written that show something, or did before: what no solid is near costs nothing.
+class CSGRT_API Framebuffer {
+public:
+    /// What was drawn last; a call that threw may have left parts of two frames.
+    const Image& image() const { return image_; }
+    /// The same to keep; the next frame takes memory of its own.
+    Image take();
+
+private:
+    friend class Renderer;
+    bool fit(int width, int height, std::vector<std::string> names, std::vector<float> background);
+
+    Image image_;
+    std::vector<float> background_;    ///< a channel
+    std::vector<std::uint8_t> drawn_;  ///< a block of pixels: 0 if it holds nothing but the background
+};
+
 /// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time.
 class CSGRT_API Renderer {
 public:
@@ -128,8 +146,8 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     Image render(const View& view);
-    /// The same into a picture whose memory is used again.
-    void render(const View& view, Image& image);
+    /// The same into memory that is used again; any Renderer may draw into it.
+    void render(const View& view, Framebuffer& framebuffer);
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
     /// The rays of a picture, by row from the top left.

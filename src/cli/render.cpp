@@ -112,6 +112,7 @@ bool only_colors(const RenderArguments& arguments) {
 
 /// Leaves the last frame in `image`.
 Statistics render_frames(const Scene& scene, const RenderArguments& arguments, const View& view, Image& image) {
+    Framebuffer framebuffer;
     Progress progress;
     progress.stage("compiling");
     Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
@@ -122,10 +123,11 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     std::vector<Statistics> frames;
     for (int frame = 0; frame < arguments.repeat; ++frame) {
         progress.range(double(frame) / arguments.repeat, double(frame + 1) / arguments.repeat);
-        renderer.render(view, image);  // into the same memory, as a viewer does
+        renderer.render(view, framebuffer);
         frames.push_back(renderer.statistics());
         check_interrupt();
     }
+    image = framebuffer.take();
     return median_of(frames);
 }
 

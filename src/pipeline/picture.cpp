@@ -43,10 +43,9 @@ struct Streamed {
     }
     static void end() { _mm_sfence(); }
 
-    static bool fits(const kernel::Frame& frame, std::span<const ChannelPlane> planes) {
+    static bool fits(const kernel::Frame& frame, std::size_t pixels, std::span<const ChannelPlane> planes) {
         constexpr std::size_t least_bytes = std::size_t{1} << 28;  // measured: bench/NOTES.md
-        const std::size_t bytes = std::size_t{frame.width} * frame.height * planes.size() * sizeof(float);
-        return bytes >= least_bytes && frame.width % lanes == 0 &&
+        return pixels * planes.size() * sizeof(float) >= least_bytes && frame.width % lanes == 0 &&
                std::all_of(planes.begin(), planes.end(), [](const ChannelPlane& plane) {
                    return reinterpret_cast<std::uintptr_t>(plane.pixels) % sizeof(__m128) == 0;
                });
@@ -54,58 +53,106 @@ struct Streamed {
 };
 #endif
 
-template <class Line>
-void put_lines(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-               std::span<const std::uint32_t> places, const float* values, std::span<const ChannelPlane> planes) {
-    const std::size_t width = frame.width, across = (width + BLOCK - 1) / BLOCK, size = drawn.size() * BLOCK * BLOCK;
-    const std::size_t first_row = first / across, rows = (end + across - 1) / across - first_row;
-    const std::size_t rows_a_chunk = std::max<std::size_t>(1, pixels_a_thread / (width * BLOCK));
-    for_chunks(rows, rows_a_chunk, 0, [&](std::size_t row, std::size_t last, std::size_t) {
-        for (; row < last; ++row) {
-            const std::size_t start = (first_row + row) * across;  // the number of the row's first block
-            const std::size_t from = std::max<std::size_t>(first, start),
-                              to = std::min<std::size_t>(end, start + across);
-            const auto begin = std::lower_bound(drawn.begin(), drawn.end(), from);
-            const std::size_t height = std::min<std::size_t>(BLOCK, frame.height - (first_row + row) * BLOCK);
-            for (std::size_t p = 0; p < planes.size(); ++p)
-                for (std::size_t y = 0; y < height; ++y) {
-                    float* line = planes[p].pixels + ((first_row + row) * BLOCK + y) * width;
-                    std::size_t x = (from - start) * BLOCK;
-                    auto block = begin;
-                    for (; block != drawn.end() && *block < to; ++block) {
-                        const std::size_t at = (*block - start) * BLOCK,
-                                          next = std::min<std::size_t>(at + BLOCK, width);
-                        const std::size_t place = places[static_cast<std::size_t>(block - drawn.begin())];
-                        const float* source = values + p * size + place * BLOCK * BLOCK + y * BLOCK;
-                        Line::fill(line + x, at - x, planes[p].background);
-                        Line::copy(line + at, next - at, source);
-                        x = next;
-                    }
-                    const std::size_t line_end = std::min<std::size_t>((to - start) * BLOCK, width);
-                    if (x < line_end) Line::fill(line + x, line_end - x, planes[p].background);
-                }
+/// Blocks of a row that stand side by side and are background, or a single one that was drawn.
+struct Run {
+    std::size_t begin, end;  ///< pixels of a line
+    std::size_t place;       ///< of the drawn one, else `none`
+    static constexpr std::size_t none = SIZE_MAX;
+};
+
+class Blocks {
+public:
+    Blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
+           std::span<const std::uint32_t> places, const float* values, const RenderTarget& target)
+        : width_(frame.width), height_(frame.height), first_(first), end_(end), drawn_(drawn), places_(places), values_(values),
+          target_(target) {
+        const auto held = target.drawn.subspan(first_, end_ - first_);
+        const auto clear = static_cast<std::size_t>(std::count(held.begin(), held.end(), 0));
+        pixels_ = (drawn.size() + held.size() - clear) * BLOCK * BLOCK;
+    }
+
+    std::size_t pixels() const { return pixels_; }  ///< that are written, at most
+
+    template <class Line>
+    void put() const {
+        const std::size_t first_row = first_ / across_, rows = (end_ + across_ - 1) / across_ - first_row;
+        const std::size_t rows_a_chunk = std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
+        for_chunks(rows, rows_a_chunk, 0, [&](std::size_t row, std::size_t last, std::size_t) {
+            std::vector<Run> runs;
+            for (; row < last; ++row) {
+                find_runs(first_row + row, runs);
+                if (!runs.empty()) put_row<Line>(first_row + row, runs);
+            }
             Line::end();
+        });
+    }
+
+private:
+    /// What is to be written of a row of blocks; and keeps what the row then holds.
+    void find_runs(std::size_t row, std::vector<Run>& runs) const {
+        runs.clear();
+        const std::size_t start = row * across_;  // the number of the row's first block
+        const std::size_t from = std::max(first_, start), to = std::min(end_, start + across_);
+        auto next = static_cast<std::size_t>(std::lower_bound(drawn_.begin(), drawn_.end(), from) - drawn_.begin());
+        for (std::size_t block = from; block < to; ++block) {
+            const bool is_drawn = next < drawn_.size() && drawn_[next] == block;
+            if (is_drawn || target_.drawn[block]) {
+                const std::size_t begin = (block - start) * BLOCK, end = std::min<std::size_t>(begin + BLOCK, width_);
+                if (is_drawn)
+                    runs.push_back({begin, end, places_[next++]});
+                else if (!runs.empty() && runs.back().place == Run::none && runs.back().end == begin)
+                    runs.back().end = end;
+                else
+                    runs.push_back({begin, end, Run::none});
+            }
+            target_.drawn[block] = is_drawn;
         }
-    });
-}
+    }
+
+    template <class Line>
+    void put_row(std::size_t row, std::span<const Run> runs) const {
+        const std::size_t lines = std::min<std::size_t>(BLOCK, height_ - row * BLOCK), size = drawn_.size() * BLOCK * BLOCK;
+        for (std::size_t p = 0; p < target_.planes.size(); ++p) {
+            const ChannelPlane& plane = target_.planes[p];
+            for (std::size_t y = 0; y < lines; ++y) {
+                float* line = plane.pixels + (row * BLOCK + y) * width_;
+                for (const Run& run : runs) {
+                    if (run.place != Run::none)
+                        Line::copy(line + run.begin, run.end - run.begin, values_ + p * size + (run.place * BLOCK + y) * BLOCK);
+                    else if (!plane.is_background)
+                        Line::fill(line + run.begin, run.end - run.begin, plane.background);
+                }
+            }
+        }
+    }
+
+    std::size_t width_, height_, first_, end_;
+    std::size_t across_ = (width_ + BLOCK - 1) / BLOCK;  ///< blocks
+    std::span<const std::uint32_t> drawn_, places_;
+    const float* values_;
+    const RenderTarget& target_;
+    std::size_t pixels_ = 0;
+};
 
 }  // namespace
 
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                std::span<const std::uint32_t> places, const float* values, std::span<const ChannelPlane> planes) {
+                std::span<const std::uint32_t> places, const float* values, const RenderTarget& target) {
+    const Blocks blocks(frame, first, end, drawn, places, values, target);
 #ifdef __SSE2__
-    if (Streamed::fits(frame, planes)) return put_lines<Streamed>(frame, first, end, drawn, places, values, planes);
+    if (Streamed::fits(frame, blocks.pixels(), target.planes)) return blocks.put<Streamed>();
 #endif
-    put_lines<Cached>(frame, first, end, drawn, places, values, planes);
+    blocks.put<Cached>();
 }
 
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
-              std::span<const ChannelPlane> planes) {
+              const RenderTarget& target) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const kernel::pixel_position at = kernel::pixel_of(numbers[i], frame.width, frame.height);
         if (!at.inside) continue;
-        for (std::size_t p = 0; p < planes.size(); ++p)
-            planes[p].pixels[std::size_t{at.y} * frame.width + at.x] = values[p * numbers.size() + i];
+        target.drawn[numbers[i] / (BLOCK * BLOCK)] = 1;
+        for (std::size_t p = 0; p < target.planes.size(); ++p)
+            target.planes[p].pixels[std::size_t{at.y} * frame.width + at.x] = values[p * numbers.size() + i];
     }
 }
 

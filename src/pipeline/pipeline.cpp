@@ -140,8 +140,8 @@ void Pipeline::read_picture(std::size_t bytes, const std::function<void(const fl
 
 // Rays of a picture the exact way, one by one.
 void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers,
-                            const std::vector<ChannelPlane>& planes, PipelineCounts& counts) {
-    const std::uint64_t pixel_bytes = planes.size() * sizeof(float),
+                            const RenderTarget& target, PipelineCounts& counts) {
+    const std::uint64_t pixel_bytes = target.planes.size() * sizeof(float),
                         bytes = pixel_bytes + sizeof(std::uint32_t) + Exact::ray_bytes;
     for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
         const auto begin = numbers.begin() + tile.first;
@@ -149,25 +149,25 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
         read_picture(frame.ray_count * pixel_bytes,
-                     [&](const float* values) { put_rays(frame, picked, values, planes); });
+                     [&](const float* values) { put_rays(frame, picked, values, target); });
         if (frame.every_partition) exact().add_tallies(tile.rays, counts);
         return true;
     });
 }
 
 // false: the tile does not fit the memory.
-bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes,
+bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const RenderTarget& target,
                     PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
     frame.first_ray = tile.first;
-    const std::uint64_t pixel_bytes = planes.size() * sizeof(float);
+    const std::uint64_t pixel_bytes = target.planes.size() * sizeof(float);
     const SeenBlocks blocks = seen_blocks(frame, tile, counts);
     const auto &seen = blocks.numbers, &places = blocks.places;
     std::vector<std::uint32_t> drawn(seen.size());
     for (std::size_t i = 0; i < seen.size(); ++i) drawn[places[i]] = seen[i];
     if (!list_rays(frame, drawn, block_rays, pixel_bytes,
                    frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
-        put_blocks(frame, first, end, {}, {}, nullptr, planes);
+        put_blocks(frame, first, end, {}, {}, nullptr, target);
         return true;
     }
     std::vector<std::uint32_t> overflown;
@@ -178,25 +178,25 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const std::vector<Cha
         overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
     }
     read_picture(frame.ray_count * pixel_bytes,
-                 [&](const float* values) { put_blocks(frame, first, end, seen, places, values, planes); });
-    draw_exactly(frame, overflown, planes, counts);
+                 [&](const float* values) { put_blocks(frame, first, end, seen, places, values, target); });
+    draw_exactly(frame, overflown, target, counts);
     return true;
 }
 
-void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::vector<ChannelPlane>& planes,
+void Pipeline::render(const PreparedFrame& prepared, RayRange range, const RenderTarget& target,
                       const Progress& progress, PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
     upload_lights(prepared);
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
-    const std::uint64_t bytes = planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
+    const std::uint64_t bytes = target.planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
                                 (every ? Exact::ray_bytes : FirstHits::ray_bytes);
     const std::uint64_t most = every ? most_rays_woven(device_, range.end - range.first) : most_rays;
     for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
-        if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, planes, counts);
+        if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, target, counts);
         std::vector<std::uint32_t> numbers(tile.rays);
         std::iota(numbers.begin(), numbers.end(), tile.first);
-        draw_exactly(prepared.frame, numbers, planes, counts);
+        draw_exactly(prepared.frame, numbers, target, counts);
         return true;
     });
 }

@@ -27,9 +27,9 @@ public:
     /// All three must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// Fills the planes of the frame's channels, so far as the range goes; it begins with a block.
+    /// Draws the frame, so far as the range goes; it begins with a block.
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
-    void render(const PreparedFrame& prepared, RayRange range, const std::vector<ChannelPlane>& planes, const Progress& progress,
+    void render(const PreparedFrame& prepared, RayRange range, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
     /// An answer for each ray.
     void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
@@ -53,8 +53,8 @@ private:
     SeenBlocks seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
-    bool draw(kernel::Frame frame, const Tile& tile, const std::vector<ChannelPlane>& planes, PipelineCounts& counts);
-    void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const std::vector<ChannelPlane>& planes,
+    bool draw(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts);
+    void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
     void read_picture(std::size_t bytes, const std::function<void(const float*)>& work);
 

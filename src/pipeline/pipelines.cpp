@@ -73,10 +73,10 @@ void Pipelines::share(std::uint64_t rays, const Progress& progress, PipelineCoun
     if (thrown) std::rethrow_exception(thrown);
 }
 
-void Pipelines::render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress,
+void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                        PipelineCounts& counts) {
     share(prepared.rays, progress, counts, [&](Pipeline& pipeline, RayRange part, const Progress& told, PipelineCounts& own) {
-        pipeline.render(prepared, part, planes, told, own);
+        pipeline.render(prepared, part, target, told, own);
     });
 }
 

@@ -17,7 +17,7 @@ public:
     Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     /// As Pipeline's. Progress is told by one thread at a time.
-    void render(const PreparedFrame& prepared, const std::vector<ChannelPlane>& planes, const Progress& progress,
+    void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
     std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, const Progress& progress,
                                      PipelineCounts& counts);

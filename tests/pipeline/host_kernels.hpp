@@ -79,7 +79,9 @@ inline std::vector<float> picture_of(const kernel::Frame& frame, const std::vect
         if (i == 4) planes.back().background = std::numeric_limits<float>::infinity();
         std::fill_n(planes.back().pixels, size, planes.back().background);
     }
-    put_rays(frame, numbers, values.data(), planes);
+    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK, down = (frame.height + BLOCK - 1) / BLOCK;
+    std::vector<std::uint8_t> drawn(across * down);
+    put_rays(frame, numbers, values.data(), {planes, drawn});
     return picture;
 }
 
