@@ -43,9 +43,10 @@ struct Streamed {
     }
     static void end() { _mm_sfence(); }
 
-    static bool fits(const kernel::Frame& frame, std::size_t pixels, std::span<const ChannelPlane> planes) {
+    static bool fits(const kernel::Frame& frame, std::span<const ChannelPlane> planes) {
         constexpr std::size_t least_bytes = std::size_t{1} << 28;  // measured: bench/NOTES.md
-        return pixels * planes.size() * sizeof(float) >= least_bytes && frame.width % lanes == 0 &&
+        const std::size_t bytes = std::size_t{frame.width} * frame.height * planes.size() * sizeof(float);
+        return bytes >= least_bytes && frame.width % lanes == 0 &&
                std::all_of(planes.begin(), planes.end(), [](const ChannelPlane& plane) {
                    return reinterpret_cast<std::uintptr_t>(plane.pixels) % sizeof(__m128) == 0;
                });
@@ -70,8 +71,6 @@ public:
         const auto clear = static_cast<std::size_t>(std::count(held.begin(), held.end(), 0));
         pixels_ = (drawn.size() + held.size() - clear) * BLOCK * BLOCK;
     }
-
-    std::size_t pixels() const { return pixels_; }  ///< that are written, at most
 
     template <class Line>
     void put() const {
@@ -131,7 +130,7 @@ private:
     std::span<const std::uint32_t> drawn_, places_;
     const float* values_;
     const RenderTarget& target_;
-    std::size_t pixels_ = 0;
+    std::size_t pixels_;  ///< that are written, at most
 };
 
 }  // namespace
@@ -140,7 +139,7 @@ void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t e
                 std::span<const std::uint32_t> places, const float* values, const RenderTarget& target) {
     const Blocks blocks(frame, first, end, drawn, places, values, target);
 #ifdef __SSE2__
-    if (Streamed::fits(frame, blocks.pixels(), target.planes)) return blocks.put<Streamed>();
+    if (Streamed::fits(frame, target.planes)) return blocks.put<Streamed>();
 #endif
     blocks.put<Cached>();
 }

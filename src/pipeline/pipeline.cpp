@@ -9,14 +9,15 @@
 namespace csgrt {
 namespace {
 
-constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
+constexpr std::uint64_t most_rays = 1u << 24;   // of one tile: launches stay short
+constexpr std::uint64_t most_drawn = 1u << 22;  // of a picture: the pixels of one tile are put while the next is drawn
 
 // Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it gets half of a
 // picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
 std::uint64_t most_rays_woven(const Device& device, std::uint64_t rays) {
     constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 18;
     if (device.info().type == "cpu") return of_processor;
-    return std::clamp((rays + 1) / 2, of_gpu, most_rays);
+    return std::clamp((rays + 1) / 2, of_gpu, most_drawn);
 }
 
 }  // namespace
@@ -27,7 +28,8 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       kernels_(kernels),
       settings_(settings),
       buffers_(device, scene, kernels.tables()),
-      tile_(device) {}
+      tile_(device),
+      reader_(device) {}
 
 Exact& Pipeline::exact() {
     if (!exact_) {
@@ -124,20 +126,6 @@ bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>&
     return true;
 }
 
-// In place on the host's own processor, else through memory that the device copies to at full speed.
-void Pipeline::read_picture(std::size_t bytes, const std::function<void(const float*)>& work) {
-    if (device_.info().type == "cpu") {
-        work(static_cast<const float*>(tile_.picture.map(bytes).data()));
-        return;
-    }
-    if (!pinned_ || pinned_->size() < bytes) {
-        pinned_.reset();
-        pinned_.emplace(device_, "picture", bytes);
-    }
-    tile_.picture.read(pinned_->data(), bytes);
-    work(static_cast<const float*>(pinned_->data()));
-}
-
 // Rays of a picture the exact way, one by one.
 void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers,
                             const RenderTarget& target, PipelineCounts& counts) {
@@ -148,7 +136,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
-        read_picture(frame.ray_count * pixel_bytes,
+        reader_.read(tile_.picture, frame.ray_count * pixel_bytes, false,
                      [&](const float* values) { put_rays(frame, picked, values, target); });
         if (frame.every_partition) exact().add_tallies(tile.rays, counts);
         return true;
@@ -156,15 +144,13 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
 }
 
 // false: the tile does not fit the memory.
-bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const RenderTarget& target,
-                    PipelineCounts& counts) {
+bool Pipeline::draw(kernel::Frame frame, const Tile& tile, bool is_last, const RenderTarget& target, PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
     frame.first_ray = tile.first;
     const std::uint64_t pixel_bytes = target.planes.size() * sizeof(float);
-    const SeenBlocks blocks = seen_blocks(frame, tile, counts);
-    const auto &seen = blocks.numbers, &places = blocks.places;
-    std::vector<std::uint32_t> drawn(seen.size());
-    for (std::size_t i = 0; i < seen.size(); ++i) drawn[places[i]] = seen[i];
+    SeenBlocks seen = seen_blocks(frame, tile, counts);
+    std::vector<std::uint32_t> drawn(seen.numbers.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[seen.places[i]] = seen.numbers[i];
     if (!list_rays(frame, drawn, block_rays, pixel_bytes,
                    frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
         put_blocks(frame, first, end, {}, {}, nullptr, target);
@@ -177,8 +163,10 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const RenderTarget& t
     } else {
         overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
     }
-    read_picture(frame.ray_count * pixel_bytes,
-                 [&](const float* values) { put_blocks(frame, first, end, seen, places, values, target); });
+    reader_.read(tile_.picture, frame.ray_count * pixel_bytes, !is_last && overflown.empty(),
+                 [=, &target, seen = std::move(seen)](const float* values) {
+                     put_blocks(frame, first, end, seen.numbers, seen.places, values, target);
+                 });
     draw_exactly(frame, overflown, target, counts);
     return true;
 }
@@ -190,10 +178,11 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const Rende
     every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
     const std::uint64_t bytes = target.planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
                                 (every ? Exact::ray_bytes : FirstHits::ray_bytes);
-    const std::uint64_t most = every ? most_rays_woven(device_, range.end - range.first) : most_rays;
+    const std::uint64_t most = every ? most_rays_woven(device_, range.end - range.first) : most_drawn;
     for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
-        if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, target, counts);
+        const bool is_last = std::uint64_t{tile.first} + tile.rays == prepared.rays;  // nothing follows that its pixels could wait beside
+        if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, is_last, target, counts);
         std::vector<std::uint32_t> numbers(tile.rays);
         std::iota(numbers.begin(), numbers.end(), tile.first);
         draw_exactly(prepared.frame, numbers, target, counts);

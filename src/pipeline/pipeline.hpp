@@ -11,6 +11,7 @@
 #include "pipeline/exact.hpp"
 #include "pipeline/first_hits.hpp"
 #include "pipeline/picture.hpp"
+#include "pipeline/picture_reader.hpp"
 
 namespace csgrt {
 
@@ -27,10 +28,14 @@ public:
     /// All three must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// Draws the frame, so far as the range goes; it begins with a block.
+    /// Draws the frame, so far as the range goes; it begins with a block. Some of it may come into the target until finish().
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
     void render(const PreparedFrame& prepared, RayRange range, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
+    /// Returns when the target holds all that was drawn. Throws what kept it from doing so.
+    void finish() { reader_.finish(); }
+    /// Returns when nothing more comes into the target.
+    void abandon() { reader_.abandon(); }
     /// An answer for each ray.
     void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
                PipelineCounts& counts);
@@ -53,10 +58,9 @@ private:
     SeenBlocks seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
-    bool draw(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts);
+    bool draw(kernel::Frame frame, const Tile& tile, bool is_last, const RenderTarget& target, PipelineCounts& counts);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
-    void read_picture(std::size_t bytes, const std::function<void(const float*)>& work);
 
     Device& device_;
     const CompiledScene& scene_;
@@ -66,7 +70,7 @@ private:
     TileBuffers tile_;
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
-    std::optional<PinnedMemory> pinned_;  // as large as any picture yet; a GPU's only
+    PictureReader reader_;
     double build_ms_ = 0;
 };
 

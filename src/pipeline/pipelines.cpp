@@ -75,9 +75,16 @@ void Pipelines::share(std::uint64_t rays, const Progress& progress, PipelineCoun
 
 void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                        PipelineCounts& counts) {
+    struct Abandon {
+        std::vector<std::unique_ptr<Pipeline>>& pipelines;
+        ~Abandon() {
+            for (const auto& pipeline : pipelines) pipeline->abandon();
+        }
+    } if_thrown{pipelines_};
     share(prepared.rays, progress, counts, [&](Pipeline& pipeline, RayRange part, const Progress& told, PipelineCounts& own) {
         pipeline.render(prepared, part, target, told, own);
     });
+    for (const auto& pipeline : pipelines_) pipeline->finish();
 }
 
 std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
