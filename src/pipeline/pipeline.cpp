@@ -136,7 +136,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
-        reader_.read(tile_.picture, frame.ray_count * pixel_bytes, false,
+        reader_.read(tile_.picture, frame.ray_count * pixel_bytes,
                      [&](const float* values) { put_rays(frame, picked, values, target); });
         if (frame.every_partition) exact().add_tallies(tile.rays, counts);
         return true;
@@ -163,10 +163,13 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, bool is_last, const R
     } else {
         overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
     }
-    reader_.read(tile_.picture, frame.ray_count * pixel_bytes, !is_last && overflown.empty(),
-                 [=, &target, seen = std::move(seen)](const float* values) {
-                     put_blocks(frame, first, end, seen.numbers, seen.places, values, target);
-                 });
+    auto put = [=, &target, seen = std::move(seen)](const float* values) {
+        put_blocks(frame, first, end, seen.numbers, seen.places, values, target);
+    };
+    if (is_last || !overflown.empty())
+        reader_.read(tile_.picture, frame.ray_count * pixel_bytes, std::move(put));
+    else
+        reader_.read_beside(tile_.picture, frame.ray_count * pixel_bytes, tile.rays * pixel_bytes, std::move(put));
     draw_exactly(frame, overflown, target, counts);
     return true;
 }
