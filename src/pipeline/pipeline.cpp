@@ -166,10 +166,12 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, bool is_last, const R
     auto put = [=, &target, seen = std::move(seen)](const float* values) {
         put_blocks(frame, first, end, seen.numbers, seen.places, values, target);
     };
+    const std::uint64_t bytes = frame.ray_count * pixel_bytes;
+    const bool are_many = std::uint64_t{frame.width} * frame.height > 2 * std::uint64_t{tile.rays};  // tiles: others may need more
     if (is_last || !overflown.empty())
-        reader_.read(tile_.picture, frame.ray_count * pixel_bytes, std::move(put));
+        reader_.read(tile_.picture, bytes, std::move(put));
     else
-        reader_.read_beside(tile_.picture, frame.ray_count * pixel_bytes, tile.rays * pixel_bytes, std::move(put));
+        reader_.read_beside(tile_.picture, bytes, are_many ? tile.rays * pixel_bytes : bytes, std::move(put));
     draw_exactly(frame, overflown, target, counts);
     return true;
 }
