@@ -41,6 +41,12 @@ public:
         if (slots_.empty()) return none;
         return slots_[slot_of(hash)].number;
     }
+    /// Asks for the memory where a cell's number is.
+    void fetch([[maybe_unused]] std::uint64_t hash) const {
+#if defined(__GNUC__)
+        if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot_of(hash)]);
+#endif
+    }
     /// Gives a cell a number and returns the one that it had.
     std::uint32_t exchange(std::uint64_t hash, std::uint32_t number) {
         if (2 * count_ >= slots_.size()) grow();
@@ -64,8 +70,11 @@ private:
         std::uint32_t number;
     };
 
+    std::size_t first_slot_of(std::uint64_t hash) const {
+        return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u) & (slots_.size() - 1);
+    }
     std::size_t slot_of(std::uint64_t hash) const {
-        std::size_t i = static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u) & (slots_.size() - 1);
+        std::size_t i = first_slot_of(hash);
         while (slots_[i].number != none && slots_[i].hash != hash) i = (i + 1) & (slots_.size() - 1);
         return i;
     }

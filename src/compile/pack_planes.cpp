@@ -86,7 +86,10 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
             // They lie far apart: most of the time would go by in waiting for memory.
             constexpr std::size_t soon = 6, later = 12;
             if (i + later < members.size()) fetch(&plane_at(i + later));
-            if (i + soon < members.size()) fetch(&box_at(i + soon));
+            if (i + soon < members.size()) {
+                fetch(&box_at(i + soon));
+                table.fetch(plane_at(i + soon).key);
+            }
             PackedPlane& plane = plane_at(i);
             const std::size_t before = table.size();
             plane.ref = table.add_keyed(plane.key, is_finite(box_at(i)) ? box_at(i) : common);

@@ -27,6 +27,14 @@ double facing(const Vec3& n) { return n.x + 0.61 * n.y + 0.37 * n.z; }
 /// Rounding decides on which side.
 bool faces_both(const Plane& plane) { return std::fabs(facing(plane.normal)) <= 4 * PlaneTable::tilt; }
 
+/// 1, 2 or 3 if the normal is exactly that axis, else 0.
+std::uint8_t axis_of(const Vec3& n) {
+    if (n.x == 1 && n.y == 0 && n.z == 0) return 1;
+    if (n.x == 0 && n.y == 1 && n.z == 0) return 2;
+    if (n.x == 0 && n.y == 0 && n.z == 1) return 3;
+    return 0;
+}
+
 /// Where a plane of normal n lies farthest apart from another over a box, given the difference of the two.
 double separation(const Wide& normal, long double distance, const Box& box) {
     long double low = -distance, high = -distance;
@@ -60,6 +68,7 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
     key.flipped = facing(plane.normal) < 0;
     key.one = key.flipped ? flipped(plane) : plane;
     key.offset = offset(key.one);
+    key.axis = axis_of(key.one.normal);
     const Vec3& n = key.one.normal;
     const double reach = offset_reach * radius_, cell = offset_cell * radius_;
     const CellRange ranges[] = {cells_of(n.x, tilt, normal_cell), cells_of(n.y, tilt, normal_cell),
@@ -87,11 +96,14 @@ void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes
 
 std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const {
     const double reach = offset_reach * radius_;
+    // Of two planes across one axis nothing but their distance is to be compared: those of a scene of parts that lie on one plate
+    // are within `reach` of many. Offsets are rounded, so the limit has a margin.
+    const double parallel_reach = key.axis ? 2 * gap * diagonal(box) + 1e-15 * std::fabs(key.offset) : reach;
     std::uint32_t found = none;
     for (std::uint32_t record = cells_.find(cell); record != none; record = links_[record].next) {
-        if (std::fabs(links_[record].offset - key.offset) <= reach && record < found &&
-            same(entries_[record], key.one, box))
-            found = record;
+        const Link& link = links_[record];
+        const bool is_near = std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? parallel_reach : reach);
+        if (is_near && record < found && same(entries_[record], key.one, box)) found = record;
     }
     return found;
 }
@@ -117,6 +129,18 @@ kernel::PlaneRecord PlaneTable::record_of(const Key& key) {
     return {plane.normal.x, plane.normal.y, plane.normal.z, plane.distance};
 }
 
+std::vector<kernel::PlaneRecord> PlaneTable::records() const {
+    std::vector<kernel::PlaneRecord> all;
+    all.reserve(entries_.size());
+    for (const Entry& entry : entries_) {
+        Key key;
+        key.one = {entry.normal, entry.distance};
+        key.flipped = entry.flipped;
+        all.push_back(record_of(key));
+    }
+    return all;
+}
+
 void PlaneTable::check_count(std::size_t records) {
     if (records > 0x7fffffffu) throw Error(Status::scene, "the scene has more than 2147483647 different planes");
 }
@@ -129,6 +153,7 @@ kernel::PlaneRef PlaneTable::add_keyed(const Key& key, const Box& box) {
         Key other = key;
         other.one = flipped(key.one);
         other.offset = -key.offset;
+        other.axis = 0;
         other.alone = false;
         const std::uint32_t there = find(other, box);
         opposite = there < found;
@@ -136,10 +161,9 @@ kernel::PlaneRef PlaneTable::add_keyed(const Key& key, const Box& box) {
     }
     if (found != none) return found << 1 | static_cast<std::uint32_t>(key.flipped ^ entries_[found].flipped ^ opposite);
 
-    const auto record = static_cast<std::uint32_t>(records_.size());
-    records_.push_back(record_of(key));
+    const auto record = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({key.one.normal, key.one.distance, key.flipped, box});
-    links_.push_back({key.offset, cells_.exchange(key.cell, record)});
+    links_.push_back({key.offset, cells_.exchange(key.cell, record), key.axis});
     return record << 1;
 }
 

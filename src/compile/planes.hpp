@@ -31,6 +31,7 @@ public:
         std::uint64_t cell = 0;
         bool flipped = false;  ///< `one` looks the other way
         bool alone = false;    ///< no plane that is the same lies in another cell
+        std::uint8_t axis = 0; ///< 1, 2, 3: the normal of `one` is that axis, exactly
     };
     Key key_of(const Plane& plane) const;
     static kernel::PlaneRecord record_of(const Key& key);
@@ -44,15 +45,16 @@ public:
 
     /// Throws Error (scene) if there are more records than references can tell apart.
     static void check_count(std::size_t records);
-    std::size_t size() const { return records_.size(); }
+    std::size_t size() const { return entries_.size(); }
     /// Without planes, in the memory that it has.
     void clear() {
-        records_.clear();
         entries_.clear();
         links_.clear();
         cells_.clear();
     }
-    std::vector<kernel::PlaneRecord> take() { return std::move(records_); }
+    std::vector<kernel::PlaneRecord> records() const;
+    /// Asks for the memory that a search for it begins with.
+    void fetch(const Key& key) const { cells_.fetch(key.cell); }
 
 private:
     /// A record as it is looked up: on one side of space, see facing().
@@ -66,6 +68,7 @@ private:
     struct Link {
         double offset;       ///< from the scene's centre
         std::uint32_t next;  ///< in the same cell
+        std::uint8_t axis;   ///< as in Key
     };
 
     std::uint32_t find(const Key& key, const Box& box) const;
@@ -75,7 +78,6 @@ private:
 
     Vec3 center_;
     double radius_;
-    std::vector<kernel::PlaneRecord> records_;
     std::vector<Entry> entries_;
     std::vector<Link> links_;  ///< one an entry
     CellTable cells_;  ///< the last record of each

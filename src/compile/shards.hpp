@@ -2,6 +2,7 @@
 // into one shard, each shard is gone through in order, and different shards have nothing to do with each other.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -91,6 +92,10 @@ public:
         for (Chunk& chunk : chunks_)
             for (std::uint32_t shard = 0; shard < count; ++shard)
                 next[shard] += std::exchange(chunk.next_[shard], next[shard]);
+        // No large one begins last, when the others have ended.
+        for (std::uint32_t shard = 0; shard < count; ++shard)
+            if (size_of(shard) > 0) by_size_.push_back(static_cast<std::uint16_t>(shard));
+        std::stable_sort(by_size_.begin(), by_size_.end(), [this](auto a, auto b) { return size_of(a) > size_of(b); });
         members_.resize(first_[count]);
         for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
             Chunk& chunk = chunks_[c];
@@ -107,11 +112,10 @@ public:
         std::atomic<std::size_t> next{0};
         for_chunks(threads, 1, threads, [&](std::size_t, std::size_t, std::size_t) {
             Table table = empty;
-            for (std::size_t shard = next++; shard < count; shard = next++) {
-                const std::span<const Member> all(members_);
-                if (first_[shard] == first_[shard + 1]) continue;
+            for (std::size_t i = next++; i < by_size_.size(); i = next++) {
+                const std::uint16_t shard = by_size_[i];
                 table.clear();
-                work(table, all.subspan(first_[shard], first_[shard + 1] - first_[shard]), shard);
+                work(table, std::span<const Member>(members_).subspan(first_[shard], size_of(shard)), shard);
             }
         });
     }
@@ -124,6 +128,7 @@ public:
     }
 
 private:
+    std::uint32_t size_of(std::size_t shard) const { return first_[shard + 1] - first_[shard]; }
     std::uint16_t root(std::uint16_t shard) const {
         while (root_[shard] != shard) shard = root_[shard];
         return shard;
@@ -132,6 +137,7 @@ private:
     std::vector<Chunk> chunks_;
     std::array<std::uint16_t, count> root_;
     std::array<std::uint32_t, count + 1> first_{};  ///< of each shard, among the members
+    std::vector<std::uint16_t> by_size_;             ///< shards with members, the largest first
     std::vector<Member> members_;
 };
 

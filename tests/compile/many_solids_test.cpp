@@ -33,5 +33,5 @@ TEST_CASE("batches of solids give what packing them one by one gives") {
     }
     CHECK(alone.reals == compiled.reals);
     CHECK(alone.plane_refs == compiled.plane_refs);
-    CHECK(planes.take().size() == compiled.planes.size());
+    CHECK(planes.records().size() == compiled.planes.size());
 }

@@ -26,7 +26,7 @@ struct Packed {
         pack_solid(Ell{{9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, identity, box, scene, planes, surfaces, shared);
         pack_solid(block_shape({50, 50, 50}, {51, 51, 51}), {}, identity, box, scene, planes, surfaces, shared);
         pack_solid(shape, {}, matrix, box, scene, planes, surfaces, shared);
-        scene.planes = planes.take();
+        scene.planes = planes.records();
     }
 
     const kernel::SolidRecord& solid() const { return scene.solids.back(); }

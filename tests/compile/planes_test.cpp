@@ -46,7 +46,7 @@ TEST_CASE("abutting blocks share the plane between them, and those that they are
             add_all(table, {{block_shape({0, 0, 0}, {1, 2, 3}), m}, {block_shape({1, 0, 0}, {5, 2, 3}), m}});
         CHECK(shared(refs, true) == 1);   // x = 1, from both sides
         CHECK(shared(refs, false) == 4);  // y and z, flush
-        CHECK(table.take().size() == 7);
+        CHECK(table.records().size() == 7);
     }
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("the later face takes over the earlier record, bit by bit") {
     CHECK(table.add({{0, 0, -1}, -1 + 1e-12}, box) == 1);
     CHECK(table.add({{0, 1, 0}, 1}, box) == 2);
     CHECK(table.add({{1e-12, 0, 1}, 1}, box) == 0);
-    const auto records = table.take();
+    const auto records = table.records();
     REQUIRE(records.size() == 2);
     CHECK(records[0].nz == 1);
     CHECK(records[0].d == 1);
@@ -131,7 +131,7 @@ TEST_CASE("a wall of blocks under a rotation: each seam is one plane, for a mill
                       Plane{{0, -1, 0}, -own.low.y}, Plane{{0, 0, 1}, own.high.z}, Plane{{0, 0, -1}, -own.low.z}})
                     table.add(transform_plane(m, plane), box);
             }
-    CHECK(table.take().size() == 65 + 65 + layers + 1);
+    CHECK(table.records().size() == 65 + 65 + layers + 1);
 }
 
 TEST_CASE("a million different planes stay apart") {
@@ -146,5 +146,5 @@ TEST_CASE("a million different planes stay apart") {
         table.add(i % 2 == 0 ? plane_through(Wide(gauss(random)), n) : Plane{{0, 0, 1}, static_cast<double>(i) * 1e-4},
                   box);
     }
-    CHECK(table.take().size() == count);
+    CHECK(table.records().size() == count);
 }
