@@ -1,6 +1,7 @@
 // Solids are computed by several threads. What they share is found as if one after the other, in their order, so that
 // the result does not depend on the threads.
 #include <algorithm>
+#include <future>
 #include <unordered_set>
 
 #include "compile/linear.hpp"
@@ -90,8 +91,12 @@ public:
             append_keys(planes, chunks_[number].planes);
         });
         share_surfaces();
-        lay_out_reals();
+        const std::size_t reals = place_reals();
+        // One thread clears their memory, which is much, beside the planes'.
+        std::future<void> room = std::async([&] { compiled_.reals.resize(reals); });
         share_planes(chunks_, planes_, common_, compiled_);
+        room.get();
+        copy_reals();
         for (PackedChunk& chunk : chunks_) {
             compiled_.solid_types |= chunk.solid_types;
             std::move(chunk.notes.begin(), chunk.notes.end(), std::back_inserter(compiled_.notes));
@@ -179,8 +184,9 @@ private:
         });
     }
 
-    /// Solids of any size are packed on the way: what they write holds positions among the scene's numbers.
-    void lay_out_reals() {
+    /// Where each solid's parameters come to stand; returns how many there are. Solids of any size are packed on the way: what
+    /// they write holds positions among the scene's numbers.
+    std::size_t place_reals() {
         std::vector<double>& reals = compiled_.reals;
         std::size_t next = 0;
         for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -199,7 +205,10 @@ private:
             }
             check_numbers(std::max(next, compiled_.words.size()));
         }
-        reals.resize(next);
+        return next;
+    }
+
+    void copy_reals() {
         for_each_chunk([&](std::size_t number) {
             const PackedChunk& chunk = chunks_[number];
             for (std::size_t i = 0; i < chunk.parts.size(); ++i) {
@@ -207,7 +216,7 @@ private:
                 const std::size_t solid = number * PackedChunk::size + i;
                 if (part.is_large || part.stands != solid) continue;
                 std::copy_n(chunk.reals.begin() + part.first_real, part.reals,
-                            reals.begin() + compiled_.solids[solid].first_real);
+                            compiled_.reals.begin() + compiled_.solids[solid].first_real);
             }
         });
     }
