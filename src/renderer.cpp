@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <future>
 #include <limits>
 #include <optional>
 
@@ -209,7 +210,15 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         names.emplace_back(source->name);
         background.push_back(source->value(background_pixel));
     }
-    const bool is_new = framebuffer.fit(view.width, view.height, std::move(names), std::move(background));
+    bool is_new = false;
+    const auto fit = [&] { is_new = framebuffer.fit(view.width, view.height, std::move(names), std::move(background)); };
+    if (impl.pipelines && framebuffer.drawn_.empty()) {
+        std::future<void> fitting = std::async(fit);
+        impl.pipelines->prepare(view.every_partition);  // the compiler leaves most processors idle
+        fitting.get();
+    } else {
+        fit();
+    }
     Image& image = framebuffer.image_;
     std::vector<ChannelPlane> planes;
     for (std::size_t i = 0; i < wanted.size(); ++i)

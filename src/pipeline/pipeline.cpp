@@ -180,7 +180,7 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const Rende
                       const Progress& progress, PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
     upload_lights(prepared);
-    every ? static_cast<void>(exact()) : static_cast<void>(first_hits());
+    prepare(every);
     const std::uint64_t bytes = target.planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
                                 (every ? Exact::ray_bytes : FirstHits::ray_bytes);
     const std::uint64_t most = every ? most_rays_woven(device_, range.end - range.first) : most_drawn;

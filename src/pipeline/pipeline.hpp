@@ -28,6 +28,8 @@ public:
     /// All three must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
+    /// Compiles the kernels of such frames, if that was not done.
+    void prepare(bool every_partition) { every_partition ? static_cast<void>(exact()) : static_cast<void>(first_hits()); }
     /// Draws the frame, so far as the range goes; it begins with a block. Some of it may come into the target until finish().
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
     void render(const PreparedFrame& prepared, RayRange range, const RenderTarget& target, const Progress& progress,

@@ -73,6 +73,11 @@ void Pipelines::share(std::uint64_t rays, const Progress& progress, PipelineCoun
     if (thrown) std::rethrow_exception(thrown);
 }
 
+void Pipelines::prepare(bool every_partition) {
+    for_chunks(pipelines_.size(), 1, static_cast<unsigned>(pipelines_.size()),
+               [&](std::size_t i, std::size_t, std::size_t) { pipelines_[i]->prepare(every_partition); });
+}
+
 void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                        PipelineCounts& counts) {
     struct Abandon {

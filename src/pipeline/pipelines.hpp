@@ -16,6 +16,7 @@ public:
     /// `settings.device` says which. The scene and the kernels must outlive this.
     Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
+    void prepare(bool every_partition);
     /// As Pipeline's. Progress is told by one thread at a time.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
