@@ -172,7 +172,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.statistics.tolerance = tolerance_of(impl.scene, settings);
     if (settings.reference) {
         impl.statistics.device = "reference";
-        impl.statistics.method = "every solid, unique lists";
+        impl.statistics.method = "every solid near the ray, unique lists";
         impl.reference.emplace(impl.scene, *impl.kernels, settings.threads);
         return;
     }

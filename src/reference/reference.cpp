@@ -43,6 +43,7 @@ Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, st
 Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads)
     : scene_(scene),
       kernels_(kernels),
+      near_(scene),
       threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())) {
     regions_of_.resize(scene.solids.size());
     for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
@@ -82,7 +83,7 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
     claims.first_seen = SIZE_MAX;
-    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, claims.ends, claims.weaver);
+    const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, claims.ends, claims.weaver);
     if (claims.ends.empty()) return;
     claims.woven = woven.size();
     const double t_min = kernels_.t_min(frame, ray);

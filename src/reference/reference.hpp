@@ -1,4 +1,4 @@
-// The CPU reference: every solid tried, unique lists, trees as the model gives them. It checks the device, bit by bit.
+// The CPU reference: every solid near the ray tried, unique lists, trees as the model gives them. It checks the device, bit by bit.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +35,7 @@ private:
 
     const CompiledScene& scene_;
     const ReferenceKernels& kernels_;
+    NearSolids near_;
     unsigned threads_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees here
 };

@@ -111,6 +111,7 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
         const CompiledScene compiled = compile_alone(shape, identity);
         const kernel::Frame frame = prepare_rays(compiled, 1).frame;
         const oracle::ImplicitSolid solid = oracle::implicit(shape, identity);
+        const NearSolids near(compiled);
         oracle::Random random(3);
         oracle::RayMaker maker(shape, solid, random);
         // In units of the last place of where the end lies; the worst, and how many were looked at.
@@ -122,7 +123,7 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
                 if (answer.tie) continue;
                 std::vector<kernel::End> ends;
                 Weaver weaver;
-                kernels->trace(frame, ray, ends, weaver);
+                kernels->trace(frame, ray, near, ends, weaver);
                 REQUIRE(ends.size() == 2 * answer.intervals.size());
                 for (std::size_t i = 0; i < ends.size(); ++i, ++ends_seen) {
                     const auto& interval = answer.intervals[i / 2];

@@ -233,8 +233,8 @@ public:
             return {point(r.o), point(r.d)};
         }
     }
-    std::span<const WovenPartition> trace(const kernel::Frame& f, const Ray& ray, std::vector<kernel::End>& ends,
-                                          Weaver& weaver) const override {
+    std::span<const WovenPartition> trace(const kernel::Frame& f, const Ray& ray, [[maybe_unused]] const NearSolids& near,
+                                          std::vector<kernel::End>& ends, Weaver& weaver) const override {
         const k::Frame& frame = convert_frame(f);
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const real t_min = k::t_min_along(&frame, r);
@@ -246,7 +246,9 @@ public:
             own.resize(first + 2 * std::size_t{segments});
             k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
         };
-        if constexpr (sizeof(real) <= sizeof(double)) {
+        if constexpr (sizeof(real) == sizeof(double)) {
+            near.for_each(ray, meet);
+        } else if constexpr (sizeof(real) < sizeof(double)) {
             for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) meet(solid);
         } else {
             meet_boxes(frame, r, t_min, meet);

@@ -1,0 +1,29 @@
+#include "reference/near_solids.hpp"
+
+#include <limits>
+
+#include "compile/linear.hpp"
+
+namespace csgrt {
+
+NearSolids::NearSolids(const CompiledScene& scene) : count_(scene.solid_boxes.size()), groups_((count_ + size - 1) / size) {
+    for (std::size_t i = 0; i < count_; ++i) {
+        Spheres& spheres = groups_[i / size];
+        const auto set = [&](const Vec3& center, double radius2) {
+            spheres.x[i % size] = center.x;
+            spheres.y[i % size] = center.y;
+            spheres.z[i % size] = center.z;
+            spheres.radius2[i % size] = radius2;
+        };
+        const Box& box = scene.solid_boxes[i];
+        if (!is_finite(box)) {
+            set({}, std::numeric_limits<double>::infinity());
+            continue;
+        }
+        // A box that is flat, or empty by mistake, has room around it, too.
+        const double radius = 0.75 * diagonal(box) + 1e-6 * scene.radius;
+        set(narrow(0.5L * (wide(box.low) + wide(box.high))), radius * radius);
+    }
+}
+
+}  // namespace csgrt
