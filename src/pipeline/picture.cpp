@@ -76,7 +76,7 @@ public:
     void put() const {
         const std::size_t first_row = first_ / across_, rows = (end_ + across_ - 1) / across_ - first_row;
         const std::size_t rows_a_chunk = std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
-        for_chunks(rows, rows_a_chunk, 0, [&](std::size_t row, std::size_t last, std::size_t) {
+        for_chunks(rows, rows_a_chunk, target_.threads, [&](std::size_t row, std::size_t last, std::size_t) {
             std::vector<Run> runs;
             for (; row < last; ++row) {
                 find_runs(first_row + row, runs);

@@ -19,6 +19,7 @@ struct ChannelPlane {
 struct RenderTarget {
     std::span<const ChannelPlane> planes;
     std::span<std::uint8_t> drawn;  ///< a block of the picture: 0 if it holds nothing but the background
+    unsigned threads = 0;           ///< that put pixels into it; 0: all
 };
 
 /// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, ascending; `places`: where

@@ -80,6 +80,8 @@ void Pipelines::prepare(bool every_partition) {
 
 void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                        PipelineCounts& counts) {
+    RenderTarget shared = target;  // until nothing more comes into it
+    shared.threads = std::max(1u, thread_count(0) / static_cast<unsigned>(pipelines_.size()));
     struct Abandon {
         std::vector<std::unique_ptr<Pipeline>>& pipelines;
         ~Abandon() {
@@ -87,7 +89,7 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
         }
     } if_thrown{pipelines_};
     share(prepared.rays, progress, counts, [&](Pipeline& pipeline, RayRange part, const Progress& told, PipelineCounts& own) {
-        pipeline.render(prepared, part, target, told, own);
+        pipeline.render(prepared, part, shared, told, own);
     });
     for (const auto& pipeline : pipelines_) pipeline->finish();
 }
