@@ -66,11 +66,13 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         PackedChunk& chunk = chunks[number];
         shards.chunk(number).reserve(chunk.planes.size());
         auto plane = chunk.planes.begin();
-        for (std::uint32_t i = 0; i < chunk.parts.size(); ++i)
+        for (std::uint32_t i = 0; i < chunk.parts.size(); ++i) {
+            const Box& box = compiled.solid_boxes[number * PackedChunk::size + i];
             for (const auto end = plane + chunk.parts[i].faces + chunk.parts[i].cuts; plane != end; ++plane) {
                 plane->solid = static_cast<std::uint16_t>(i);
-                empty.add_to(shards.chunk(number), plane->key, planes);
+                empty.add_to(shards.chunk(number), plane->key, is_finite(box) ? box : common, planes);
             }
+        }
     });
     shards.sort();
 
@@ -82,6 +84,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         const auto box_at = [&](std::size_t i) -> const Box& {
             return compiled.solid_boxes[members[i].chunk * PackedChunk::size + plane_at(i).solid];
         };
+        table.reserve(members.size());
         for (std::size_t i = 0; i < members.size(); ++i) {
             // They lie far apart: most of the time would go by in waiting for memory.
             constexpr std::size_t soon = 6, later = 12;

@@ -27,11 +27,14 @@ double facing(const Vec3& n) { return n.x + 0.61 * n.y + 0.37 * n.z; }
 /// Rounding decides on which side.
 bool faces_both(const Plane& plane) { return std::fabs(facing(plane.normal)) <= 4 * PlaneTable::tilt; }
 
-/// 1, 2 or 3 if the normal is exactly that axis, else 0.
+constexpr double axis_tilt = 1e-15;
+
+/// 1, 2 or 3 if the normal is that axis, with no component farther off than axis_tilt; else 0.
 std::uint8_t axis_of(const Vec3& n) {
-    if (n.x == 1 && n.y == 0 && n.z == 0) return 1;
-    if (n.x == 0 && n.y == 1 && n.z == 0) return 2;
-    if (n.x == 0 && n.y == 0 && n.z == 1) return 3;
+    const bool x0 = std::fabs(n.x) <= axis_tilt, y0 = std::fabs(n.y) <= axis_tilt, z0 = std::fabs(n.z) <= axis_tilt;
+    if (y0 && z0 && std::fabs(n.x - 1) <= axis_tilt) return 1;
+    if (x0 && z0 && std::fabs(n.y - 1) <= axis_tilt) return 2;
+    if (x0 && y0 && std::fabs(n.z - 1) <= axis_tilt) return 3;
     return 0;
 }
 
@@ -51,6 +54,12 @@ double separation(const Wide& normal, long double distance, const Box& box) {
 /// Signed distance from the centre of the scene.
 double PlaneTable::offset(const Plane& plane) const {
     return static_cast<double>(plane.distance - glm::dot(wide(plane.normal), wide(center_)));
+}
+
+/// How far the offsets of two planes across one axis may differ that are the same over `box`: of those nothing but their distance is
+/// to be compared. With a margin for what the normals differ by, anywhere in the scene, and for rounding.
+double PlaneTable::parallel_reach(const Key& key, const Box& box) const {
+    return 2 * gap * diagonal(box) + 10 * axis_tilt * radius_ + 1e-15 * std::fabs(key.offset);
 }
 
 bool PlaneTable::same(const Entry& entry, const Plane& plane, const Box& box) const {
@@ -79,16 +88,19 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
     return key;
 }
 
-void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes) const {
+void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const {
     // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay apart.
     const double part_of_radius =
         std::max(1.0 / 8192, 4 * offset_reach * static_cast<double>(planes) / (Shards::count / 16));
+    // Of two planes it is enough that one looks into the cell of the other. So those across an axis, which crowd where solids stand
+    // on one plate, look no farther than to each other, and the rest to them.
+    const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach * radius_;
     const auto cells = [&](const Vec3& n, double offset) {
         constexpr double normal = 0.25;
         return std::array<Shards::Chunk::Dimension, 4>{{{n.x, 2 * tilt, normal},
                                                         {n.y, 2 * tilt, normal},
                                                         {n.z, 2 * tilt, normal},
-                                                        {offset, 2 * offset_reach * radius_, part_of_radius * radius_}}};
+                                                        {offset, reach, part_of_radius * radius_}}};
     };
     chunk.add(cells(key.one.normal, key.offset));
     if (faces_both(key.one)) chunk.look_also(cells(flipped(key.one).normal, -key.offset));
@@ -96,13 +108,11 @@ void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes
 
 std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const {
     const double reach = offset_reach * radius_;
-    // Of two planes across one axis nothing but their distance is to be compared: those of a scene of parts that lie on one plate
-    // are within `reach` of many. Offsets are rounded, so the limit has a margin.
-    const double parallel_reach = key.axis ? 2 * gap * diagonal(box) + 1e-15 * std::fabs(key.offset) : reach;
+    const double reach_across = key.axis ? parallel_reach(key, box) : reach;
     std::uint32_t found = none;
     for (std::uint32_t record = cells_.find(cell); record != none; record = links_[record].next) {
         const Link& link = links_[record];
-        const bool is_near = std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? parallel_reach : reach);
+        const bool is_near = std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? reach_across : reach);
         if (is_near && record < found && same(entries_[record], key.one, box)) found = record;
     }
     return found;

@@ -31,13 +31,13 @@ public:
         std::uint64_t cell = 0;
         bool flipped = false;  ///< `one` looks the other way
         bool alone = false;    ///< no plane that is the same lies in another cell
-        std::uint8_t axis = 0; ///< 1, 2, 3: the normal of `one` is that axis, exactly
+        std::uint8_t axis = 0; ///< 1, 2, 3: the normal of `one` is that axis, as far as rounding goes
     };
     Key key_of(const Plane& plane) const;
     static kernel::PlaneRecord record_of(const Key& key);
-    /// Tells a chunk where the plane is looked up: planes that may be the same share a shard.
+    /// Tells a chunk where the plane of a solid in `box` is looked up: planes that may be the same share a shard.
     /// `planes`: about how many there are in all.
-    void add_to(Shards::Chunk& chunk, const Key& key, std::size_t planes) const;
+    void add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const;
 
     /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
     kernel::PlaneRef add_keyed(const Key& key, const Box& box);
@@ -46,6 +46,11 @@ public:
     /// Throws Error (scene) if there are more records than references can tell apart.
     static void check_count(std::size_t records);
     std::size_t size() const { return entries_.size(); }
+    /// Room for so many: what grows is copied, and half of its memory cleared in vain.
+    void reserve(std::size_t planes) {
+        entries_.reserve(planes);
+        links_.reserve(planes);
+    }
     /// Without planes, in the memory that it has.
     void clear() {
         entries_.clear();
@@ -75,6 +80,7 @@ private:
     std::uint32_t find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const;
     bool same(const Entry& entry, const Plane& plane, const Box& box) const;
     double offset(const Plane& plane) const;
+    double parallel_reach(const Key& key, const Box& box) const;
 
     Vec3 center_;
     double radius_;
