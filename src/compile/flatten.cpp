@@ -249,7 +249,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     }
 
     // Their trees.
-    result.instances.reserve(std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
+    reserve_cleared(result.instances, std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
     result.regions.reserve(terms.size());
     Joiner joiner(scene, terms, result);
     constexpr std::size_t part_size = 512;

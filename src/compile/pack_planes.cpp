@@ -108,6 +108,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
     std::size_t records = 0, refs = 0;
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
+    reserve_cleared(compiled.planes, records);
     compiled.planes.resize(records);
     for_each_chunk([&](std::size_t number) {
         std::uint32_t next = first_record[number];

@@ -1,7 +1,6 @@
 // Solids are computed by several threads. What they share is found as if one after the other, in their order, so that
 // the result does not depend on the threads.
 #include <algorithm>
-#include <future>
 #include <unordered_set>
 
 #include "compile/linear.hpp"
@@ -76,12 +75,13 @@ public:
           chunks_((order.size() + PackedChunk::size - 1) / PackedChunk::size) {}
 
     void pack() {
-        // New memory is cleared, page by page: by several threads, if there is much.
-        for_chunks(3, 1, order_.size() < 100'000 ? 1 : 0, [this](std::size_t which, std::size_t, std::size_t) {
-            if (which == 0) compiled_.solids.resize(order_.size());
-            if (which == 1) compiled_.solid_info.resize(order_.size());
-            if (which == 2) compiled_.solid_boxes.resize(order_.size());
-        });
+        const auto make = [this](auto& one_a_solid) {
+            reserve_cleared(one_a_solid, order_.size());
+            one_a_solid.resize(order_.size());
+        };
+        make(compiled_.solids);
+        make(compiled_.solid_info);
+        make(compiled_.solid_boxes);
         for_each_chunk([this](std::size_t number) {
             const std::size_t first = number * PackedChunk::size;
             const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
@@ -91,12 +91,8 @@ public:
             append_keys(planes, chunks_[number].planes);
         });
         share_surfaces();
-        const std::size_t reals = place_reals();
-        // One thread clears their memory, which is much, beside the planes'.
-        std::future<void> room = std::async([&] { compiled_.reals.resize(reals); });
+        lay_out_reals();
         share_planes(chunks_, planes_, common_, compiled_);
-        room.get();
-        copy_reals();
         for (PackedChunk& chunk : chunks_) {
             compiled_.solid_types |= chunk.solid_types;
             std::move(chunk.notes.begin(), chunk.notes.end(), std::back_inserter(compiled_.notes));
@@ -184,9 +180,8 @@ private:
         });
     }
 
-    /// Where each solid's parameters come to stand; returns how many there are. Solids of any size are packed on the way: what
-    /// they write holds positions among the scene's numbers.
-    std::size_t place_reals() {
+    /// Solids of any size are packed on the way: what they write holds positions among the scene's numbers.
+    void lay_out_reals() {
         std::vector<double>& reals = compiled_.reals;
         std::size_t next = 0;
         for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -205,10 +200,8 @@ private:
             }
             check_numbers(std::max(next, compiled_.words.size()));
         }
-        return next;
-    }
-
-    void copy_reals() {
+        reserve_cleared(reals, next);
+        reals.resize(next);
         for_each_chunk([&](std::size_t number) {
             const PackedChunk& chunk = chunks_[number];
             for (std::size_t i = 0; i < chunk.parts.size(); ++i) {
@@ -216,7 +209,7 @@ private:
                 const std::size_t solid = number * PackedChunk::size + i;
                 if (part.is_large || part.stands != solid) continue;
                 std::copy_n(chunk.reals.begin() + part.first_real, part.reals,
-                            compiled_.reals.begin() + compiled_.solids[solid].first_real);
+                            reals.begin() + compiled_.solids[solid].first_real);
             }
         });
     }
