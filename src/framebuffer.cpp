@@ -13,7 +13,10 @@ Image Framebuffer::take() { return std::exchange(*this, {}).image_; }
 
 /// Makes it a picture of that form. True if its memory is new: all zeros.
 bool Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background) {
-    const bool fits = image_.width == width && image_.height == height && image_.names == names;
+    const auto blocks_along = [](int size) { return (static_cast<std::size_t>(size) + BLOCK - 1) / BLOCK; };
+    const std::size_t blocks = blocks_along(width) * blocks_along(height);
+    const bool fits =  // what was moved away keeps its size, but no blocks
+        image_.width == width && image_.height == height && image_.names == names && drawn_.size() == blocks;
     if (!fits) {
         *this = {};  // before there is more memory; and whole, if there is none
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -27,8 +30,7 @@ bool Framebuffer::fit(int width, int height, std::vector<std::string> names, std
         image_.channels = std::move(channels);
     }
     if (!fits || background != background_) {
-        const auto blocks = [](int size) { return (static_cast<std::size_t>(size) + BLOCK - 1) / BLOCK; };
-        drawn_.assign(blocks(width) * blocks(height), 1);
+        drawn_.assign(blocks, 1);
         background_ = std::move(background);
     }
     return !fits;

@@ -18,6 +18,9 @@
 #ifdef cl_khr_fp64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
+#ifdef CSGRT_BUILTINS
+#include "builtins.h"
+#endif
 typedef CSGRT_REAL real;  // -DCSGRT_REAL=double or float
 #ifdef CSGRT_EYE_RELATIVE
 typedef double wide;

@@ -71,11 +71,14 @@ public:
     Kernel kernel(const std::string& name) const;
     /// What the compiler had to say; empty when all was well.
     const std::string& build_log() const noexcept { return build_log_; }
+    /// Built with what builtins.h declares, not with the driver's declarations.
+    bool has_own_declarations() const noexcept { return has_own_declarations_; }
 
 private:
     const Device* device_;
     Handle<cl_program, clReleaseProgram> program_;
     std::string build_log_;
+    bool has_own_declarations_ = false;
 };
 
 }  // namespace csgrt

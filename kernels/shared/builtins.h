@@ -1,0 +1,55 @@
+// OpenCL C's functions, so far as kernels use them, for a compiler that is kept from reading its declarations of them all
+// (src/device/program.cpp). As Khronos's specification has them: what depends on nothing but its arguments is const, what all
+// work-items of a group must come to together is convergent.
+#ifndef CSGRT_BUILTINS_H
+#define CSGRT_BUILTINS_H
+
+#define OVERLOADED __attribute__((overloadable))
+#define PURE __attribute__((overloadable, const))
+
+PURE size_t get_global_id(uint dimension);
+PURE size_t get_group_id(uint dimension);
+PURE size_t get_local_id(uint dimension);
+OVERLOADED __attribute__((convergent)) void barrier(cl_mem_fence_flags flags);
+OVERLOADED uint atomic_inc(volatile __global uint* counter);
+PURE uint clz(uint bits);
+PURE uint add_sat(uint a, uint b);
+PURE int any(long8 truths);
+
+#define REAL_FUNCTIONS(T)  \
+    PURE T sqrt(T x);      \
+    PURE T fabs(T x);      \
+    PURE T floor(T x);     \
+    PURE T fma(T a, T b, T c);
+REAL_FUNCTIONS(float)
+REAL_FUNCTIONS(double)
+REAL_FUNCTIONS(double8)
+#undef REAL_FUNCTIONS
+PURE int ilogb(float x);
+PURE int ilogb(double x);
+PURE float ldexp(float x, int exponent);
+PURE double ldexp(double x, int exponent);
+PURE float fmin(float a, float b);
+PURE float fmax(float a, float b);
+PURE float8 fmin(float8 a, float8 b);
+PURE float8 fmax(float8 a, float8 b);
+
+PURE float8 convert_float8(double8 x);
+PURE float8 convert_float8(ulong8 x);
+PURE float8 convert_float8(uint8 x);
+PURE int8 convert_int8(long8 x);
+PURE long8 convert_long8(int8 x);
+#define MEMORY_FUNCTIONS(T)                                                   \
+    OVERLOADED T##8 vload8(size_t offset, const __private T* from);           \
+    OVERLOADED T##8 vload8(size_t offset, const __global T* from);            \
+    OVERLOADED void vstore8(T##8 values, size_t offset, __private T* to);     \
+    OVERLOADED void vstore8(T##8 values, size_t offset, __global T* to);
+MEMORY_FUNCTIONS(float)
+MEMORY_FUNCTIONS(double)
+MEMORY_FUNCTIONS(uint)
+MEMORY_FUNCTIONS(ulong)
+#undef MEMORY_FUNCTIONS
+#undef OVERLOADED
+#undef PURE
+
+#endif

@@ -1,0 +1,54 @@
+// PoCL compiles the kernels with kernels/shared/builtins.h in place of its own declarations; a function that is missing there would cost
+// every start two builds.
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "device/choice.hpp"
+#include "device/program.hpp"
+#include "pipeline/every_type.hpp"
+#include "pipeline/stages.hpp"
+
+using namespace csgrt;
+
+TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
+    const std::vector<FoundDevice> found = find_devices();
+    const std::vector<std::size_t> chosen = choose_devices(infos_of(found), "cpu");
+    Device device(found[chosen.front()], 0);
+    if (device.info().platform != "Portable Computing Language" || !device.info().driver.starts_with("3.")) {
+        WARN("the processor's driver is not PoCL 3: nothing seen");
+        return;
+    }
+    Scene own;
+    std::vector<std::string> objects;
+    own.objects.push_back(Solid{"ball", Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}});
+    own.top = {"ball"};
+    const CompiledScene scene = compile(test::with_every_type(own, objects), objects);
+    for (const Precision precision : {Precision::double_, Precision::single, Precision::single_world}) {
+        INFO(name_of(precision_names, precision));
+        Settings settings;
+        settings.precision = precision;
+        const bool is_single = precision != Precision::double_;
+        std::vector<std::string> defines = defines_of(scene, settings);
+        const auto require_own = [&](const std::vector<std::string>& files) {
+            INFO(files.back());
+            const Program program(device, assemble_program(files), defines, is_single);
+            CHECK(program.has_own_declarations());
+            CHECK(program.build_log() == "");
+        };
+        require_own({"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
+        defines.push_back("CSGRT_PRIVATE_ENDS");
+        require_own({"0_cull_blocks.cl", "first_hits_ray.h", "first_hits.cl"});
+        defines.push_back("CSGRT_PACKETS");
+        if (!is_single) require_own({"0_cull_blocks.cl", "first_hits_packet.h", "first_hits.cl"});
+    }
+}
+
+TEST_CASE("a source with a function that builtins.h lacks is built with the driver's declarations") {
+    const std::vector<FoundDevice> found = find_devices();
+    Device device(found[choose_devices(infos_of(found), "cpu").front()], 0);
+    const Program program(device, "__kernel void turn(__global float* x) { x[0] = cos(x[0]); }");
+    CHECK_FALSE(program.has_own_declarations());
+    CHECK(program.build_log() == "");
+    program.kernel("turn");
+}
