@@ -30,6 +30,16 @@ std::uint64_t cell_hash(const Cell& cell) {
     return hash;
 }
 
+/// The same, all bits of it mixed: hashes of neighbouring cells differ in few, all of them low ones or high ones.
+inline std::uint64_t mixed(std::uint64_t hash) { return hash * 0x9e3779b97f4a7c15u; }
+
+/// Asks for memory that will be read.
+inline void fetch([[maybe_unused]] const void* memory) {
+#if defined(__GNUC__)
+    __builtin_prefetch(memory);
+#endif
+}
+
 /// From the hashes of cells to numbers, in one piece of memory: a scene has millions of cells, each looked up once or
 /// twice.
 class CellTable {
@@ -42,10 +52,8 @@ public:
         return slots_[slot_of(hash)].number;
     }
     /// Asks for the memory where a cell's number is.
-    void fetch([[maybe_unused]] std::uint64_t hash) const {
-#if defined(__GNUC__)
-        if (!slots_.empty()) __builtin_prefetch(&slots_[first_slot_of(hash)]);
-#endif
+    void fetch(std::uint64_t hash) const {
+        if (!slots_.empty()) csgrt::fetch(&slots_[first_slot_of(hash)]);
     }
     /// Gives a cell a number and returns the one that it had.
     std::uint32_t exchange(std::uint64_t hash, std::uint32_t number) {
@@ -71,7 +79,7 @@ private:
     };
 
     std::size_t first_slot_of(std::uint64_t hash) const {
-        return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u) & (slots_.size() - 1);
+        return static_cast<std::size_t>(mixed(hash)) & (slots_.size() - 1);
     }
     std::size_t slot_of(std::uint64_t hash) const {
         std::size_t i = first_slot_of(hash);

@@ -31,13 +31,6 @@ void insert_large(PackedChunk& chunk) {
     chunk.planes = std::move(all);
 }
 
-/// Asks for memory that will be read.
-void fetch([[maybe_unused]] const void* memory) {
-#if defined(__GNUC__)
-    __builtin_prefetch(memory);
-#endif
-}
-
 /// Leaves out faces of a polyhedron that have come already. Returns how many references are left.
 std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
     constexpr std::size_t few = 16;  // an arbn may have very many faces

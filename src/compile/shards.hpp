@@ -56,8 +56,7 @@ public:
             std::array<std::int64_t, n> cell;
             const auto shard = [&](std::size_t corner) {
                 for (std::size_t i = 0; i < n; ++i) cell[i] = corner >> i & 1 ? ranges[i].last : ranges[i].first;
-                // Neighbouring cells differ in few bits of the hash, all of them low ones or high ones.
-                return static_cast<std::uint16_t>((cell_hash(cell) * 0x9e3779b97f4a7c15u) >> 52 & (count - 1));
+                return static_cast<std::uint16_t>(mixed(cell_hash(cell)) >> 52 & (count - 1));
             };
             const std::uint16_t first = shard(0);
             for (std::size_t i = 0; i < n; ++i) {
