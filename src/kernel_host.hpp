@@ -31,5 +31,6 @@ static_assert(sizeof(RayTally) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
 static_assert(sizeof(BlockNode) == 8);
+static_assert(sizeof(PlaneValues) == sizeof(Pixel));
 
 }  // namespace csgrt::kernel

@@ -1,11 +1,12 @@
 #include <csgrt/renderer.hpp>
 
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <cstdio>
 #include <future>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "clock.hpp"
 #include "compile/compiled_scene.hpp"
@@ -101,6 +102,8 @@ struct Renderer::Impl {
     Statistics statistics;
     double build_ms = 0;  // of the device, without its kernels
     double built_before = 0;  // ms.build when the call began
+    const std::uint64_t number = next_number++;  // no two have the same
+    static inline std::atomic<std::uint64_t> next_number{1};
 
     void start_call(std::uint64_t rays, int width, int height) {
         Statistics fresh;
@@ -210,8 +213,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         names.emplace_back(source->name);
         background.push_back(source->value(background_pixel));
     }
-    bool is_new = false;
-    const auto fit = [&] { is_new = framebuffer.fit(view.width, view.height, std::move(names), std::move(background)); };
+    const auto fit = [&] { framebuffer.fit(view.width, view.height, std::move(names), std::move(background)); };
     if (impl.pipelines && framebuffer.drawn_.empty()) {
         std::future<void> fitting = std::async(fit);
         impl.pipelines->prepare(view.every_partition);  // the compiler leaves most processors idle
@@ -222,11 +224,11 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     Image& image = framebuffer.image_;
     std::vector<ChannelPlane> planes;
     for (std::size_t i = 0; i < wanted.size(); ++i)
-        planes.push_back({image.channels[i].data(), framebuffer.background_[i],
-                          is_new && std::bit_cast<std::uint32_t>(framebuffer.background_[i]) == 0});
+        planes.push_back({image.channels[i].data(), framebuffer.background_[i]});
     const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
     if (impl.reference) {
         std::fill(framebuffer.drawn_.begin(), framebuffer.drawn_.end(), std::uint8_t{1});
+        framebuffer.drawn_by_ = 0;
         ReferenceCounts counts;
         const std::vector<kernel::Pixel> seen = impl.reference->render(prepared, impl.settings.progress, counts);
         for_chunks(pixels, 16'384, impl.settings.threads, [&](std::size_t first, std::size_t last, std::size_t) {
@@ -236,7 +238,12 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         impl.take(counts);
     } else {
         PipelineCounts counts;
-        impl.pipelines->render(prepared, {planes, framebuffer.drawn_}, impl.settings.progress, counts);
+        if (std::exchange(framebuffer.drawn_by_, impl.number) != impl.number)
+            framebuffer.known_ = nullptr;
+        else if (!framebuffer.known_)
+            framebuffer.known_ = impl.pipelines->make_known(planes, pixels);
+        impl.pipelines->render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
+                               impl.settings.progress, counts);
         impl.take(counts);
     }
     image.attributes.clear();

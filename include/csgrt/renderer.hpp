@@ -117,10 +117,21 @@ struct Statistics {
     } ms;
 };
 
+class KnownPicture;
+
 /// A picture that is drawn again and again, as a viewer does. Of a frame like the last one (size, channels, background) only
-/// the blocks of pixels are written that show something, or did before: what no solid is near costs nothing.
+/// the blocks of pixels are written that show something, or did before: what no solid is near costs nothing. From the second
+/// such frame of one Renderer on its GPUs copy into the picture's memory: it is made known to their drivers, which takes a tenth
+/// of a second a gigabyte, and as much of each GPU's memory. A copy of a Framebuffer is not known to them.
 class CSGRT_API Framebuffer {
 public:
+    Framebuffer();
+    ~Framebuffer();
+    Framebuffer(Framebuffer&& other) noexcept;
+    Framebuffer& operator=(Framebuffer&& other) noexcept;
+    Framebuffer(const Framebuffer& other);
+    Framebuffer& operator=(const Framebuffer& other);
+
     /// What was drawn last; a call that threw may have left parts of two frames.
     const Image& image() const { return image_; }
     /// The same to keep; the next frame takes memory of its own.
@@ -128,11 +139,13 @@ public:
 
 private:
     friend class Renderer;
-    bool fit(int width, int height, std::vector<std::string> names, std::vector<float> background);
+    void fit(int width, int height, std::vector<std::string> names, std::vector<float> background);
 
     Image image_;
     std::vector<float> background_;    ///< a channel
     std::vector<std::uint8_t> drawn_;  ///< a block of pixels: 0 if it holds nothing but the background
+    std::uint64_t drawn_by_ = 0;       ///< Renderer of the last frame
+    std::shared_ptr<KnownPicture> known_;  ///< to its devices; must not outlast the image
 };
 
 /// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time.

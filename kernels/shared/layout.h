@@ -178,6 +178,12 @@ typedef struct {
     u32 channels;          // of the picture: CHANNEL_x bits
 } Frame;
 
+// A float for each plane of a picture.
+#define MOST_PLANES 13
+typedef struct {
+    float of[MOST_PLANES];
+} PlaneValues;
+
 // Rays are numbered in blocks of 8 x 8 pixels, so that the work-items of a group look at neighbours.
 #define BLOCK 8u
 

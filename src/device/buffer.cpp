@@ -103,6 +103,61 @@ Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes) {
     return Event(event);
 }
 
+CopyQueue::CopyQueue(const Device& device) {
+    cl_int code = CL_SUCCESS;
+    queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(clCreateCommandQueue(device.context(), device.id(), 0, &code));
+    check(code, "clCreateCommandQueue (copies)");
+}
+
+CopyQueue::~CopyQueue() {
+    if (queue_) clFinish(queue_.get());
+}
+
+Event CopyQueue::queue_read(const Buffer& buffer, void* target, std::size_t bytes, const Event& after) {
+    if (bytes > buffer.size()) throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
+    if (bytes == 0) return {};
+    const cl_event first = after.get();
+    cl_event event = nullptr;
+    check(clEnqueueReadBuffer(queue_.get(), buffer.get(), CL_FALSE, 0, bytes, target, first ? 1 : 0, first ? &first : nullptr,
+                              &event),
+          "clEnqueueReadBuffer (" + buffer.name() + ")");
+    return Event(event);
+}
+
+void CopyQueue::queue_read(const Buffer& buffer, std::size_t begin, float* target, std::size_t pitch, std::size_t columns,
+                           std::size_t lines, const Event& after) {
+    constexpr std::size_t size = sizeof(float);
+    if (columns == 0 || lines == 0) return;
+    if ((begin + columns * lines) * size > buffer.size())
+        throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
+    const std::size_t from[3] = {begin % columns * size, begin / columns, 0}, to[3] = {0, 0, 0}, region[3] = {columns * size, lines, 1};
+    const cl_event first = after.get();
+    check(clEnqueueReadBufferRect(queue_.get(), buffer.get(), CL_FALSE, from, to, region, columns * size, 0, pitch * size, 0, target,
+                                  first ? 1 : 0, first ? &first : nullptr, nullptr),
+          "clEnqueueReadBufferRect (" + buffer.name() + ")");
+}
+
+void CopyQueue::flush() const { check(clFlush(queue_.get()), "clFlush (copies)"); }
+void CopyQueue::finish() { check(clFinish(queue_.get()), "clFinish (copies)"); }
+
+KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {
+    cl_int code = CL_SUCCESS;
+    check(clRetainCommandQueue(device.queue()), "clRetainCommandQueue");
+    queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(device.queue());
+    memory_ = Handle<cl_mem, clReleaseMemObject>(
+        clCreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data, &code));
+    check(code, "clCreateBuffer (picture, " + std::to_string(bytes) + " bytes of the host's)");
+    data_ = clEnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr, nullptr,
+                               &code);
+    check(code, "clEnqueueMapBuffer (picture)");
+}
+
+KnownMemory::~KnownMemory() {
+    if (!memory_ || !data_) return;
+    clEnqueueUnmapMemObject(queue_.get(), memory_.get(), data_, 0, nullptr, nullptr);
+    clFinish(queue_.get());
+}
+
 PinnedMemory::PinnedMemory(const Device& device, std::string name, std::size_t bytes) : device_(&device), size_(bytes) {
     if (bytes == 0) return;
     cl_int code = CL_SUCCESS;

@@ -91,8 +91,48 @@ private:
     void* data_;
 };
 
+/// A second queue of a device, whose copies to the host go beside kernels.
+class CopyQueue {
+public:
+    explicit CopyQueue(const Device& device);
+    CopyQueue(const CopyQueue&) = delete;
+    CopyQueue& operator=(const CopyQueue&) = delete;
+    ~CopyQueue();
+
+    /// Copies the first `bytes` to the host once `after` is done, of a queue that was flushed. Does not wait: until the event,
+    /// which is without times, the buffer must stay as it is.
+    Event queue_read(const Buffer& buffer, void* target, std::size_t bytes, const Event& after);
+    /// Copies lines of `columns` floats each, which stand side by side in the buffer from float `begin` on, a multiple of
+    /// `columns`; at the target they begin `pitch` floats apart. Until finish() the buffer must stay as it is.
+    void queue_read(const Buffer& buffer, std::size_t begin, float* target, std::size_t pitch, std::size_t columns,
+                    std::size_t lines, const Event& after);
+    /// Hands what is queued to the device without waiting.
+    void flush() const;
+    /// Waits until all is copied. Throws Error (device_fault, out_of_memory) if something failed.
+    void finish();
+
+private:
+    Handle<cl_command_queue, clReleaseCommandQueue> queue_;
+};
+
+/// Memory of the host's own, made known to a GPU, which then copies to it at the full speed of its bus. Its driver holds as
+/// much on the device. What is there stays there. The memory must outlast this; the device need not.
+class KnownMemory {
+public:
+    /// Throws Error (out_of_memory, device_fault) if the driver does not take it.
+    KnownMemory(const Device& device, void* data, std::size_t bytes);
+    KnownMemory(KnownMemory&&) noexcept = default;
+    KnownMemory& operator=(KnownMemory&&) = delete;
+    ~KnownMemory();
+
+private:
+    Handle<cl_command_queue, clReleaseCommandQueue> queue_;
+    Handle<cl_mem, clReleaseMemObject> memory_;
+    void* data_ = nullptr;
+};
+
 /// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through a copy of the
-/// driver's, several times slower). On the host's side; it does not count against the device's budget.
+/// driver's, several times slower). It does not count against the device's budget, though NVIDIA's driver keeps as much on the device.
 class PinnedMemory {
 public:
     PinnedMemory(const Device& device, std::string name, std::size_t bytes);

@@ -73,10 +73,16 @@ void check(cl_int code, std::string_view call) {
                 std::string(call) + " failed: " + opencl_error_name(code) + " (" + std::to_string(code) + ")");
 }
 
-double milliseconds(const Event& event) {
-    if (!event) return 0;
+void wait_for(const Event& event) {
+    if (!event) return;
     const cl_event one = event.get();
     check(clWaitForEvents(1, &one), "clWaitForEvents");
+}
+
+double milliseconds(const Event& event) {
+    if (!event) return 0;
+    wait_for(event);
+    const cl_event one = event.get();
     cl_ulong start = 0, end = 0;
     check(clGetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr),
           "clGetEventProfilingInfo");

@@ -41,6 +41,9 @@ private:
 /// Something that the device was told to do. Empty: there was nothing to do.
 using Event = Handle<cl_event, clReleaseEvent>;
 
+/// Waits until it is done; an empty event is. Throws Error (device_fault, out_of_memory) if the command failed.
+void wait_for(const Event& event);
+
 /// How long the device itself took, in milliseconds, by its own clock; waits until it is done. 0 for an empty event.
 /// Throws Error (device_fault, out_of_memory) if the command failed.
 double milliseconds(const Event& event);

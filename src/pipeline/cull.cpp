@@ -1,9 +1,27 @@
 #include "pipeline/cull.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <numeric>
 
 namespace csgrt {
+namespace {
+
+/// Calls work(block, cost) for those that cost anything, eight that do not at once.
+template <class Work>
+void for_each_seen(const std::vector<unsigned char>& costs, const Work& work) {
+    for (std::size_t i = 0; i < costs.size(); i += 8) {
+        std::uint64_t eight = 0;
+        const std::size_t count = std::min<std::size_t>(8, costs.size() - i);
+        std::memcpy(&eight, costs.data() + i, count);
+        if (eight == 0) continue;
+        for (std::size_t k = 0; k < count; ++k)
+            if (costs[i + k] > 0) work(i + k, costs[i + k]);
+    }
+}
+
+}  // namespace
 
 Cull::Cull(Device& device, const Program& program)
     : device_(device),
@@ -16,8 +34,8 @@ bool Cull::is_listed(const kernel::Frame& frame) const {
     return !frame.every_partition || device_.info().type == "cpu";
 }
 
-SeenBlocks Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame,
-                     PipelineCounts& counts) {
+std::vector<std::uint32_t> Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame,
+                                     PipelineCounts& counts) {
     const std::uint32_t count = frame.ray_count / block_rays, first = frame.first_ray / block_rays;
     costs_.reserve(count);
     if (is_listed(frame))
@@ -29,16 +47,13 @@ SeenBlocks Cull::run(const SceneBuffers& scene, const TileBuffers& tile, const k
     counts.cull_blocks += milliseconds(cull);
 
     // A device that ends with the longest waits for it.
-    std::array<std::uint32_t, 256> begin{};  // how many blocks cost more
-    for (const unsigned char cost : costs)
-        if (cost > 0) ++begin[255 - cost];
+    std::array<std::uint32_t, 256> begin{};  // where those of a cost stand, by 255 - cost
+    for_each_seen(costs, [&](std::size_t, unsigned char cost) { ++begin[255 - cost]; });
     std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
-    SeenBlocks seen;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (costs[i] == 0) continue;
-        seen.numbers.push_back(first + i);
-        seen.places.push_back(begin[255 - costs[i]]++);
-    }
+    std::vector<std::uint32_t> seen(begin[255]);
+    for_each_seen(costs, [&](std::size_t i, unsigned char cost) {
+        seen[begin[255 - cost]++] = first + static_cast<std::uint32_t>(i);
+    });
     return seen;
 }
 

@@ -12,7 +12,8 @@
 namespace csgrt {
 namespace {
 
-constexpr std::size_t pixels_a_thread = 1 << 17;  // fewer are copied sooner than a thread starts
+// Fewer are copied sooner than a thread starts: pixels of blocks, and floats of long lines.
+constexpr std::size_t pixels_a_thread = 1 << 17, floats_a_thread = 1 << 20;
 
 /// How a part of a plane's line is written.
 struct Cached {
@@ -26,6 +27,7 @@ struct Cached {
             std::copy_n(values, count, to);
         }
     }
+    static void copy_line(float* to, std::size_t count, const float* values) { std::copy_n(values, count, to); }
     static void end() {}
 };
 
@@ -41,6 +43,7 @@ struct Streamed {
     static void copy(float* to, std::size_t count, const float* values) {
         for (std::size_t i = 0; i < count; i += lanes) _mm_stream_ps(to + i, _mm_loadu_ps(values + i));
     }
+    static void copy_line(float* to, std::size_t count, const float* values) { copy(to, count, values); }
     static void end() { _mm_sfence(); }
 
     static bool fits(const kernel::Frame& frame, std::span<const ChannelPlane> planes) {
@@ -54,19 +57,21 @@ struct Streamed {
 };
 #endif
 
+constexpr std::uint32_t none = UINT32_MAX;
+
 /// Blocks of a row that stand side by side and are background, or a single one that was drawn.
 struct Run {
     std::size_t begin, end;  ///< pixels of a line
-    std::size_t place;       ///< of the drawn one, else `none`
-    static constexpr std::size_t none = SIZE_MAX;
+    std::uint32_t place;     ///< of the drawn one, else `none`
 };
 
 class Blocks {
 public:
     Blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-           std::span<const std::uint32_t> places, const float* values, const RenderTarget& target)
-        : width_(frame.width), height_(frame.height), first_(first), end_(end), drawn_(drawn), places_(places), values_(values),
-          target_(target) {
+           const float* values, const RenderTarget& target)
+        : width_(frame.width), height_(frame.height), first_(first), end_(end), drawn_(drawn.size()),
+          values_(values), places_(end - first, none), target_(target) {
+        for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
         const auto held = target.drawn.subspan(first_, end_ - first_);
         const auto clear = static_cast<std::size_t>(std::count(held.begin(), held.end(), 0));
         pixels_ = (drawn.size() + held.size() - clear) * BLOCK * BLOCK;
@@ -92,17 +97,15 @@ private:
         runs.clear();
         const std::size_t start = row * across_;  // the number of the row's first block
         const std::size_t from = std::max(first_, start), to = std::min(end_, start + across_);
-        auto next = static_cast<std::size_t>(std::lower_bound(drawn_.begin(), drawn_.end(), from) - drawn_.begin());
         for (std::size_t block = from; block < to; ++block) {
-            const bool is_drawn = next < drawn_.size() && drawn_[next] == block;
+            const std::uint32_t place = places_[block - first_];
+            const bool is_drawn = place != none;
             if (is_drawn || target_.drawn[block]) {
                 const std::size_t begin = (block - start) * BLOCK, end = std::min<std::size_t>(begin + BLOCK, width_);
-                if (is_drawn)
-                    runs.push_back({begin, end, places_[next++]});
-                else if (!runs.empty() && runs.back().place == Run::none && runs.back().end == begin)
+                if (!is_drawn && !runs.empty() && runs.back().place == none && runs.back().end == begin)
                     runs.back().end = end;
                 else
-                    runs.push_back({begin, end, Run::none});
+                    runs.push_back({begin, end, place});
             }
             target_.drawn[block] = is_drawn;
         }
@@ -110,15 +113,16 @@ private:
 
     template <class Line>
     void put_row(std::size_t row, std::span<const Run> runs) const {
-        const std::size_t lines = std::min<std::size_t>(BLOCK, height_ - row * BLOCK), size = drawn_.size() * BLOCK * BLOCK;
+        const std::size_t lines = std::min<std::size_t>(BLOCK, height_ - row * BLOCK);
         for (std::size_t p = 0; p < target_.planes.size(); ++p) {
             const ChannelPlane& plane = target_.planes[p];
             for (std::size_t y = 0; y < lines; ++y) {
                 float* line = plane.pixels + (row * BLOCK + y) * width_;
                 for (const Run& run : runs) {
-                    if (run.place != Run::none)
-                        Line::copy(line + run.begin, run.end - run.begin, values_ + p * size + (run.place * BLOCK + y) * BLOCK);
-                    else if (!plane.is_background)
+                    if (run.place != none)
+                        Line::copy(line + run.begin, run.end - run.begin,
+                                   values_ + ((p * drawn_ + run.place) * BLOCK + y) * BLOCK);
+                    else
                         Line::fill(line + run.begin, run.end - run.begin, plane.background);
                 }
             }
@@ -127,8 +131,9 @@ private:
 
     std::size_t width_, height_, first_, end_;
     std::size_t across_ = (width_ + BLOCK - 1) / BLOCK;  ///< blocks
-    std::span<const std::uint32_t> drawn_, places_;
+    std::size_t drawn_;  ///< how many
     const float* values_;
+    std::vector<std::uint32_t> places_;  ///< of the blocks from first_ to end_ among the drawn ones
     const RenderTarget& target_;
     std::size_t pixels_;  ///< that are written, at most
 };
@@ -136,12 +141,44 @@ private:
 }  // namespace
 
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                std::span<const std::uint32_t> places, const float* values, const RenderTarget& target) {
-    const Blocks blocks(frame, first, end, drawn, places, values, target);
+                const float* values, const RenderTarget& target) {
+    const Blocks blocks(frame, first, end, drawn, values, target);
 #ifdef __SSE2__
     if (Streamed::fits(frame, target.planes)) return blocks.put<Streamed>();
 #endif
     blocks.put<Cached>();
+}
+
+void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
+                    const RenderTarget& target) {
+    struct PlaneLines {
+        const Rectangle* rectangle;
+        const float* values;
+        float* pixels;
+    };
+    std::vector<PlaneLines> parts;
+    std::size_t floats = 0;
+    for (const Rectangle& r : rectangles)
+        for (std::size_t p = 0; p < target.planes.size(); ++p) {
+            parts.push_back({&r, values + r.begin + p * r.size(), target.planes[p].pixels + r.top * frame.width + r.left});
+            floats += r.size();
+        }
+    const auto put = [&]<class Line>(Line) {
+        const std::size_t threads = 1 + floats / floats_a_thread;
+        const unsigned most = thread_count(target.threads);
+        for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)),
+                   [&](std::size_t i, std::size_t, std::size_t) {
+                       const PlaneLines& part = parts[i];
+                       const std::size_t columns = part.rectangle->columns();
+                       for (std::size_t line = 0; line < part.rectangle->lines(); ++line)
+                           Line::copy_line(part.pixels + line * frame.width, columns, part.values + line * columns);
+                       Line::end();
+                   });
+    };
+#ifdef __SSE2__
+    if (Streamed::fits(frame, target.planes)) return put(Streamed{});
+#endif
+    put(Cached{});
 }
 
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,

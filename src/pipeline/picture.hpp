@@ -8,11 +8,12 @@
 
 namespace csgrt {
 
+class KnownPicture;
+
 /// One channel of an image: width x height floats, by row from the top left, and its value where nothing is seen.
 struct ChannelPlane {
     float* pixels = nullptr;
     float background = 0;
-    bool is_background = false;  ///< all of it, before the frame
 };
 
 /// What a frame is drawn into.
@@ -20,15 +21,29 @@ struct RenderTarget {
     std::span<const ChannelPlane> planes;
     std::span<std::uint8_t> drawn;  ///< a block of the picture: 0 if it holds nothing but the background
     unsigned threads = 0;           ///< that put pixels into it; 0: all
+    const KnownPicture* known = nullptr;  ///< the planes' memory, as devices know it
 };
 
-/// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, ascending; `places`: where
-/// each stands in `values`, for each plane the floats of their rays, block by block. The others get the background, where
-/// the target does not hold it.
+/// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for
+/// each plane the floats of their rays, block by block. The others get the background, where the target does not hold it.
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                std::span<const std::uint32_t> places, const float* values, const RenderTarget& target);
+                const float* values, const RenderTarget& target);
 
-/// The same for single rays.
+/// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.
+struct Rectangle {
+    std::size_t left = 0, right = 0, top = 0, bottom = 0;
+    std::size_t begin = 0;  ///< among floats of rectangles: of each plane its lines
+
+    std::size_t columns() const { return right - left; }
+    std::size_t lines() const { return bottom - top; }
+    std::size_t size() const { return columns() * lines(); }
+};
+
+/// Fills rectangles' pixels.
+void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
+                    const RenderTarget& target);
+
+/// The same for single rays: `values` has for each plane a float a ray.
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
               const RenderTarget& target);
 

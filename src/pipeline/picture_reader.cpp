@@ -1,51 +1,25 @@
 #include "pipeline/picture_reader.hpp"
 
-#include <algorithm>
-#include <system_error>
-#include <utility>
-
 namespace csgrt {
 
 // The host's own processors need no copy, and have no time beside the kernels.
-bool PictureReader::in_place() const { return device_.info().type == "cpu"; }
+PictureReader::PictureReader(Device& device, Readback readback)
+    : by_lines_(readback == Readback::lines || device.info().type != "cpu"), lines_(device) {}
 
-/// To the next slot's memory. Memory that a GPU copies to at full speed takes half a millisecond a megabyte to get.
-void PictureReader::copy(const Buffer& picture, std::size_t bytes, std::size_t most, Put put) {
-    Slot& slot = slots_[next_];
-    if (slot.ended.valid()) slot.ended.get();
-    if (!slot.memory || slot.memory->size() < bytes) {
-        slot.memory.reset();
-        slot.memory.emplace(device_, "picture", std::max(bytes, most));
-    }
-    picture.read(slot.memory->data(), bytes);
-    slot.put = std::move(put);
+void PictureReader::put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
+                               const std::vector<std::uint32_t>& drawn, const TileBuffers& tile, bool is_last,
+                               const RenderTarget& target) {
+    const auto count = static_cast<std::uint32_t>(drawn.size());
+    if (by_lines_ && lines_.put_blocks(frame, first, end, count, tile, is_last, target)) return;
+    const Buffer::Mapping picture = tile.picture.map(drawn.size() * block_rays * target.planes.size() * sizeof(float));
+    csgrt::put_blocks(frame, first, end, drawn, static_cast<const float*>(picture.data()), target);
 }
 
-void PictureReader::read(const Buffer& picture, std::size_t bytes, Put put) {
-    if (in_place()) return put(static_cast<const float*>(picture.map(bytes).data()));
-    copy(picture, bytes, bytes, std::move(put));
-    slots_[next_].put(slots_[next_].values());
-}
-
-void PictureReader::read_beside(const Buffer& picture, std::size_t bytes, std::size_t most, Put put) {
-    if (in_place()) return read(picture, bytes, std::move(put));
-    copy(picture, bytes, most, std::move(put));
-    Slot& slot = slots_[next_];
-    try {
-        slot.ended = std::async(std::launch::async, [&slot] { slot.put(slot.values()); });
-        next_ = (next_ + 1) % slots_.size();
-    } catch (const std::system_error&) {  // no more threads
-        slot.put(slot.values());
-    }
-}
-
-void PictureReader::finish() {
-    for (Slot& slot : slots_)
-        if (slot.ended.valid()) slot.ended.get();
-}
-
-void PictureReader::abandon() {
-    for (Slot& slot : slots_) slot.ended = {};
+void PictureReader::put_rays(const kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, const TileBuffers& tile,
+                             const RenderTarget& target) {
+    finish();
+    const Buffer::Mapping picture = tile.picture.map(numbers.size() * target.planes.size() * sizeof(float));
+    csgrt::put_rays(frame, numbers, static_cast<const float*>(picture.data()), target);
 }
 
 }  // namespace csgrt

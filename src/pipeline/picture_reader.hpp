@@ -1,45 +1,39 @@
-// Pixels from the device's memory to the host: those of a tile are put into the image while a GPU is at the next tile.
+// Pixels of a tile from the device's memory into the picture: a processor's in place, a GPU's while it is at the next tile.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <functional>
-#include <future>
-#include <optional>
+#include <vector>
 
-#include "device/buffer.hpp"
+#include "pipeline/picture_lines.hpp"
 
 namespace csgrt {
 
+/// How they come: by lines, as from a GPU, also from another device?
+enum class Readback { by_device, lines };
+
 class PictureReader {
 public:
-    explicit PictureReader(Device& device) : device_(device) {}
+    explicit PictureReader(Device& device, Readback readback);
 
-    using Put = std::function<void(const float*)>;
-    /// Calls put() with the first `bytes` of a tile's picture.
-    void read(const Buffer& picture, std::size_t bytes, Put put);
-    /// The same; on a GPU it returns before put() has ended. `most`: bytes that another tile's may have.
-    void read_beside(const Buffer& picture, std::size_t bytes, std::size_t most, Put put);
-    /// Returns when all have. Throws what one of them threw.
-    void finish();
-    /// The same, but what they threw is not told.
-    void abandon();
+    /// Puts the blocks from number `first` to `end` into the target. `drawn`: the numbers of those that were drawn, which
+    /// tile.rays has, too; tile.picture: their pixels, as put_blocks() of picture.hpp has them. Unless this is the last of a
+    /// frame's it may return before it is done: until then the target must last, the tile need not.
+    void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
+                    const std::vector<std::uint32_t>& drawn, const TileBuffers& tile, bool is_last, const RenderTarget& target);
+    /// The same for single rays. It is done when this returns, as is all that came before.
+    void put_rays(const kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, const TileBuffers& tile,
+                  const RenderTarget& target);
+    /// Returns when all is done. Throws what kept it from being done.
+    void finish() { lines_.finish(); }
+    /// The same, but what was thrown is not told.
+    void abandon() noexcept { lines_.abandon(); }
+
+    bool in_place() const { return !by_lines_; }
+    std::uint64_t held() const { return lines_.held(); }  ///< bytes on the device
+    void release() { lines_.release(); }                  ///< gives them back
 
 private:
-    /// Memory that the device copies to at full speed, and who reads it.
-    struct Slot {
-        std::optional<PinnedMemory> memory;  ///< as large as any picture yet
-        Put put;
-        const float* values() const { return static_cast<const float*>(memory->data()); }
-        std::future<void> ended;  ///< when it is destroyed, put() has ended
-    };
-
-    bool in_place() const;
-    void copy(const Buffer& picture, std::size_t bytes, std::size_t most, Put put);
-
-    Device& device_;
-    std::array<Slot, 2> slots_;
-    std::size_t next_ = 0;  ///< the slot that has waited longest
+    bool by_lines_;
+    PictureLines lines_;
 };
 
 }  // namespace csgrt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "clock.hpp"
 #include "kernel_geometry.hpp"
@@ -22,14 +23,15 @@ std::uint64_t most_rays_woven(const Device& device, std::uint64_t rays) {
 
 }  // namespace
 
-Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
+Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+                   Readback readback)
     : device_(device),
       scene_(scene),
       kernels_(kernels),
       settings_(settings),
       buffers_(device, scene, kernels.tables()),
       tile_(device),
-      reader_(device) {}
+      reader_(device, readback) {}
 
 Exact& Pipeline::exact() {
     if (!exact_) {
@@ -51,7 +53,7 @@ FirstHits& Pipeline::first_hits() {
 
 // Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
 std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
-    const std::uint64_t held = tile_.picture.size() + tile_.rays.size() + (exact_ ? exact_->held() : 0) +
+    const std::uint64_t held = tile_.picture.size() + tile_.rays.size() + reader_.held() + (exact_ ? exact_->held() : 0) +
                                (first_hits_ ? first_hits_->held() : 0);
     const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
     return std::clamp<std::uint64_t>(most, 1, most_rays);
@@ -62,6 +64,7 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
 void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= device_.available() + reused) return;
     tile_.rays = Buffer(device_, tile_.rays.name());
+    reader_.release();
     if (exact_) exact_->release();
     if (first_hits_) first_hits_->release();
 }
@@ -103,12 +106,24 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
 }
 
 // The numbers of the tile's blocks that may see anything.
-SeenBlocks Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
+std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
+    if (const std::optional<Ahead> ahead = std::exchange(ahead_, {}); ahead && ahead->tile == tile) return ahead->seen;
+    frame.first_ray = tile.first;
     frame.ray_count = tile.rays;
     Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
-    make_room(tile.rays * (Cull::list_bytes + 1), cull.held());
+    make_room(cull_bytes(tile), cull.held());
     upload(frame);
     return cull.run(buffers_, tile_, frame, counts);
+}
+
+// Even a few bytes wait on their way to the host until a tile's pixels, should they come from the device, have all come; what
+// the next tile sees has to be known before its kernels can run beside that.
+void Pipeline::look_ahead(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
+    if (tile.rays == 0 || tile.rays % block_rays != 0 || reader_.in_place()) return;
+    const Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
+    if (cull_bytes(tile) > device_.available() + cull.held()) return;  // this tile's memory is still wanted
+    Ahead ahead{tile, seen_blocks(frame, tile, counts)};
+    ahead_ = std::move(ahead);
 }
 
 // Makes the frame's tile one of these rays, or blocks of them.
@@ -136,63 +151,72 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
         if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
-        reader_.read(tile_.picture, frame.ray_count * pixel_bytes,
-                     [&](const float* values) { put_rays(frame, picked, values, target); });
+        reader_.put_rays(frame, picked, tile_, target);
         if (frame.every_partition) exact().add_tallies(tile.rays, counts);
         return true;
     });
 }
 
 // false: the tile does not fit the memory.
-bool Pipeline::draw(kernel::Frame frame, const Tile& tile, bool is_last, const RenderTarget& target, PipelineCounts& counts) {
+bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const Tile& next, bool is_last, const RenderTarget& target,
+                    PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
+    const std::vector<std::uint32_t> seen = seen_blocks(frame, tile, counts);
     frame.first_ray = tile.first;
-    const std::uint64_t pixel_bytes = target.planes.size() * sizeof(float);
-    SeenBlocks seen = seen_blocks(frame, tile, counts);
-    std::vector<std::uint32_t> drawn(seen.numbers.size());
-    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[seen.places[i]] = seen.numbers[i];
-    if (!list_rays(frame, drawn, block_rays, pixel_bytes,
-                   frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
-        put_blocks(frame, first, end, {}, {}, nullptr, target);
-        return true;
-    }
     std::vector<std::uint32_t> overflown;
-    if (frame.every_partition) {
-        if (!exact().run(buffers_, tile_, frame.ray_count, Rays::blocks, counts)) return false;
-        exact().add_tallies(frame.ray_count, counts);
-    } else {
-        overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
+    if (list_rays(frame, seen, block_rays, target.planes.size() * sizeof(float),
+                  frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
+        if (frame.every_partition) {
+            if (!exact().run(buffers_, tile_, frame.ray_count, Rays::blocks, counts)) return false;
+            exact().add_tallies(frame.ray_count, counts);
+        } else {
+            overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
+        }
     }
-    auto put = [=, &target, seen = std::move(seen)](const float* values) {
-        put_blocks(frame, first, end, seen.numbers, seen.places, values, target);
-    };
-    const std::uint64_t bytes = frame.ray_count * pixel_bytes;
-    const bool are_many = std::uint64_t{frame.width} * frame.height > 2 * std::uint64_t{tile.rays};  // tiles: others may need more
-    if (is_last || !overflown.empty())
-        reader_.read(tile_.picture, bytes, std::move(put));
-    else
-        reader_.read_beside(tile_.picture, bytes, are_many ? tile.rays * pixel_bytes : bytes, std::move(put));
+    look_ahead(frame, next, counts);
+    reader_.put_blocks(frame, first, end, seen, tile_, is_last, target);
     draw_exactly(frame, overflown, target, counts);
     return true;
 }
 
-void Pipeline::render(const PreparedFrame& prepared, RayRange range, const RenderTarget& target,
-                      const Progress& progress, PipelineCounts& counts) {
+void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::function<RayRange()>& next,
+                      const RenderTarget& target, const Progress& progress, PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
-    upload_lights(prepared);
+    if (!ahead_) upload_lights(prepared);  // else the frame's are there
     prepare(every);
     const std::uint64_t bytes = target.planes.size() * sizeof(float) + sizeof(std::uint32_t) + Cull::list_bytes +
                                 (every ? Exact::ray_bytes : FirstHits::ray_bytes);
-    const std::uint64_t most = every ? most_rays_woven(device_, range.end - range.first) : most_drawn;
+    const std::uint64_t most = every ? most_rays_woven(device_, prepared.rays) : most_drawn;
+    const auto begin_of = [](RayRange r, std::uint64_t size) {
+        return Tile{static_cast<std::uint32_t>(r.first),
+                    static_cast<std::uint32_t>(std::min(size / block_rays * block_rays, r.end - r.first))};
+    };
     for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
-        const bool is_last = std::uint64_t{tile.first} + tile.rays == prepared.rays;  // nothing follows that its pixels could wait beside
-        if (tile.rays % block_rays == 0) return draw(prepared.frame, tile, is_last, target, counts);
-        std::vector<std::uint32_t> numbers(tile.rays);
-        std::iota(numbers.begin(), numbers.end(), tile.first);
-        draw_exactly(prepared.frame, numbers, target, counts);
-        return true;
+        const std::uint64_t end = std::uint64_t{tile.first} + tile.rays;
+        const bool is_last = end == prepared.rays;  // nothing follows that its pixels could wait beside
+        if (tile.rays % block_rays != 0) {
+            std::vector<std::uint32_t> numbers(tile.rays);
+            std::iota(numbers.begin(), numbers.end(), tile.first);
+            draw_exactly(prepared.frame, numbers, target, counts);
+            return true;
+        }
+        Tile following = begin_of({end, range.end}, tile.rays);
+        if (end == range.end) {
+            following = begin_of(next(), std::min(fitting(bytes), most));
+        }
+        return draw(prepared.frame, tile, following, is_last, target, counts);
     });
+}
+
+void Pipeline::finish() {
+    ahead_.reset();
+    reader_.finish();
+}
+
+void Pipeline::abandon() noexcept {
+    ahead_.reset();
+    reader_.abandon();
 }
 
 void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers,

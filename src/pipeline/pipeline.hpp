@@ -26,18 +26,20 @@ class Pipeline {
 public:
     /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same precision.
     /// All three must outlive the pipeline.
-    Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+    Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+             Readback readback = Readback::by_device);
 
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition) { every_partition ? static_cast<void>(exact()) : static_cast<void>(first_hits()); }
     /// Draws the frame, so far as the range goes; it begins with a block. Some of it may come into the target until finish().
+    /// `next`: the range of the frame that the next call will have, empty if there is none.
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
-    void render(const PreparedFrame& prepared, RayRange range, const RenderTarget& target, const Progress& progress,
-                PipelineCounts& counts);
+    void render(const PreparedFrame& prepared, RayRange range, const std::function<RayRange()>& next,
+                const RenderTarget& target, const Progress& progress, PipelineCounts& counts);
     /// Returns when the target holds all that was drawn. Throws what kept it from doing so.
-    void finish() { reader_.finish(); }
+    void finish();
     /// Returns when nothing more comes into the target.
-    void abandon() { reader_.abandon(); }
+    void abandon() noexcept;
     /// An answer for each ray.
     void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
                PipelineCounts& counts);
@@ -48,6 +50,12 @@ private:
     /// Rays [first, first + rays) of a picture, of a list or of those picked.
     struct Tile {
         std::uint32_t first = 0, rays = 0;
+        bool operator==(const Tile&) const = default;
+    };
+    /// What the next tile sees.
+    struct Ahead {
+        Tile tile;
+        std::vector<std::uint32_t> seen;
     };
     Exact& exact();
     FirstHits& first_hits();
@@ -57,10 +65,13 @@ private:
                        const std::function<bool(const Tile&)>& work);
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
-    SeenBlocks seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
+    std::vector<std::uint32_t> seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
+    static std::uint64_t cull_bytes(const Tile& tile) { return tile.rays * (Cull::list_bytes + 1); }
+    void look_ahead(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
-    bool draw(kernel::Frame frame, const Tile& tile, bool is_last, const RenderTarget& target, PipelineCounts& counts);
+    bool draw(kernel::Frame frame, const Tile& tile, const Tile& next, bool is_last, const RenderTarget& target,
+              PipelineCounts& counts);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
 
@@ -73,6 +84,7 @@ private:
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
     PictureReader reader_;
+    std::optional<Ahead> ahead_;
     double build_ms_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 
 #include "device/choice.hpp"
 #include "parallel.hpp"
@@ -11,15 +12,34 @@
 namespace csgrt {
 namespace {
 
-// Parts a device, so that one that is slower, or has more to see, keeps the others waiting little.
-constexpr std::uint64_t parts_each = 8;
+// Parts of a device's share of the rays, near the end more, so that one that is slower, or has more to see, keeps the others
+// waiting little. Of first hits, launches soon cost as much as rays (bench/NOTES.md).
+constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 12;
 
-std::uint64_t part_size(std::uint64_t rays, std::size_t devices) {
-    if (devices == 1) return rays;
-    const std::uint64_t parts = parts_each * devices;
-    const std::uint64_t size = (rays + parts - 1) / parts;
-    return (size + block_rays - 1) / block_rays * block_rays;
-}
+// Each device takes one after another.
+class Parts {
+public:
+    Parts(std::uint64_t rays, std::size_t devices, std::uint64_t parts) : rays_(rays), devices_(devices), parts_(parts) {}
+
+    /// The next one; empty if there is none.
+    RayRange take() {
+        constexpr std::uint64_t least = 1 << 16;  // rays that are worth launches of their own
+        const std::uint64_t share = rays_ / devices_, most = share / parts_;
+        const std::uint64_t size = std::clamp((rays_ - next_) / devices_ / 2, std::max(most / 4, std::min(most, least)), most);
+        const std::uint64_t blocks = std::max<std::uint64_t>(1, (size + block_rays - 1) / block_rays);
+        const RayRange part{next_, std::min(rays_, next_ + blocks * block_rays)};
+        next_ = part.end;
+        return part;
+    }
+    void stop() { next_ = rays_; }
+
+private:
+    std::uint64_t rays_, devices_, parts_, next_ = 0;
+};
+
+constexpr const char* known_name = "picture of the host's";
+// Of device memory, the scene's and all else: a small picture is soon enough put by the host.
+constexpr std::uint64_t most_bytes_a_pixel = 64;
 
 }  // namespace
 
@@ -32,32 +52,45 @@ Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, con
 }
 
 // A thread for each device. What the foremost part threw is thrown, once all threads have stopped.
-void Pipelines::share(std::uint64_t rays, const Progress& progress, PipelineCounts& counts, const Work& work) {
-    const std::uint64_t size = part_size(rays, pipelines_.size());
-    if (pipelines_.size() == 1 || size >= rays) {
-        work(*pipelines_.front(), {0, rays}, progress, counts);
+void Pipelines::share(std::uint64_t rays, std::uint64_t parts_each, const Progress& progress, PipelineCounts& counts,
+                      const Work& work) {
+    Parts parts(rays, pipelines_.size(), parts_each);
+    if (pipelines_.size() == 1 || rays <= block_rays) {
+        work(*pipelines_.front(), {0, rays}, [] { return RayRange{}; }, progress, counts);
         return;
     }
-    std::atomic<std::uint64_t> next{0};
     std::atomic<std::size_t> joined{0};
     std::mutex mutex;
     std::uint64_t done = 0, thrown_by = rays;
     std::exception_ptr thrown;
+    const auto next = [&] {
+        const std::lock_guard lock(mutex);
+        return parts.take();
+    };
     on_threads(static_cast<unsigned>(pipelines_.size()), [&] {
         Pipeline& pipeline = *pipelines_[joined++];
         PipelineCounts own;
-        for (std::uint64_t first; (first = next.fetch_add(size)) < rays;) {
-            const RayRange part{first, std::min(rays, first + size)};
+        std::optional<RayRange> ahead;
+        const auto peek = [&] {
+            if (!ahead) ahead = next();
+            return *ahead;
+        };
+        const auto take = [&] {
+            const RayRange part = peek();
+            ahead.reset();
+            return part;
+        };
+        for (RayRange part = take(); part.first < part.end; part = take()) {
             const Progress told = [&](double fraction) {
                 const std::lock_guard lock(mutex);
                 const double here = fraction * static_cast<double>(part.end - part.first);
                 return !progress || progress((static_cast<double>(done) + here) / static_cast<double>(rays));
             };
             try {
-                work(pipeline, part, told, own);
+                work(pipeline, part, peek, told, own);
             } catch (...) {
                 const std::lock_guard lock(mutex);
-                next = rays;
+                parts.stop();
                 if (part.first < thrown_by) {
                     thrown_by = part.first;
                     thrown = std::current_exception();
@@ -78,8 +111,34 @@ void Pipelines::prepare(bool every_partition) {
                [&](std::size_t i, std::size_t, std::size_t) { pipelines_[i]->prepare(every_partition); });
 }
 
+void Pipelines::forget() {
+    std::erase_if(claims_, [](const Claim& claim) {
+        if (!claim.picture.expired()) return false;
+        claim.device->release(known_name, claim.bytes);
+        return true;
+    });
+}
+
+std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane> planes, std::size_t pixels) {
+    forget();
+    const auto known = std::make_shared<KnownPicture>(devices_.size());
+    const std::uint64_t bytes = planes.size() * pixels * sizeof(float);
+    std::vector<Device*> takers;
+    for (const auto& device : devices_) {
+        const std::uint64_t most = std::min(device->available() / 2, device->max_buffer());
+        if (device->info().type == "cpu" || bytes > most || device->allocated() + bytes > most_bytes_a_pixel * pixels) continue;
+        device->claim(known_name, bytes);
+        claims_.push_back({known, device.get(), bytes});
+        takers.push_back(device.get());
+    }
+    for_chunks(takers.size(), 1, static_cast<unsigned>(takers.size()),
+               [&](std::size_t i, std::size_t, std::size_t) { known->add(i, *takers[i], planes, pixels); });
+    return known;
+}
+
 void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                        PipelineCounts& counts) {
+    forget();
     RenderTarget shared = target;  // until nothing more comes into it
     shared.threads = std::max(1u, thread_count(0) / static_cast<unsigned>(pipelines_.size()));
     struct Abandon {
@@ -88,18 +147,21 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(prepared.rays, progress, counts, [&](Pipeline& pipeline, RayRange part, const Progress& told, PipelineCounts& own) {
-        pipeline.render(prepared, part, shared, told, own);
-    });
+    share(prepared.rays, prepared.frame.every_partition ? parts_of_partitions : parts_of_first_hits, progress, counts,
+          [&](Pipeline& pipeline, RayRange part, const Next& next, const Progress& told, PipelineCounts& own) {
+              pipeline.render(prepared, part, next, shared, told, own);
+          });
     for (const auto& pipeline : pipelines_) pipeline->finish();
 }
 
 std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
                                             const Progress& progress, PipelineCounts& counts) {
     std::vector<RayPartitions> answers(rays.size());
-    share(rays.size(), progress, counts, [&](Pipeline& pipeline, RayRange part, const Progress& told, PipelineCounts& own) {
-        pipeline.shoot(prepared, std::span(rays).subspan(part.first, part.end - part.first), answers.data() + part.first, told, own);
-    });
+    share(rays.size(), parts_of_partitions, progress, counts,
+          [&](Pipeline& pipeline, RayRange part, const Next&, const Progress& told, PipelineCounts& own) {
+              pipeline.shoot(prepared, std::span(rays).subspan(part.first, part.end - part.first), answers.data() + part.first, told,
+                             own);
+          });
     return answers;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/known_picture.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace csgrt {
@@ -17,6 +18,9 @@ public:
     Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     void prepare(bool every_partition);
+    /// Makes the memory of a picture that will be drawn into again known to the GPUs that have room: `pixels` floats of each
+    /// plane. It must outlast what is returned, which this need not.
+    std::shared_ptr<KnownPicture> make_known(std::span<const ChannelPlane> planes, std::size_t pixels);
     /// As Pipeline's. Progress is told by one thread at a time.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
@@ -28,9 +32,19 @@ public:
     double build_ms() const;              ///< of the device that took longest to compile its kernels
 
 private:
-    using Work = std::function<void(Pipeline&, RayRange, const Progress&, PipelineCounts&)>;
-    void share(std::uint64_t rays, const Progress& progress, PipelineCounts& counts, const Work& work);
+    using Next = std::function<RayRange()>;
+    using Work = std::function<void(Pipeline&, RayRange, const Next&, const Progress&, PipelineCounts&)>;
+    void share(std::uint64_t rays, std::uint64_t parts_each, const Progress& progress, PipelineCounts& counts, const Work& work);
 
+    void forget();
+
+    /// What the drivers hold of a picture's, which counts as the devices' memory as long as there is the picture.
+    struct Claim {
+        std::weak_ptr<const KnownPicture> picture;
+        Device* device;
+        std::uint64_t bytes;
+    };
+    std::vector<Claim> claims_;
     std::vector<std::unique_ptr<Device>> devices_;
     std::vector<std::unique_ptr<Pipeline>> pipelines_;
 };
