@@ -236,6 +236,36 @@ TEST_CASE("pinned memory is memory that transfers reach", "[device]") {
     CHECK(PinnedMemory(device, "none", 0).data() == nullptr);
 }
 
+TEST_CASE("memory made known to a device keeps what it holds, takes copies by lines, and may outlast the device", "[device]") {
+    std::vector<float> host(100 * 40, 7);
+    auto device = std::make_unique<Device>();
+    std::optional<KnownMemory> known(std::in_place, *device, host.data(), host.size() * sizeof(float));
+    CHECK(host == std::vector<float>(100 * 40, 7));
+    std::vector<float> values(30 * 10 + 30 * 20);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
+    {
+        const Buffer buffer(*device, "lines", values);
+        CopyQueue copies(*device);
+        copies.queue_read(buffer, 30 * 10, host.data() + 5 * 100 + 11, 100, 30, 20, Event());
+        copies.queue_read(buffer, 0, host.data(), 100, 0, 20, Event());  // nothing
+        copies.finish();
+        CHECK_THROWS_AS(copies.queue_read(buffer, 30 * 11, host.data(), 100, 30, 20, Event()), std::logic_error);
+        std::vector<float> whole(values.size());
+        wait_for(copies.queue_read(buffer, whole.data(), whole.size() * sizeof(float), Event()));
+        CHECK(whole == values);
+        CHECK_THROWS_AS(copies.queue_read(buffer, whole.data(), values.size() * sizeof(float) + 4, Event()), std::logic_error);
+    }
+    std::vector<float> expected(host.size(), 7);
+    for (std::size_t y = 0; y < 20; ++y)
+        for (std::size_t x = 0; x < 30; ++x) expected[(5 + y) * 100 + 11 + x] = static_cast<float>(300 + y * 30 + x);
+    CHECK(host == expected);
+    std::optional<KnownMemory> moved(std::move(*known));
+    known.reset();
+    device.reset();
+    moved.reset();
+    CHECK(host == expected);
+}
+
 TEST_CASE("a home that cannot be written gives a temporary cache and no crash", "[.no_home]") {
     Device device;
     const char* folder = std::getenv("POCL_CACHE_DIR");

@@ -1,0 +1,125 @@
+// What a GPU's tile brings of a picture: all that must be there, nothing of another tile's, in few copies.
+#include "pipeline/rectangles.hpp"
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+struct Picture {
+    Picture(std::uint32_t width, std::uint32_t height) : across((width + BLOCK - 1) / BLOCK), down((height + BLOCK - 1) / BLOCK) {
+        frame.width = width;
+        frame.height = height;
+        pixels.resize(std::size_t{width} * height + 16);
+        drawn.assign(std::size_t{across} * down, 0);
+        auto* const begin = pixels.data();
+        // As large memory begins: 16 bytes into a line of the cache.
+        const std::size_t to_line = (64 - reinterpret_cast<std::uintptr_t>(begin) % 64) / sizeof(float) % 16;
+        plane.pixels = begin + (to_line + 4) % 16;
+    }
+    RenderTarget target() { return {.planes = {&plane, 1}, .drawn = drawn}; }
+
+    std::uint32_t across, down;
+    kernel::Frame frame{};
+    std::vector<float> pixels;
+    std::vector<std::uint8_t> drawn;
+    ChannelPlane plane;
+};
+
+/// What find_shown says if these blocks of the tile's show something.
+std::vector<std::uint32_t> extents_of(const Picture& picture, std::uint32_t first, std::uint32_t end,
+                                      const std::vector<std::uint8_t>& shown) {
+    std::vector<std::uint32_t> extents(2 * rows_of(picture.frame, first, end), 0);
+    for (std::uint32_t block = first; block < end; ++block) {
+        if (!shown[block]) continue;
+        const std::uint32_t row = block / picture.across - first / picture.across, column = block % picture.across;
+        extents[2 * row] = std::max(extents[2 * row], column + 1);
+        extents[2 * row + 1] = std::max(extents[2 * row + 1], picture.across - column);
+    }
+    return extents;
+}
+
+/// How often each pixel is in one of them.
+std::vector<int> covered_by(const Picture& picture, const std::vector<Rectangle>& rectangles) {
+    std::vector<int> times(std::size_t{picture.frame.width} * picture.frame.height, 0);
+    for (const Rectangle& r : rectangles) {
+        REQUIRE(r.right <= picture.frame.width);
+        REQUIRE(r.bottom <= picture.frame.height);
+        REQUIRE(r.size() > 0);
+        for (std::size_t y = r.top; y < r.bottom; ++y)
+            for (std::size_t x = r.left; x < r.right; ++x) ++times[y * picture.frame.width + x];
+    }
+    return times;
+}
+
+}  // namespace
+
+TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no other tile's") {
+    std::mt19937 random(5);
+    const auto below = [&](std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); };
+    for (int round = 0; round < 300; ++round) {
+        const std::uint32_t width = 1 + below(400), height = 1 + below(300);
+        Picture picture(width, height);
+        const std::uint32_t blocks = picture.across * picture.down;
+        const std::uint32_t first = below(blocks), end = first + 1 + below(blocks - first);
+        INFO("round " << round << ": " << picture.frame.width << " x " << picture.frame.height << ", blocks " << first << " to " << end);
+        std::vector<std::uint8_t> shown(blocks);
+        const std::uint32_t one_of = 1 + below(40);
+        for (std::uint32_t i = 0; i < blocks; ++i) {
+            shown[i] = below(one_of) == 0;
+            picture.drawn[i] = below(one_of) == 0;
+        }
+        const std::vector<std::uint8_t> before = picture.drawn;
+        const auto extents = extents_of(picture, first, end, shown);
+        const auto times = covered_by(picture, find_rectangles(picture.frame, first, end, extents, picture.target()));
+        mark_shown(picture.frame, first, end, extents, picture.target());
+        bool all = true, once = true, own = true, told = true;
+        for (std::uint32_t y = 0; y < picture.frame.height; ++y)
+            for (std::uint32_t x = 0; x < picture.frame.width; ++x) {
+                const std::uint32_t block = y / BLOCK * picture.across + x / BLOCK;
+                const int covered = times[std::size_t{y} * picture.frame.width + x];
+                const bool is_own = block >= first && block < end;
+                all &= !is_own || !(shown[block] || before[block]) || covered > 0;
+                once &= covered <= 1;
+                own &= is_own || covered == 0;
+                told &= is_own ? picture.drawn[block] || !shown[block] : picture.drawn[block] == before[block];
+                told &= !is_own || covered > 0 || !picture.drawn[block];
+            }
+        CHECK(all);
+        CHECK(once);
+        CHECK(own);
+        CHECK(told);
+    }
+}
+
+TEST_CASE("rectangles join where that spares copies, and begin with lines of the cache") {
+    Picture picture(4096, 4096);
+    const std::uint32_t blocks = picture.across * picture.down;
+    std::vector<std::uint8_t> shown(blocks, 0);
+    const auto found = [&] {
+        return find_rectangles(picture.frame, 0, blocks, extents_of(picture, 0, blocks, shown), picture.target());
+    };
+    CHECK(found().empty());
+    for (std::uint32_t row = 100; row < 110; ++row)  // a slanted bar
+        for (std::uint32_t column = row; column < row + 20; ++column) shown[row * picture.across + column] = 1;
+    const auto bar = found();
+    REQUIRE(bar.size() == 1);
+    CHECK(bar[0].top == 100 * BLOCK);
+    CHECK(bar[0].bottom == 110 * BLOCK);
+    CHECK(bar[0].left <= 100 * BLOCK);
+    CHECK(bar[0].left > 100 * BLOCK - 16);
+    CHECK(bar[0].right >= 129 * BLOCK);
+    CHECK(bar[0].right < 129 * BLOCK + 16);
+    CHECK(reinterpret_cast<std::uintptr_t>(picture.plane.pixels + bar[0].left) % 64 == 0);
+    CHECK(reinterpret_cast<std::uintptr_t>(picture.plane.pixels + bar[0].right) % 64 == 0);
+    for (std::uint32_t column = 0; column < 512; ++column) shown[400 * picture.across + column] = 1;  // far below, all of a row
+    const auto both = found();
+    REQUIRE(both.size() == 2);
+    CHECK(both[1].columns() == 4096);
+    CHECK(both[1].lines() == BLOCK);
+}
