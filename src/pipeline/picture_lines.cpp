@@ -13,7 +13,6 @@ PictureLines::PictureLines(Device& device)
     : device_(device), places_(device, "places of blocks"), extents_(device, "extents of rows"), lines_(device, "lines") {}
 
 void PictureLines::build() {
-    if (program_) return;
     program_.emplace(device_, assemble_program({"picture_lines.cl"}));
     find_shown_.emplace(program_->kernel("find_shown"));
     put_lines_.emplace(program_->kernel("put_lines"));
@@ -26,7 +25,6 @@ bool PictureLines::has_room(const Buffer& buffer, std::uint64_t bytes) const {
 
 bool PictureLines::put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
                               const TileBuffers& tile, bool is_last, const RenderTarget& target) {
-    build();
     std::vector<std::uint32_t> extents(2 * rows_of(frame, first, end), 0);
     const std::size_t extents_bytes = extents.size() * sizeof(cl_uint), places_bytes = (end - first) * sizeof(cl_uint);
     if (!has_room(places_, places_bytes)) return false;

@@ -17,8 +17,12 @@ class PictureLines {
 public:
     explicit PictureLines(Device& device);
 
-    /// Puts the blocks from number `first` to `end` into the target. `drawn` of them were drawn: tile.rays has their numbers,
-    /// tile.picture their pixels, as put_blocks() has them. Unless this is the last of a frame's it may return before it is
+    /// Compiles its kernels.
+    void build();
+    bool is_built() const { return copies_.has_value(); }
+
+    /// Puts the blocks from number `first` to `end` into the target, once it is built. `drawn` of them were drawn: tile.rays has
+    /// their numbers, tile.picture their pixels, as put_blocks() has them. Unless this is the last of a frame's it may return before it is
     /// done: until then the target must last, the tile need not. False: there is no room on the device, nothing was done.
     bool put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
                     const TileBuffers& tile, bool is_last, const RenderTarget& target);
@@ -36,7 +40,6 @@ private:
         std::optional<PinnedMemory> memory;
         std::future<void> done;  ///< when it is destroyed, nothing works on the memory
     };
-    void build();
     bool has_room(const Buffer& buffer, std::uint64_t bytes) const;
     Slot& free_slot(std::size_t bytes, std::size_t most);
     void copy_into(const kernel::Frame& frame, const std::vector<Rectangle>& rectangles, const RenderTarget& target,

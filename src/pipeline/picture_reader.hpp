@@ -14,6 +14,10 @@ class PictureReader {
 public:
     explicit PictureReader(Device& device, Readback readback);
 
+    /// Compiles the kernels that it needs.
+    void prepare() { lines_.build(); }
+    bool is_prepared() const { return in_place() || lines_.is_built(); }
+
     /// Puts the blocks from number `first` to `end` into the target. `drawn`: the numbers of those that were drawn, which
     /// tile.rays has, too; tile.picture: their pixels, as put_blocks() of picture.hpp has them. Unless this is the last of a
     /// frame's it may return before it is done: until then the target must last, the tile need not.

@@ -51,6 +51,14 @@ FirstHits& Pipeline::first_hits() {
     return *first_hits_;
 }
 
+void Pipeline::prepare(bool every_partition) {
+    every_partition ? static_cast<void>(exact()) : static_cast<void>(first_hits());
+    if (reader_.is_prepared()) return;
+    const auto start = Clock::now();
+    reader_.prepare();
+    build_ms_ += milliseconds_since(start);
+}
+
 // Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
 std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     const std::uint64_t held = tile_.picture.size() + tile_.rays.size() + reader_.held() + (exact_ ? exact_->held() : 0) +

@@ -30,7 +30,7 @@ public:
              Readback readback = Readback::by_device);
 
     /// Compiles the kernels of such frames, if that was not done.
-    void prepare(bool every_partition) { every_partition ? static_cast<void>(exact()) : static_cast<void>(first_hits()); }
+    void prepare(bool every_partition);
     /// Draws the frame, so far as the range goes; it begins with a block. Some of it may come into the target until finish().
     /// `next`: the range of the frame that the next call will have, empty if there is none.
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
