@@ -242,8 +242,13 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
             framebuffer.known_ = nullptr;
         else if (!framebuffer.known_)
             framebuffer.known_ = impl.pipelines->make_known(planes, pixels);
-        impl.pipelines->render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
-                               impl.settings.progress, counts);
+        try {
+            impl.pipelines->render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
+                                   impl.settings.progress, counts);
+        } catch (...) {  // pixels may be missing that were said to be there
+            std::fill(framebuffer.drawn_.begin(), framebuffer.drawn_.end(), std::uint8_t{1});
+            throw;
+        }
         impl.take(counts);
     }
     image.attributes.clear();

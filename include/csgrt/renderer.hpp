@@ -121,8 +121,9 @@ class KnownPicture;
 
 /// A picture that is drawn again and again, as a viewer does. Of a frame like the last one (size, channels, background) only
 /// the blocks of pixels are written that show something, or did before: what no solid is near costs nothing. From the second
-/// such frame of one Renderer on its GPUs copy into the picture's memory: it is made known to their drivers, which takes a tenth
-/// of a second a gigabyte, and as much of each GPU's memory. A copy of a Framebuffer is not known to them.
+/// such frame of one Renderer on its GPUs copy into the picture's memory, if each has room for as much of its own and then
+/// holds no more than 64 bytes a pixel: it is made known to their drivers, which takes a tenth of a second a gigabyte. A copy of
+/// a Framebuffer is not known to them.
 class CSGRT_API Framebuffer {
 public:
     Framebuffer();

@@ -132,13 +132,18 @@ void CopyQueue::queue_read(const Buffer& buffer, std::size_t begin, float* targe
         throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
     const std::size_t from[3] = {begin % columns * size, begin / columns, 0}, to[3] = {0, 0, 0}, region[3] = {columns * size, lines, 1};
     const cl_event first = after.get();
+    cl_event event = nullptr;
     check(clEnqueueReadBufferRect(queue_.get(), buffer.get(), CL_FALSE, from, to, region, columns * size, 0, pitch * size, 0, target,
-                                  first ? 1 : 0, first ? &first : nullptr, nullptr),
+                                  first ? 1 : 0, first ? &first : nullptr, &event),
           "clEnqueueReadBufferRect (" + buffer.name() + ")");
+    last_ = Event(event);
 }
 
 void CopyQueue::flush() const { check(clFlush(queue_.get()), "clFlush (copies)"); }
-void CopyQueue::finish() { check(clFinish(queue_.get()), "clFinish (copies)"); }
+void CopyQueue::finish() {
+    check(clFinish(queue_.get()), "clFinish (copies)");
+    wait_for(std::exchange(last_, Event()));
+}
 
 KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {
     cl_int code = CL_SUCCESS;

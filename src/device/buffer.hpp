@@ -113,6 +113,7 @@ public:
 
 private:
     Handle<cl_command_queue, clReleaseCommandQueue> queue_;
+    Event last_;  ///< of copies by lines; a queue's end does not tell how they ended
 };
 
 /// Memory of the host's own, made known to a GPU, which then copies to it at the full speed of its bus. Its driver holds as

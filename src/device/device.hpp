@@ -1,4 +1,4 @@
-// One OpenCL device in use: its context, its one in-order queue, and the count of its memory.
+// One OpenCL device in use: its context, its in-order queue of kernels, and the count of its memory.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace csgrt {
 struct FoundDevice;
 
 /// A context and a profiling queue on one device. Buffers, programs and kernels refer to it and must not outlive it.
-/// Commands run in the order in which they are queued; several may be queued before one wait.
+/// Commands run in the order in which they are queued, but those of a CopyQueue; several may be queued before one wait.
 class Device {
 public:
     /// Picks by `choice`: "" (a GPU if there is one, else the first), "cpu", "gpu", "accelerator", a number as in
@@ -41,7 +41,7 @@ public:
     /// mind: they are asked each time a Device is made.
     std::uint64_t budget() const noexcept { return budget_; }
     std::uint64_t max_buffer() const noexcept { return max_buffer_; }
-    std::uint64_t allocated() const noexcept { return allocated_; }  ///< bytes now in buffers
+    std::uint64_t allocated() const noexcept { return allocated_; }  ///< bytes now claimed: in buffers, or held by the driver
     std::uint64_t available() const noexcept { return budget_ - allocated_; }
     /// Bytes now in buffers, by the buffers' names.
     const std::map<std::string, std::uint64_t>& allocations() const noexcept { return allocations_; }

@@ -4,14 +4,15 @@
 
 namespace csgrt {
 
-void KnownPicture::add(std::size_t entry, const Device& device, std::span<const ChannelPlane> planes, std::size_t pixels) {
+bool KnownPicture::add(const Device& device, std::span<const ChannelPlane> planes, std::size_t pixels) {
     std::vector<KnownMemory> known;
     try {
         for (const ChannelPlane& plane : planes) known.emplace_back(device, plane.pixels, pixels * sizeof(float));
     } catch (const Error&) {
-        return;  // it comes by another way
+        return false;
     }
-    entries_[entry] = {device.context(), std::move(known)};
+    entries_.push_back({device.context(), std::move(known)});
+    return true;
 }
 
 bool KnownPicture::is_known_to(const Device& device) const {

@@ -43,7 +43,7 @@ struct Rectangle {
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
                     const RenderTarget& target);
 
-/// The same for single rays: `values` has for each plane a float a ray.
+/// Fills the pixels of single rays: `values` has for each plane a float a ray.
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
               const RenderTarget& target);
 

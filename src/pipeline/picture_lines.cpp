@@ -25,6 +25,7 @@ bool PictureLines::has_room(const Buffer& buffer, std::uint64_t bytes) const {
 
 bool PictureLines::put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
                               const TileBuffers& tile, bool is_last, const RenderTarget& target) {
+    if (target.planes.empty()) return true;
     std::vector<std::uint32_t> extents(2 * rows_of(frame, first, end), 0);
     const std::size_t extents_bytes = extents.size() * sizeof(cl_uint), places_bytes = (end - first) * sizeof(cl_uint);
     if (!has_room(places_, places_bytes)) return false;
@@ -100,7 +101,7 @@ void PictureLines::copy_by_host(const kernel::Frame& frame, std::vector<Rectangl
     // Of the copy's end the event tells that the queue gave, not the queue: by then it may be at the next tile's.
     auto copied = std::make_shared<const Event>(copies_->queue_read(lines_, values, bytes, after));
     copies_->flush();
-    const auto put = [=, &target, rectangles = std::move(rectangles)] {
+    const auto put = [=, rectangles = std::move(rectangles)] {
         wait_for(*copied);
         put_rectangles(frame, rectangles, values, target);
     };
@@ -123,7 +124,7 @@ void PictureLines::abandon() noexcept {
     for (Slot& slot : slots_) slot.done = {};
     try {
         if (copies_) copies_->finish();
-    } catch (const Error&) {  // nothing more comes
+    } catch (...) {  // nothing more comes
     }
 }
 

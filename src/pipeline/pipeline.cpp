@@ -115,7 +115,7 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
 
 // The numbers of the tile's blocks that may see anything.
 std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
-    if (const std::optional<Ahead> ahead = std::exchange(ahead_, {}); ahead && ahead->tile == tile) return ahead->seen;
+    if (std::optional<Ahead> ahead = std::exchange(ahead_, {}); ahead && ahead->tile == tile) return std::move(ahead->seen);
     frame.first_ray = tile.first;
     frame.ray_count = tile.rays;
     Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
@@ -149,6 +149,14 @@ bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>&
     return true;
 }
 
+// As Exact's, of a picture: what the last tile's pixels took comes before a smaller tile.
+bool Pipeline::run_exactly(std::uint32_t rays, Rays kind, PipelineCounts& counts) {
+    if (exact().run(buffers_, tile_, rays, kind, counts)) return true;
+    if (reader_.held() == 0) return false;
+    reader_.release();
+    return exact().run(buffers_, tile_, rays, kind, counts);
+}
+
 // Rays of a picture the exact way, one by one.
 void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers,
                             const RenderTarget& target, PipelineCounts& counts) {
@@ -158,7 +166,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         const auto begin = numbers.begin() + tile.first;
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
-        if (!exact().run(buffers_, tile_, frame.ray_count, Rays::picked, counts)) return false;
+        if (!run_exactly(frame.ray_count, Rays::picked, counts)) return false;
         reader_.put_rays(frame, picked, tile_, target);
         if (frame.every_partition) exact().add_tallies(tile.rays, counts);
         return true;
@@ -175,7 +183,7 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const Tile& next, boo
     if (list_rays(frame, seen, block_rays, target.planes.size() * sizeof(float),
                   frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
         if (frame.every_partition) {
-            if (!exact().run(buffers_, tile_, frame.ray_count, Rays::blocks, counts)) return false;
+            if (!run_exactly(frame.ray_count, Rays::blocks, counts)) return false;
             exact().add_tallies(frame.ray_count, counts);
         } else {
             overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);

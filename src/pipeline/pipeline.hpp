@@ -70,6 +70,7 @@ private:
     void look_ahead(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
+    bool run_exactly(std::uint32_t rays, Rays kind, PipelineCounts& counts);
     bool draw(kernel::Frame frame, const Tile& tile, const Tile& next, bool is_last, const RenderTarget& target,
               PipelineCounts& counts);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,

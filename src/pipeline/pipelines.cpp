@@ -38,7 +38,7 @@ private:
 };
 
 constexpr const char* known_name = "picture of the host's";
-// Of device memory, the scene's and all else: a small picture is soon enough put by the host.
+// Of device memory, the scene's and all else but other pictures: a small one is soon enough put by the host.
 constexpr std::uint64_t most_bytes_a_pixel = 64;
 
 }  // namespace
@@ -121,18 +121,18 @@ void Pipelines::forget() {
 
 std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane> planes, std::size_t pixels) {
     forget();
-    const auto known = std::make_shared<KnownPicture>(devices_.size());
+    const auto known = std::make_shared<KnownPicture>();
     const std::uint64_t bytes = planes.size() * pixels * sizeof(float);
-    std::vector<Device*> takers;
-    for (const auto& device : devices_) {
+    for (const auto& device : devices_) {  // in turn: drivers may touch what they are told of
+        std::uint64_t others = 0;  // what is claimed for other pictures
+        for (const Claim& claim : claims_) others += claim.device == device.get() ? claim.bytes : 0;
         const std::uint64_t most = std::min(device->available() / 2, device->max_buffer());
-        if (device->info().type == "cpu" || bytes > most || device->allocated() + bytes > most_bytes_a_pixel * pixels) continue;
+        const bool is_small = device->allocated() - others + bytes <= most_bytes_a_pixel * pixels;
+        if (device->info().type == "cpu" || bytes == 0 || bytes > most || !is_small) continue;
+        if (!known->add(*device, planes, pixels)) continue;
         device->claim(known_name, bytes);
         claims_.push_back({known, device.get(), bytes});
-        takers.push_back(device.get());
     }
-    for_chunks(takers.size(), 1, static_cast<unsigned>(takers.size()),
-               [&](std::size_t i, std::size_t, std::size_t) { known->add(i, *takers[i], planes, pixels); });
     return known;
 }
 
@@ -156,6 +156,7 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
 
 std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
                                             const Progress& progress, PipelineCounts& counts) {
+    forget();
     std::vector<RayPartitions> answers(rays.size());
     share(rays.size(), parts_of_partitions, progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next&, const Progress& told, PipelineCounts& own) {

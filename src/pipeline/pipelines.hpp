@@ -28,7 +28,7 @@ public:
                                      PipelineCounts& counts);
 
     std::string name() const;             ///< "A", or "A + B"
-    std::uint64_t device_bytes() const;   ///< in buffers, of all devices
+    std::uint64_t device_bytes() const;   ///< in buffers and what drivers hold of known pictures, of all devices
     double build_ms() const;              ///< of the device that took longest to compile its kernels
 
 private:
