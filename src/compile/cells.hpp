@@ -13,11 +13,19 @@ namespace csgrt {
 struct CellRange {
     std::int64_t first, last;
 };
+/// The cell of a value, in units of cells; centres are at whole numbers.
+inline std::int64_t nearest_cell(double at) {
+    constexpr double most = 9e18;  // those beyond share a cell
+    return static_cast<std::int64_t>(std::clamp(at + std::copysign(0.5, at), -most, most));
+}
 /// The cells that value - tolerance to value + tolerance touches; centres are at multiples of `cell`.
 inline CellRange cells_of(double value, double tolerance, double cell) {
-    constexpr double most = 9e18;  // those beyond share a cell
-    return {std::llround(std::clamp((value - tolerance) / cell, -most, most)),
-            std::llround(std::clamp((value + tolerance) / cell, -most, most))};
+    const double at = value / cell;
+    if (std::fabs(at) < 0x1p30) {  // rounding moves it by less than 1e-6
+        const std::int64_t middle = nearest_cell(at);
+        if (std::fabs(at - static_cast<double>(middle)) + tolerance / cell < 0.5 - 1e-6) return {middle, middle};
+    }
+    return {nearest_cell((value - tolerance) / cell), nearest_cell((value + tolerance) / cell)};
 }
 
 template <class Cell = std::initializer_list<std::int64_t>>

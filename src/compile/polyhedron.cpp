@@ -171,12 +171,13 @@ ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, lon
         const Wide unit = glm::normalize(normal);
         result.planes.push_back(plane_of(on, unit));
 
+        std::array<long double, 8> above;
         for (std::size_t i = 0; i < 8; ++i) {
-            const long double above = glm::dot(unit, corners[i] - on);
-            if (above > above_flat) result.is_hull = false;
+            above[i] = glm::dot(unit, corners[i] - on);
+            if (above[i] > above_flat) result.is_hull = false;
         }
         for (const std::size_t i : face)
-            if (glm::dot(unit, corners[i] - on) < -above_flat) result.is_hull = false;
+            if (above[i] < -above_flat) result.is_hull = false;
     }
     if (result.planes.size() < 4) result.is_hull = false;
     return result;
