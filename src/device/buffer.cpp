@@ -56,11 +56,13 @@ Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t off
     return Event(event);
 }
 
-Event Buffer::transfer_out(void* target, std::size_t bytes, std::size_t offset, bool wait) const {
+Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait,
+                           const Event& after) const {
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    check(clEnqueueReadBuffer(device_->queue(), get(), wait, offset, bytes, target, 0, nullptr, &event),
+    const cl_event first = after.get();
+    check(clEnqueueReadBuffer(queue, get(), wait, offset, bytes, target, first ? 1 : 0, first ? &first : nullptr, &event),
           "clEnqueueReadBuffer (" + name_ + ")");
     return Event(event);
 }
@@ -70,7 +72,10 @@ void Buffer::upload(const void* source, std::size_t bytes, std::size_t offset) {
 }
 
 void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
-    transfer_out(target, bytes, offset, true);
+    // Long copies of another queue would all be made first.
+    const bool beside = device_->long_copies() > 0;
+    if (beside) device_->finish();
+    transfer_out(beside ? device_->copy_queue() : device_->queue(), target, bytes, offset, true);
 }
 
 Buffer::Mapping Buffer::map(std::size_t bytes) const {
@@ -91,7 +96,11 @@ Event Buffer::queue_upload(const void* source, std::size_t bytes, std::size_t of
 }
 
 Event Buffer::queue_read(void* target, std::size_t bytes, std::size_t offset) const {
-    return transfer_out(target, bytes, offset, false);
+    return transfer_out(device_->queue(), target, bytes, offset, false);
+}
+
+Event Buffer::copy_read(void* target, std::size_t bytes, std::size_t offset, const Event& after) const {
+    return transfer_out(device_->copy_queue(), target, bytes, offset, false, after);
 }
 
 Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes) {
@@ -101,48 +110,6 @@ Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes) {
     check(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, 0, bytes, 0, nullptr, &event),
           "clEnqueueFillBuffer (" + name_ + ")");
     return Event(event);
-}
-
-CopyQueue::CopyQueue(const Device& device) {
-    cl_int code = CL_SUCCESS;
-    queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(clCreateCommandQueue(device.context(), device.id(), 0, &code));
-    check(code, "clCreateCommandQueue (copies)");
-}
-
-CopyQueue::~CopyQueue() {
-    if (queue_) clFinish(queue_.get());
-}
-
-Event CopyQueue::queue_read(const Buffer& buffer, void* target, std::size_t bytes, const Event& after) {
-    if (bytes > buffer.size()) throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
-    if (bytes == 0) return {};
-    const cl_event first = after.get();
-    cl_event event = nullptr;
-    check(clEnqueueReadBuffer(queue_.get(), buffer.get(), CL_FALSE, 0, bytes, target, first ? 1 : 0, first ? &first : nullptr,
-                              &event),
-          "clEnqueueReadBuffer (" + buffer.name() + ")");
-    return Event(event);
-}
-
-void CopyQueue::queue_read(const Buffer& buffer, std::size_t begin, float* target, std::size_t pitch, std::size_t columns,
-                           std::size_t lines, const Event& after) {
-    constexpr std::size_t size = sizeof(float);
-    if (columns == 0 || lines == 0) return;
-    if ((begin + columns * lines) * size > buffer.size())
-        throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
-    const std::size_t from[3] = {begin % columns * size, begin / columns, 0}, to[3] = {0, 0, 0}, region[3] = {columns * size, lines, 1};
-    const cl_event first = after.get();
-    cl_event event = nullptr;
-    check(clEnqueueReadBufferRect(queue_.get(), buffer.get(), CL_FALSE, from, to, region, columns * size, 0, pitch * size, 0, target,
-                                  first ? 1 : 0, first ? &first : nullptr, &event),
-          "clEnqueueReadBufferRect (" + buffer.name() + ")");
-    last_ = Event(event);
-}
-
-void CopyQueue::flush() const { check(clFlush(queue_.get()), "clFlush (copies)"); }
-void CopyQueue::finish() {
-    check(clFinish(queue_.get()), "clFinish (copies)");
-    wait_for(std::exchange(last_, Event()));
 }
 
 KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {

@@ -62,12 +62,15 @@ public:
     /// The same without the wait: the host's memory must stay as it is until the event, or the queue, is done.
     Event queue_upload(const void* source, std::size_t bytes, std::size_t offset = 0);
     Event queue_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
+    /// By the device's copy queue, once `after`, of a queue that was flushed, is done: what else is queued is not waited for.
+    Event copy_read(void* target, std::size_t bytes, std::size_t offset = 0, const Event& after = {}) const;
     /// Fills the first `bytes` (a multiple of 4) with copies of `value`.
     Event queue_fill(std::uint32_t value, std::size_t bytes);
 
 private:
     Event transfer_in(const void* source, std::size_t bytes, std::size_t offset, bool wait);
-    Event transfer_out(void* target, std::size_t bytes, std::size_t offset, bool wait) const;
+    Event transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait,
+                       const Event& after = {}) const;
     void check_range(std::size_t bytes, std::size_t offset) const;
 
     Device* device_;
@@ -89,31 +92,6 @@ private:
     cl_command_queue queue_;
     cl_mem memory_;
     void* data_;
-};
-
-/// A second queue of a device, whose copies to the host go beside kernels.
-class CopyQueue {
-public:
-    explicit CopyQueue(const Device& device);
-    CopyQueue(const CopyQueue&) = delete;
-    CopyQueue& operator=(const CopyQueue&) = delete;
-    ~CopyQueue();
-
-    /// Copies the first `bytes` to the host once `after` is done, of a queue that was flushed. Does not wait: until the event,
-    /// which is without times, the buffer must stay as it is.
-    Event queue_read(const Buffer& buffer, void* target, std::size_t bytes, const Event& after);
-    /// Copies lines of `columns` floats each, which stand side by side in the buffer from float `begin` on, a multiple of
-    /// `columns`; at the target they begin `pitch` floats apart. Until finish() the buffer must stay as it is.
-    void queue_read(const Buffer& buffer, std::size_t begin, float* target, std::size_t pitch, std::size_t columns,
-                    std::size_t lines, const Event& after);
-    /// Hands what is queued to the device without waiting.
-    void flush() const;
-    /// Waits until all is copied. Throws Error (device_fault, out_of_memory) if something failed.
-    void finish();
-
-private:
-    Handle<cl_command_queue, clReleaseCommandQueue> queue_;
-    Event last_;  ///< of copies by lines; a queue's end does not tell how they ended
 };
 
 /// Memory of the host's own, made known to a GPU, which then copies to it at the full speed of its bus. Its driver holds as

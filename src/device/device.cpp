@@ -35,6 +35,8 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory) : info_(devi
     queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(
         clCreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
     check(code, "clCreateCommandQueue (" + info_.name + ")");
+    copy_queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(clCreateCommandQueue(context(), id_, 0, &code));
+    check(code, "clCreateCommandQueue (copies, " + info_.name + ")");
 
     cl_bool unified = CL_FALSE;
     check(clGetDeviceInfo(id_, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified, nullptr), "clGetDeviceInfo");

@@ -1,6 +1,7 @@
 // One OpenCL device in use: its context, its in-order queue of kernels, and the count of its memory.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -15,7 +16,7 @@ namespace csgrt {
 struct FoundDevice;
 
 /// A context and a profiling queue on one device. Buffers, programs and kernels refer to it and must not outlive it.
-/// Commands run in the order in which they are queued, but those of a CopyQueue; several may be queued before one wait.
+/// Commands run in the order in which they are queued, but those of the copy queue; several may be queued before one wait.
 class Device {
 public:
     /// Picks by `choice`: "" (a GPU if there is one, else the first), "cpu", "gpu", "accelerator", a number as in
@@ -31,6 +32,9 @@ public:
     cl_device_id id() const noexcept { return id_; }
     cl_context context() const noexcept { return context_.get(); }
     cl_command_queue queue() const noexcept { return queue_.get(); }
+    /// A second one, for what comes to the host beside kernels.
+    cl_command_queue copy_queue() const noexcept { return copy_queue_.get(); }
+    std::atomic<std::size_t>& long_copies() const noexcept { return long_copies_; }  ///< that the copy queue has, or will have
 
     /// Hands what is queued to the device without waiting.
     void flush() const;
@@ -54,7 +58,8 @@ private:
     DeviceInfo info_;
     cl_device_id id_ = nullptr;
     Handle<cl_context, clReleaseContext> context_;
-    Handle<cl_command_queue, clReleaseCommandQueue> queue_;
+    Handle<cl_command_queue, clReleaseCommandQueue> queue_, copy_queue_;
+    mutable std::atomic<std::size_t> long_copies_ = 0;
     std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
     std::map<std::string, std::uint64_t> allocations_;
 };

@@ -79,6 +79,12 @@ void wait_for(const Event& event) {
     check(clWaitForEvents(1, &one), "clWaitForEvents");
 }
 
+void wait_until_done(const Event& event) noexcept {
+    if (!event) return;
+    const cl_event one = event.get();
+    clWaitForEvents(1, &one);
+}
+
 double milliseconds(const Event& event) {
     if (!event) return 0;
     wait_for(event);

@@ -43,6 +43,8 @@ using Event = Handle<cl_event, clReleaseEvent>;
 
 /// Waits until it is done; an empty event is. Throws Error (device_fault, out_of_memory) if the command failed.
 void wait_for(const Event& event);
+/// The same, whether it failed or not: the memory that it needs may go.
+void wait_until_done(const Event& event) noexcept;
 
 /// How long the device itself took, in milliseconds, by its own clock; waits until it is done. 0 for an empty event.
 /// Throws Error (device_fault, out_of_memory) if the command failed.

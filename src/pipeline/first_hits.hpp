@@ -9,9 +9,12 @@ class FirstHits {
 public:
     FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the tile's rays, whose blocks were culled before; waits. Returns the numbers of those that hold more segments
-    /// at a time than the kernel does: their pixels are not drawn.
-    std::vector<std::uint32_t> run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, PipelineCounts& counts);
+    /// Draws the tile's rays, whose blocks were culled before. Does not wait.
+    void launch(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays);
+    /// Has what overflown() tells copied; see QueuedRead.
+    void fetch() { read_.fetch(); }
+    /// The numbers of those that hold more segments at a time than the kernel does: their pixels are not drawn. Waits.
+    std::vector<std::uint32_t> overflown(PipelineCounts& counts);
 
     Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes = 4;  ///< that it needs itself, at most
@@ -25,6 +28,8 @@ private:
     Cull cull_;
     Kernel first_hits_;
     Buffer overflows_, overflown_;
+    QueuedRead read_;  // overflows_
+    Event event_;
 };
 
 }  // namespace csgrt

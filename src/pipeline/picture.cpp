@@ -150,7 +150,7 @@ void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t e
 }
 
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
-                    const RenderTarget& target) {
+                    const RenderTarget& target, const std::function<void(std::size_t)>& arrived) {
     struct PlaneLines {
         const Rectangle* rectangle;
         const float* values;
@@ -168,6 +168,7 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
         const unsigned most = thread_count(target.threads);
         for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)),
                    [&](std::size_t i, std::size_t, std::size_t) {
+                       if (arrived) arrived(i);
                        const PlaneLines& part = parts[i];
                        const std::size_t columns = part.rectangle->columns();
                        for (std::size_t line = 0; line < part.rectangle->lines(); ++line)

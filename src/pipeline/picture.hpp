@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "kernel_host.hpp"
@@ -39,9 +40,10 @@ struct Rectangle {
     std::size_t size() const { return columns() * lines(); }
 };
 
-/// Fills rectangles' pixels.
+/// Fills rectangles' pixels. `arrived`, if there is one, is called with i before what the i-th plane of them all holds is read, by
+/// several threads.
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
-                    const RenderTarget& target);
+                    const RenderTarget& target, const std::function<void(std::size_t)>& arrived = nullptr);
 
 /// Fills the pixels of single rays: `values` has for each plane a float a ray.
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,

@@ -1,6 +1,7 @@
 #include "pipeline/picture_lines.hpp"
 
 #include <algorithm>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -9,8 +10,19 @@
 
 namespace csgrt {
 
+namespace {
+
+kernel::PlaneValues background_of(const RenderTarget& target) {
+    kernel::PlaneValues background{};
+    for (std::size_t p = 0; p < target.planes.size(); ++p) background.of[p] = target.planes[p].background;
+    return background;
+}
+
+}  // namespace
+
 PictureLines::PictureLines(Device& device)
-    : device_(device), places_(device, "places of blocks"), extents_(device, "extents of rows"), lines_(device, "lines") {}
+    : device_(device), places_(device, "places of blocks"), extents_(device, "extents of rows"), read_(device, "extents of rows"),
+      lines_{Lines{Buffer(device, "lines"), {}}, Lines{Buffer(device, "lines"), {}}} {}
 
 void PictureLines::build() {
     program_.emplace(device_, assemble_program({"picture_lines.cl"}));
@@ -23,26 +35,32 @@ bool PictureLines::has_room(const Buffer& buffer, std::uint64_t bytes) const {
     return bytes <= buffer.size() || bytes <= std::min(device_.available() + buffer.size(), device_.max_buffer());
 }
 
+void PictureLines::look(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
+                        const TileBuffers& tile, const RenderTarget& target) {
+    has_looked_ = false;
+    const std::size_t extents_bytes = 2 * rows_of(frame, first, end) * sizeof(cl_uint), places_bytes = (end - first) * sizeof(cl_uint);
+    if (target.planes.empty() || !has_room(places_, places_bytes)) return;
+    places_.reserve(places_bytes);
+    if (!has_room(extents_, extents_bytes)) return;
+    extents_.reserve(extents_bytes);
+    places_.queue_fill(NONE, places_bytes);
+    has_looked_ = true;
+    if (drawn == 0) return;
+    extents_.queue_fill(0, extents_bytes);
+    find_shown_->launch(std::size_t{drawn} * block_rays, block_rays, cl_uint{frame.width}, cl_uint{frame.height},
+                        static_cast<cl_uint>(target.planes.size()), background_of(target), cl_uint{first}, tile.rays,
+                        tile.picture, places_, extents_);
+    read_.start(extents_, extents_bytes);
+    device_.flush();
+}
+
 bool PictureLines::put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
                               const TileBuffers& tile, bool is_last, const RenderTarget& target) {
     if (target.planes.empty()) return true;
-    std::vector<std::uint32_t> extents(2 * rows_of(frame, first, end), 0);
-    const std::size_t extents_bytes = extents.size() * sizeof(cl_uint), places_bytes = (end - first) * sizeof(cl_uint);
-    if (!has_room(places_, places_bytes)) return false;
-    places_.reserve(places_bytes);
-    if (!has_room(extents_, extents_bytes)) return false;
-    extents_.reserve(extents_bytes);
-
+    if (!std::exchange(has_looked_, false)) return false;
     const auto planes = static_cast<cl_uint>(target.planes.size());
-    kernel::PlaneValues background{};
-    for (std::size_t p = 0; p < planes; ++p) background.of[p] = target.planes[p].background;
-    places_.queue_fill(NONE, places_bytes);
-    if (drawn > 0) {
-        extents_.queue_fill(0, extents_bytes);
-        find_shown_->launch(std::size_t{drawn} * block_rays, block_rays, cl_uint{frame.width}, cl_uint{frame.height}, planes,
-                            background, cl_uint{first}, tile.rays, tile.picture, places_, extents_);
-        extents = extents_.read<std::uint32_t>(extents.size());
-    }
+    std::vector<std::uint32_t> extents(2 * rows_of(frame, first, end), 0);
+    if (drawn > 0) std::ranges::copy(read_.wait<std::uint32_t>(extents.size()), extents.begin());
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, extents, target);
     std::size_t floats = 0;
     for (Rectangle& r : rectangles) {  // a copy by lines begins with one
@@ -50,37 +68,39 @@ bool PictureLines::put_blocks(const kernel::Frame& frame, std::uint32_t first, s
         floats = r.begin + r.size() * planes;
     }
     if (floats > 0) {
-        const std::size_t bytes = floats * sizeof(float);
-        copies_->finish();  // before lines_ changes
-        if (!has_room(lines_, bytes)) return false;
-        lines_.reserve(bytes);
+        const std::size_t bytes = floats * sizeof(float), rays = std::size_t{end - first} * block_rays;
+        const bool are_many = std::size_t{frame.width} * frame.height > 2 * rays;  // tiles: others may have more to copy
+        Lines& lines = lines_[are_many ? next_lines_++ % lines_.size() : 0];
+        if (lines.copied.valid()) std::exchange(lines.copied, {}).get();  // before they change
+        if (!has_room(lines.buffer, bytes)) return false;
+        lines.buffer.reserve(bytes);
+        const kernel::PlaneValues background = background_of(target);
         Event put;
         for (const Rectangle& r : rectangles)
             put = put_lines_->launch(r.size(), work_group, cl_uint{frame.width}, planes, background, cl_uint{first},
                                      static_cast<cl_uint>(end - first), static_cast<cl_uint>(drawn * block_rays),
                                      static_cast<cl_uint>(r.left), static_cast<cl_uint>(r.top),
                                      static_cast<cl_uint>(r.columns()), static_cast<cl_uint>(r.lines()),
-                                     static_cast<cl_uint>(r.begin), places_, tile.picture, lines_);
+                                     static_cast<cl_uint>(r.begin), places_, tile.picture, lines.buffer);
         device_.flush();  // another queue waits for it
-        const std::size_t rays = std::size_t{end - first} * block_rays;
-        const bool are_many = std::size_t{frame.width} * frame.height > 2 * rays;  // tiles: others may have more to copy
         const std::size_t most = are_many ? rays * planes * sizeof(float) : 0;
         if (target.known && target.known->is_known_to(device_))
-            copy_into(frame, rectangles, target, put);
+            copy_into(frame, rectangles, target, lines, std::move(put));
         else
-            copy_by_host(frame, std::move(rectangles), bytes, most, is_last, target, put);
+            copy_by_host(frame, std::move(rectangles), bytes, most, is_last, target, lines, std::move(put));
     }
     mark_shown(frame, first, end, extents, target);
     return true;
 }
 
 void PictureLines::copy_into(const kernel::Frame& frame, const std::vector<Rectangle>& rectangles, const RenderTarget& target,
-                             const Event& after) {
+                             Lines& lines, Event put) {
+    std::vector<CopyFeed::Copy> copies;
     for (const Rectangle& r : rectangles)
         for (std::size_t p = 0; p < target.planes.size(); ++p)
-            copies_->queue_read(lines_, r.begin + p * r.size(), target.planes[p].pixels + r.top * frame.width + r.left, frame.width,
-                                r.columns(), r.lines(), after);
-    copies_->flush();
+            copies.push_back({r.begin + p * r.size(), target.planes[p].pixels + r.top * frame.width + r.left, frame.width,
+                              r.columns(), r.lines()});
+    lines.copied = copies_->add(lines.buffer, std::move(copies), std::move(put));
 }
 
 /// Memory that a GPU copies to at full speed takes half a millisecond a megabyte to get.
@@ -95,42 +115,73 @@ PictureLines::Slot& PictureLines::free_slot(std::size_t bytes, std::size_t most)
 }
 
 void PictureLines::copy_by_host(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::size_t bytes,
-                                std::size_t most, bool is_last, const RenderTarget& target, const Event& after) {
+                                std::size_t most, bool is_last, const RenderTarget& target, Lines& lines, Event put) {
     Slot& slot = free_slot(bytes, most);
     auto* const values = static_cast<float*>(slot.memory->data());
-    // Of the copy's end the event tells that the queue gave, not the queue: by then it may be at the next tile's.
-    auto copied = std::make_shared<const Event>(copies_->queue_read(lines_, values, bytes, after));
-    copies_->flush();
-    const auto put = [=, rectangles = std::move(rectangles)] {
-        wait_for(*copied);
+    if (is_last) return copy_while_waiting(frame, rectangles, values, target, lines.buffer, put);
+    const std::size_t floats = bytes / sizeof(float);
+    const auto copied = lines.copied = copies_->add(lines.buffer, {{0, values, floats, floats, 1}}, std::move(put));
+    const auto put_all = [=, rectangles = std::move(rectangles)] {
+        copied.get();
         put_rectangles(frame, rectangles, values, target);
     };
-    if (is_last) return put();
     try {
-        slot.done = std::async(std::launch::async, put);
+        slot.done = std::async(std::launch::async, put_all);
         next_ = (next_ + 1) % slots_.size();
     } catch (const std::system_error&) {  // no more threads
-        put();
+        put_all();
     }
+}
+
+// Each plane is put as soon as it is there.
+void PictureLines::copy_while_waiting(const kernel::Frame& frame, std::span<const Rectangle> rectangles, float* values,
+                                      const RenderTarget& target, const Buffer& lines, const Event& put) {
+    constexpr std::size_t piece = std::size_t{1} << 18;  // floats that are worth a copy of their own
+    struct Pieces {
+        std::vector<Event> events;
+        std::vector<std::size_t> of;  ///< of each rectangle, of each plane
+        ~Pieces() {
+            for (const Event& event : events) wait_until_done(event);
+        }
+    } pieces;
+    std::size_t begin = rectangles.front().begin, end = begin;
+    const auto copy = [&] {
+        pieces.events.push_back(lines.copy_read(values + begin, (end - begin) * sizeof(float), begin * sizeof(float), put));
+        begin = end;
+        check(clFlush(device_.copy_queue()), "clFlush (copies)");
+    };
+    for (const Rectangle& r : rectangles)
+        for (std::size_t p = 0; p < target.planes.size(); ++p) {
+            pieces.of.push_back(pieces.events.size());
+            end = r.begin + (p + 1) * r.size();
+            if (end - begin >= piece) copy();
+        }
+    if (end > begin) copy();
+    put_rectangles(frame, rectangles, values, target, [&](std::size_t i) { wait_for(pieces.events[pieces.of[i]]); });
 }
 
 void PictureLines::finish() {
     for (Slot& slot : slots_)
         if (slot.done.valid()) slot.done.get();
-    if (copies_) copies_->finish();
+    for (Lines& lines : lines_)
+        if (lines.copied.valid()) std::exchange(lines.copied, {}).get();
 }
 
 void PictureLines::abandon() noexcept {
     for (Slot& slot : slots_) slot.done = {};
-    try {
-        if (copies_) copies_->finish();
-    } catch (...) {  // nothing more comes
+    for (Lines& lines : lines_) {
+        if (lines.copied.valid()) lines.copied.wait();
+        lines.copied = {};
     }
 }
 
+std::uint64_t PictureLines::held() const {
+    return places_.size() + extents_.size() + lines_[0].buffer.size() + lines_[1].buffer.size();
+}
+
 void PictureLines::release() {
-    if (copies_) copies_->finish();
-    for (Buffer* buffer : {&places_, &extents_, &lines_}) *buffer = Buffer(device_, buffer->name());
+    finish();
+    for (Buffer* buffer : {&places_, &extents_, &lines_[0].buffer, &lines_[1].buffer}) *buffer = Buffer(device_, buffer->name());
 }
 
 }  // namespace csgrt

@@ -18,9 +18,16 @@ public:
     void prepare() { lines_.build(); }
     bool is_prepared() const { return in_place() || lines_.is_built(); }
 
+    /// Asks which of a tile's blocks, put next, show something; does not wait. See put_blocks().
+    void look(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::size_t drawn, const TileBuffers& tile,
+              const RenderTarget& target) {
+        if (by_lines_) lines_.look(frame, first, end, static_cast<std::uint32_t>(drawn), tile, target);
+    }
+    /// Has the answer copied; see QueuedRead.
+    void fetch() { lines_.fetch(); }
     /// Puts the blocks from number `first` to `end` into the target. `drawn`: the numbers of those that were drawn, which
-    /// tile.rays has, too; tile.picture: their pixels, as put_blocks() of picture.hpp has them. Unless this is the last of a
-    /// frame's it may return before it is done: until then the target must last, the tile need not.
+    /// tile.rays has, too; tile.picture: their pixels, as put_blocks() of picture.hpp has them. Unless this is the last of the
+    /// device's in a frame it may return before it is done: until then the target must last, the tile need not.
     void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                     const std::vector<std::uint32_t>& drawn, const TileBuffers& tile, bool is_last, const RenderTarget& target);
     /// The same for single rays. It is done when this returns, as is all that came before.

@@ -102,9 +102,7 @@ void Pipeline::for_each_tile(RayRange range, std::uint64_t size, std::uint64_t u
 }
 
 void Pipeline::upload(const kernel::Frame& frame) {
-    const std::vector<std::byte> bytes = kernels_.frame(frame);
-    tile_.frame.reserve(bytes.size());
-    tile_.frame.upload(bytes);
+    frame_upload_.start<std::byte>(tile_.frame, kernels_.frame(frame));
 }
 
 void Pipeline::upload_lights(const PreparedFrame& prepared) {
@@ -113,25 +111,31 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
     if (!lights.empty()) tile_.lights.upload(lights);
 }
 
-// The numbers of the tile's blocks that may see anything.
-std::vector<std::uint32_t> Pipeline::seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
-    if (std::optional<Ahead> ahead = std::exchange(ahead_, {}); ahead && ahead->tile == tile) return std::move(ahead->seen);
+Cull& Pipeline::cull(const kernel::Frame& frame) { return frame.every_partition ? exact().cull() : first_hits().cull(); }
+
+void Pipeline::ask_for_seen(kernel::Frame frame, const Tile& tile) {
     frame.first_ray = tile.first;
     frame.ray_count = tile.rays;
-    Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
-    make_room(cull_bytes(tile), cull.held());
     upload(frame);
-    return cull.run(buffers_, tile_, frame, counts);
+    cull(frame).launch(buffers_, tile_, frame);
 }
 
-// Even a few bytes wait on their way to the host until a tile's pixels, should they come from the device, have all come; what
-// the next tile sees has to be known before its kernels can run beside that.
-void Pipeline::look_ahead(kernel::Frame frame, const Tile& tile, PipelineCounts& counts) {
+// The numbers of the tile's blocks that may see anything.
+std::vector<std::uint32_t> Pipeline::seen_blocks(const kernel::Frame& frame, const Tile& tile, PipelineCounts& counts) {
+    if (std::exchange(ahead_, {}) != tile) {
+        make_room(cull_bytes(tile), cull(frame).held());
+        ask_for_seen(frame, tile);
+    }
+    return cull(frame).seen(counts);
+}
+
+// What the next tile sees comes with what there is to know of this one: a device, and the bus, stand still whenever the host
+// waits for an answer before it says what comes next.
+void Pipeline::look_ahead(const kernel::Frame& frame, const Tile& tile) {
     if (tile.rays == 0 || tile.rays % block_rays != 0 || reader_.in_place()) return;
-    const Cull& cull = frame.every_partition ? exact().cull() : first_hits().cull();
-    if (cull_bytes(tile) > device_.available() + cull.held()) return;  // this tile's memory is still wanted
-    Ahead ahead{tile, seen_blocks(frame, tile, counts)};
-    ahead_ = std::move(ahead);
+    if (cull_bytes(tile) > device_.available() + cull(frame).held()) return;  // this tile's memory is still wanted
+    ask_for_seen(frame, tile);
+    ahead_ = tile;
 }
 
 // Makes the frame's tile one of these rays, or blocks of them.
@@ -143,8 +147,7 @@ bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>&
     const std::uint64_t picture = frame.ray_count * pixel_bytes, list = numbers.size() * sizeof(std::uint32_t);
     make_room(picture + list + frame.ray_count * ray_bytes, tile_.picture.size() + tile_.rays.size());
     tile_.picture.reserve(picture);
-    tile_.rays.reserve(list);
-    tile_.rays.upload(numbers);
+    list_upload_.start<std::uint32_t>(tile_.rays, numbers);
     upload(frame);
     return true;
 }
@@ -174,23 +177,28 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
 }
 
 // false: the tile does not fit the memory.
-bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const Tile& next, bool is_last, const RenderTarget& target,
+bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const Tile& next, const RenderTarget& target,
                     PipelineCounts& counts) {
     const std::uint32_t first = tile.first / block_rays, end = (tile.first + tile.rays) / block_rays;
     const std::vector<std::uint32_t> seen = seen_blocks(frame, tile, counts);
     frame.first_ray = tile.first;
-    std::vector<std::uint32_t> overflown;
-    if (list_rays(frame, seen, block_rays, target.planes.size() * sizeof(float),
-                  frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes)) {
-        if (frame.every_partition) {
-            if (!run_exactly(frame.ray_count, Rays::blocks, counts)) return false;
-            exact().add_tallies(frame.ray_count, counts);
-        } else {
-            overflown = first_hits().run(buffers_, tile_, frame.ray_count, counts);
-        }
+    const bool sees = list_rays(frame, seen, block_rays, target.planes.size() * sizeof(float),
+                                frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes);
+    if (sees && frame.every_partition) {
+        if (!run_exactly(frame.ray_count, Rays::blocks, counts)) return false;
+        exact().add_tallies(frame.ray_count, counts);
+    } else if (sees) {
+        first_hits().launch(buffers_, tile_, frame.ray_count);
     }
-    look_ahead(frame, next, counts);
-    reader_.put_blocks(frame, first, end, seen, tile_, is_last, target);
+    look_ahead(frame, next);
+    reader_.look(frame, first, end, seen.size(), tile_, target);
+    device_.finish();
+    if (sees && !frame.every_partition) first_hits().fetch();
+    reader_.fetch();
+    if (ahead_) cull(frame).fetch();
+    std::vector<std::uint32_t> overflown;
+    if (sees && !frame.every_partition) overflown = first_hits().overflown(counts);
+    reader_.put_blocks(frame, first, end, seen, tile_, next.rays == 0, target);
     draw_exactly(frame, overflown, target, counts);
     return true;
 }
@@ -210,7 +218,6 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
         ++counts.tiles;
         const std::uint64_t end = std::uint64_t{tile.first} + tile.rays;
-        const bool is_last = end == prepared.rays;  // nothing follows that its pixels could wait beside
         if (tile.rays % block_rays != 0) {
             std::vector<std::uint32_t> numbers(tile.rays);
             std::iota(numbers.begin(), numbers.end(), tile.first);
@@ -221,7 +228,7 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
         if (end == range.end) {
             following = begin_of(next(), std::min(fitting(bytes), most));
         }
-        return draw(prepared.frame, tile, following, is_last, target, counts);
+        return draw(prepared.frame, tile, following, target, counts);
     });
 }
 

@@ -32,7 +32,7 @@ public:
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition);
     /// Draws the frame, so far as the range goes; it begins with a block. Some of it may come into the target until finish().
-    /// `next`: the range of the frame that the next call will have, empty if there is none.
+    /// `next`: the range of the frame that the next call will have; empty: this is the frame's last.
     /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
     void render(const PreparedFrame& prepared, RayRange range, const std::function<RayRange()>& next,
                 const RenderTarget& target, const Progress& progress, PipelineCounts& counts);
@@ -52,11 +52,6 @@ private:
         std::uint32_t first = 0, rays = 0;
         bool operator==(const Tile&) const = default;
     };
-    /// What the next tile sees.
-    struct Ahead {
-        Tile tile;
-        std::vector<std::uint32_t> seen;
-    };
     Exact& exact();
     FirstHits& first_hits();
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
@@ -65,14 +60,15 @@ private:
                        const std::function<bool(const Tile&)>& work);
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
-    std::vector<std::uint32_t> seen_blocks(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
+    Cull& cull(const kernel::Frame& frame);
+    std::vector<std::uint32_t> seen_blocks(const kernel::Frame& frame, const Tile& tile, PipelineCounts& counts);
     static std::uint64_t cull_bytes(const Tile& tile) { return tile.rays * (Cull::list_bytes + 1); }
-    void look_ahead(kernel::Frame frame, const Tile& tile, PipelineCounts& counts);
+    void ask_for_seen(kernel::Frame frame, const Tile& tile);
+    void look_ahead(const kernel::Frame& frame, const Tile& tile);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
     bool run_exactly(std::uint32_t rays, Rays kind, PipelineCounts& counts);
-    bool draw(kernel::Frame frame, const Tile& tile, const Tile& next, bool is_last, const RenderTarget& target,
-              PipelineCounts& counts);
+    bool draw(kernel::Frame frame, const Tile& tile, const Tile& next, const RenderTarget& target, PipelineCounts& counts);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
 
@@ -85,7 +81,8 @@ private:
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
     PictureReader reader_;
-    std::optional<Ahead> ahead_;
+    std::optional<Tile> ahead_;  ///< the tile that was asked for what it sees
+    QueuedUpload frame_upload_, list_upload_;
     double build_ms_ = 0;
 };
 

@@ -1,0 +1,85 @@
+// Transfers that the host does not wait for: it queues more work first. The memory that they need stands here.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "device/buffer.hpp"
+
+namespace csgrt {
+
+/// Host -> device.
+class QueuedUpload {
+public:
+    QueuedUpload() = default;
+    QueuedUpload(const QueuedUpload&) = delete;
+    QueuedUpload& operator=(const QueuedUpload&) = delete;
+    ~QueuedUpload() { wait_until_done(event_); }
+
+    /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the upload before
+    /// this one only. Throws Error (device_fault, out_of_memory), also for that.
+    template <class T>
+    void start(Buffer& buffer, std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        wait_for(std::exchange(event_, Event()));
+        const std::span<const std::byte> bytes = std::as_bytes(values);
+        bytes_.assign(bytes.begin(), bytes.end());
+        buffer.reserve(bytes_.size());
+        event_ = buffer.queue_upload(bytes_.data(), bytes_.size());
+    }
+
+private:
+    std::vector<std::byte> bytes_;
+    Event event_;
+};
+
+/// Device -> host: few bytes, which need not wait for the copies that a CopyFeed has still to make.
+class QueuedRead {
+public:
+    QueuedRead(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
+    QueuedRead(const QueuedRead&) = delete;
+    QueuedRead& operator=(const QueuedRead&) = delete;
+    ~QueuedRead() { wait_until_done(event_); }
+
+    /// Asks for the first `bytes` of the buffer as they are when what is queued is done.
+    void start(const Buffer& buffer, std::size_t bytes) {
+        buffer_ = &buffer;
+        bytes_ = bytes;
+    }
+    /// Has them copied. Does not wait, but the device must have finished all that is queued; until wait() the buffer must stay as
+    /// it is. If this was asked of several before one waits, their bytes come together.
+    void fetch() {
+        if (buffer_ == nullptr) return;
+        if (!memory_ || memory_->size() < bytes_) {
+            memory_.reset();
+            memory_.emplace(*device_, name_, bytes_);
+        }
+        event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_);
+    }
+    /// The first `count` values of what start() has asked for, once they are there; they stay until the next fetch().
+    /// Throws Error (device_fault, out_of_memory) if it, or a command before it, failed.
+    template <class T>
+    std::span<const T> wait(std::size_t count) {
+        if (count * sizeof(T) > bytes_) throw std::logic_error(name_ + ": more than was asked for");
+        if (buffer_ != nullptr) device_->finish();
+        fetch();
+        wait_for(std::exchange(event_, Event()));
+        return {static_cast<const T*>(memory_->data()), count};
+    }
+
+private:
+    Device* device_;
+    std::string name_;
+    const Buffer* buffer_ = nullptr;  ///< to be read from
+    std::size_t bytes_ = 0;
+    std::optional<PinnedMemory> memory_;  ///< other memory a GPU's driver would copy to before the call returns
+    Event event_;
+};
+
+}  // namespace csgrt
