@@ -34,8 +34,6 @@ float above(double value) {
     return f >= value ? f : std::nextafter(f, largest);
 }
 
-/// A hierarchy over some of the boxes; `skip` counts from its first node.
-using Nodes = std::vector<kernel::BvhNode>;
 using BoxOf = std::function<Box(std::size_t)>;
 
 class Builder {
@@ -48,16 +46,19 @@ private:
     /// A range of many boxes, and what became of it.
     struct Task {
         Range range;
-        std::uint32_t left = none, right = none;  ///< tasks; none: `nodes` holds it all
-        Nodes nodes;
+        std::uint32_t place;                      ///< of its first node: as many before it as there can be
+        std::uint32_t left = none, right = none;  ///< tasks; none: it was done in one piece
+        std::uint32_t nodes = 0;                  ///< of one piece; their `skip` counts from the first
     };
 
     kernel::BvhNode node(const Range& range) const;
-    Nodes in_one_piece(const Range& whole);
+    void in_one_piece(Task& task, std::vector<std::uint32_t>& right);
     void work();
-    void join(std::uint32_t task, Nodes& nodes);
+    void join();
 
     std::vector<FloatBox> boxes_;
+    Range all_{};
+    std::vector<kernel::BvhNode> nodes_;
     std::uint32_t first_solid_;
     unsigned threads_;
     std::deque<Task> tasks_;
@@ -70,9 +71,12 @@ private:
 
 Builder::Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,
                  unsigned threads)
-    : boxes_(count), first_solid_(first_solid), threads_(thread_count(threads)) {
+    : first_solid_(first_solid), threads_(thread_count(threads)) {
+    reserve_cleared(boxes_, count);
+    boxes_.resize(count);
     const double pad = bvh_padding * radius;
-    for_chunks(count, task_size, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
+    std::vector<Range> ranges((count + task_size - 1) / task_size);
+    for_chunks(count, task_size, threads_, [&](std::size_t first, std::size_t last, std::size_t chunk) {
         for (std::size_t i = first; i < last; ++i) {
             const Box b = box_of(i);
             boxes_[i].low = {{below(b.low.x - center.x - pad), below(b.low.y - center.y - pad),
@@ -80,7 +84,14 @@ Builder::Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, dou
             boxes_[i].high = {{above(b.high.x - center.x + pad), above(b.high.y - center.y + pad),
                                above(b.high.z - center.z + pad), static_cast<float>(i / part_of_number)}};
         }
+        ranges[chunk] = {first, last, {}, {}};
+        measure(boxes_, ranges[chunk]);
     });
+    all_ = {0, count, nothing, nothing};
+    for (const Range& range : ranges) {
+        unite(all_.box, range.box);
+        unite(all_.middles, range.middles);
+    }
 }
 
 kernel::BvhNode Builder::node(const Range& range) const {
@@ -92,42 +103,44 @@ kernel::BvhNode Builder::node(const Range& range) const {
     return result;
 }
 
-/// Depth-first order: a node comes before its children, the left one right after it.
-Nodes Builder::in_one_piece(const Range& whole) {
+/// Depth-first order: a node comes before its children, the left one right after it. `right`: memory for where the right child
+/// of each node is; none: a leaf.
+void Builder::in_one_piece(Task& task, std::vector<std::uint32_t>& right) {
     struct Open {
         Range range;
         std::uint32_t parent;  // of a right child, which must be told where it begins
     };
-    Nodes nodes;
-    std::vector<std::uint32_t> right;  // of each node; none: a leaf
-    std::vector<Open> open{{whole, none}};
+    kernel::BvhNode* const nodes = nodes_.data() + task.place;
+    right.clear();
+    std::vector<Open> open{{task.range, none}};
     while (!open.empty()) {
         const auto [range, parent] = open.back();
         open.pop_back();
-        const auto number = static_cast<std::uint32_t>(nodes.size());
+        const auto number = static_cast<std::uint32_t>(right.size());
         if (parent != none) right[parent] = number;
         right.push_back(none);
-        nodes.push_back(node(range));
+        nodes[number] = node(range);
         Open second{{}, number}, first{{}, none};
         if (split(boxes_, range, first.range, second.range)) {
             open.push_back(second);
             open.push_back(first);
         } else {
-            nodes.back().leaf = (first_solid_ + static_cast<std::uint32_t>(range.first)) << BVH_LEAF_SHIFT |
-                                static_cast<std::uint32_t>(range.size());
+            nodes[number].leaf = (first_solid_ + static_cast<std::uint32_t>(range.first)) << BVH_LEAF_SHIFT |
+                                 static_cast<std::uint32_t>(range.size());
         }
     }
-    nodes[0].skip = static_cast<std::uint32_t>(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
+    task.nodes = static_cast<std::uint32_t>(right.size());
+    nodes[0].skip = task.nodes;
+    for (std::size_t i = 0; i < right.size(); ++i) {
         if (right[i] == none) continue;
         nodes[i + 1].skip = right[i];
         nodes[right[i]].skip = nodes[i].skip;
     }
-    return nodes;
 }
 
 /// Takes tasks from the queue until there are none and no other thread may bring more.
 void Builder::work() {
+    std::vector<std::uint32_t> memory;
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [&] { return !waiting_.empty() || unfinished_ == 0; });
@@ -141,8 +154,10 @@ void Builder::work() {
         try {
             if (large) {
                 split(boxes_, task.range, left.range, right.range);
+                left.place = task.place + 1;
+                right.place = task.place + 2 * static_cast<std::uint32_t>(left.range.size());
             } else {
-                task.nodes = in_one_piece(task.range);
+                in_one_piece(task, memory);
             }
         } catch (...) {
             thrown = std::current_exception();  // out of memory
@@ -169,53 +184,55 @@ void Builder::work() {
     }
 }
 
-void Builder::join(std::uint32_t number, Nodes& nodes) {
+/// Closes the gaps between the pieces.
+void Builder::join() {
     struct Open {
         std::uint32_t task;
         std::uint32_t close;  // the node whose subtree ends here, if no task
     };
-    std::vector<Open> open{{number, none}};
+    std::vector<Open> open{{0, none}};
+    std::uint32_t first = 0;
     while (!open.empty()) {
-        const auto [task_number, close] = open.back();
+        const auto [number, close] = open.back();
         open.pop_back();
-        const auto first = static_cast<std::uint32_t>(nodes.size());
-        if (task_number == none) {
-            nodes[close].skip = first;
+        if (number == none) {
+            nodes_[close].skip = first;
             continue;
         }
-        Task& task = tasks_[task_number];
+        const Task& task = tasks_[number];
         if (task.left == none) {
-            if (nodes.empty()) {
-                nodes = std::move(task.nodes);  // all of it
-                continue;
+            for (std::uint32_t i = 0; i < task.nodes; ++i) {
+                nodes_[first + i] = nodes_[task.place + i];
+                nodes_[first + i].skip += first;
             }
-            nodes.insert(nodes.end(), task.nodes.begin(), task.nodes.end());
-            for (std::size_t i = first; i < nodes.size(); ++i) nodes[i].skip += first;
+            first += task.nodes;
             continue;
         }
-        nodes.push_back(node(task.range));
-        open.push_back({none, first});
+        nodes_[first] = node(task.range);
+        open.push_back({none, first++});
         open.push_back({task.right, none});
         open.push_back({task.left, none});
     }
+    nodes_.resize(first);
 }
 
 Hierarchy Builder::build() {
     Hierarchy result;
     if (boxes_.empty()) return result;
-    Range all{0, boxes_.size(), {}, {}};
-    measure(boxes_, all);
-    tasks_.push_back({all, none, none, {}});
+    const std::size_t most = 2 * boxes_.size() - 1;
+    reserve_cleared(nodes_, most);
+    nodes_.resize(most);
+    tasks_.push_back({all_, 0});
     waiting_.push_back(0);
     unfinished_ = 1;
     on_threads(boxes_.size() > task_size ? threads_ : 1, [this] { work(); });
     if (thrown_) std::rethrow_exception(thrown_);
-    std::size_t count = 0;
-    for (const Task& task : tasks_) count += 1 + task.nodes.size();
-    result.nodes.reserve(count);
-    join(0, result.nodes);
-    result.order.reserve(boxes_.size());
-    for (const FloatBox& box : boxes_) result.order.push_back(number_of(box));
+    join();
+    result.nodes = std::move(nodes_);
+    result.order.resize(boxes_.size());
+    for_chunks(boxes_.size(), task_size, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) result.order[i] = number_of(boxes_[i]);
+    });
     return result;
 }
 

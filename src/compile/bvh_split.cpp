@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "compile/linear.hpp"
 
@@ -69,17 +70,21 @@ Cut best_cut(const std::vector<FloatBox>& boxes, const Range& range, const Bins&
         std::array<double, bins> left_cost{};
         FloatBox box = nothing;
         std::size_t count = 0;
+        // A bin without boxes moves no border: what is beside it costs what it did.
         for (std::size_t bin = 1; bin < bins; ++bin) {
+            left_cost[bin] = left_cost[bin - 1];
+            if (binned[bin - 1].count == 0) continue;
             unite(box, binned[bin - 1].box);
             count += binned[bin - 1].count;
-            left_cost[bin] = count > 0 ? half_area(box) * static_cast<double>(count) : 0;
+            left_cost[bin] = half_area(box) * static_cast<double>(count);
         }
         box = nothing;
         count = 0;
         for (std::size_t bin = bins - 1; bin > 0; --bin) {
+            if (binned[bin].count == 0) continue;
             unite(box, binned[bin].box);
             count += binned[bin].count;
-            if (count == 0 || count == range.size()) continue;
+            if (count == range.size()) break;
             const double cost = left_cost[bin] + half_area(box) * static_cast<double>(count);
             if (cost < best.cost) best = {axis, bin, cost};
         }
@@ -114,7 +119,8 @@ Cut best_cut_of_few(std::vector<FloatBox>& boxes, const Range& range) {
     const std::size_t count = range.size();
     const auto begin = boxes.begin() + static_cast<std::ptrdiff_t>(range.first);
     Cut best;
-    for (int axis = 0; axis < 3; ++axis) {
+    const int axes = count > 2 ? 3 : 1;  // two cost the same along each
+    for (int axis = 0; axis < axes; ++axis) {
         std::copy_n(begin, count, ordered.begin());
         const auto at = [&](const FloatBox& box) { return 0.5f * box.low.v[axis] + 0.5f * box.high.v[axis]; };
         for (std::size_t i = 1; i < count; ++i) {
@@ -158,14 +164,15 @@ void measure(const std::vector<FloatBox>& boxes, Range& range) {
 bool split(std::vector<FloatBox>& boxes, const Range& range, Range& left, Range& right) {
     if (range.size() == 1) return false;
     const bool is_few = range.size() <= few;
-    const Bins bin_of(range.middles);
-    const Cut cut = is_few ? best_cut_of_few(boxes, range) : best_cut(boxes, range, bin_of);
+    std::optional<Bins> bin_of;
+    if (!is_few) bin_of.emplace(range.middles);
+    const Cut cut = is_few ? best_cut_of_few(boxes, range) : best_cut(boxes, range, *bin_of);
     const double area = half_area(range.box);
     const double cost_of_leaf = cost_of_solid * static_cast<double>(range.size()) * area;
     const bool worth = cut.axis >= 0 && 2 * cost_of_box * area + cost_of_solid * cut.cost < cost_of_leaf;
     if (!worth && range.size() <= most_in_leaf) return false;
     if (cut.axis >= 0 && !is_few) {
-        left.last = right.first = part(boxes, range, cut, bin_of, left, right);
+        left.last = right.first = part(boxes, range, cut, *bin_of, left, right);
         left.first = range.first;
         right.last = range.last;
         return true;

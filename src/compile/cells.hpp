@@ -8,6 +8,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "fetch.hpp"
+
 namespace csgrt {
 
 struct CellRange {
@@ -40,13 +42,6 @@ std::uint64_t cell_hash(const Cell& cell) {
 
 /// The same, all bits of it mixed: hashes of neighbouring cells differ in few, all of them low ones or high ones.
 inline std::uint64_t mixed(std::uint64_t hash) { return hash * 0x9e3779b97f4a7c15u; }
-
-/// Asks for memory that will be read.
-inline void fetch([[maybe_unused]] const void* memory) {
-#if defined(__GNUC__)
-    __builtin_prefetch(memory);
-#endif
-}
 
 /// From the hashes of cells to numbers, in one piece of memory: a scene has millions of cells, each looked up once or
 /// twice.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <optional>
+#include <utility>
 
 #include "compile/bvh.hpp"
 #include "compile/flatten.hpp"
@@ -15,34 +17,53 @@
 #include "compile/pack_solids.hpp"
 #include "compile/polyhedron.hpp"
 #include "compile/terms.hpp"
+#include "parallel.hpp"
 #include "scene/validate.hpp"
 
 namespace csgrt {
 
 namespace {
 
-/// The sphere around all bounded solids, from the box around their boxes.
-void set_sphere(const std::vector<Box>& boxes, CompiledScene& compiled) {
-    Box all = empty_box;
-    for (const Box& box : boxes)
-        if (is_finite(box)) all = united(all, box);
-    if (is_empty(all)) return;
-    compiled.center = narrow(0.5L * (wide(all.low) + wide(all.high)));
-    compiled.radius = 0.5 * diagonal(all);
+/// The sphere around all bounded solids, from the box around their boxes. Returns how many solids are not bounded.
+std::size_t set_sphere(const std::vector<Box>& boxes, CompiledScene& compiled) {
+    struct Part {
+        Box box = empty_box;
+        std::size_t unbounded = 0;
+    };
+    constexpr std::size_t many = 16'384;
+    std::vector<Part> parts((boxes.size() + many - 1) / many);
+    for_chunks(boxes.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
+        Part part;
+        for (std::size_t i = first; i < last; ++i) {
+            if (is_finite(boxes[i])) {
+                part.box = united(part.box, boxes[i]);
+            } else {
+                ++part.unbounded;
+            }
+        }
+        parts[number] = part;
+    });
+    Part all;
+    for (const Part& part : parts) all = {united(all.box, part.box), all.unbounded + part.unbounded};
+    if (!is_empty(all.box)) {
+        compiled.center = narrow(0.5L * (wide(all.box.low) + wide(all.box.high)));
+        compiled.radius = 0.5 * diagonal(all.box);
+    }
+    return all.unbounded;
 }
 
-/// Numbers the instances: the unbounded ones first, then in the order of the hierarchy's leaves. Returns old numbers in
+/// Numbers the instances: the `unbounded` ones first, then in the order of the hierarchy's leaves. Returns old numbers in
 /// the new order.
-std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, CompiledScene& compiled) {
+std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, std::size_t unbounded, CompiledScene& compiled) {
+    compiled.unbounded_count = static_cast<std::uint32_t>(unbounded);
     std::vector<std::uint32_t> order, bounded;
-    order.reserve(boxes.size());
-    bounded.reserve(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) (is_finite(boxes[i]) ? bounded : order).push_back(i);
-    compiled.unbounded_count = static_cast<std::uint32_t>(order.size());
+    if (unbounded > 0)
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) (is_finite(boxes[i]) ? bounded : order).push_back(i);
     Hierarchy hierarchy = build_bvh(
-        bounded.size(), [&](std::size_t i) { return boxes[bounded[i]]; }, compiled.center, compiled.radius,
-        compiled.unbounded_count);
+        boxes.size() - unbounded, [&](std::size_t i) { return boxes[unbounded > 0 ? bounded[i] : i]; }, compiled.center,
+        compiled.radius, compiled.unbounded_count);
     compiled.nodes = std::move(hierarchy.nodes);
+    if (unbounded == 0) return std::move(hierarchy.order);
     for (const std::uint32_t i : hierarchy.order) order.push_back(bounded[i]);
     return order;
 }
@@ -55,7 +76,7 @@ Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& c
         reach = 1;
         for (const Instance& instance : flat.instances)
             if (const auto* half = std::get_if<Half>(&shape_of(scene, flat, instance)))
-                reach = std::max(reach, 2 * std::fabs(transform_plane(instance.matrix, half->plane).distance));
+                reach = std::max(reach, 2 * std::fabs(transform_plane(*instance.matrix, half->plane).distance));
     }
     const Vec3& c = compiled.center;
     return {{c.x - reach, c.y - reach, c.z - reach}, {c.x + reach, c.y + reach, c.z + reach}};
@@ -92,13 +113,18 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     }
 
     set_surroundings(scene, compiled);
-    const Measured measured(scene, flat);
-    set_sphere(measured.boxes, compiled);
-    const std::vector<std::uint32_t> order = number_solids(measured.boxes, compiled);
-    pack_solids(scene, flat, measured, order, common_box(scene, flat, compiled), compiled);
+    std::optional<Measured> measured(std::in_place, scene, flat);
+    const std::size_t unbounded = set_sphere(measured->boxes, compiled);
+    const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
+    pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);
     // Read by one thread while another goes through the regions, which it mostly does alone.
     std::future<std::uint64_t> geometry = std::async([&compiled] { return hash_of_geometry(compiled); });
-    pack_regions(flat, order, measured.brlcad_boxes, compiled);
+    pack_regions(flat, order, measured->brlcad_boxes, compiled);
+    // Giving much memory back takes a while, too.
+    const std::future<void> cleared = std::async([&] {
+        measured.reset();
+        flat = {};
+    });
     list_terms(compiled);
     compiled.hash = hash_of(compiled, geometry.get());
     return compiled;

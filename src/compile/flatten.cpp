@@ -1,16 +1,16 @@
 #include "compile/flatten.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "compile/cells.hpp"
 #include "compile/flatten_tree.hpp"
+#include "compile/instance_table.hpp"
 #include "compile/linearize.hpp"
 #include "compile/regions.hpp"
+#include "fetch.hpp"
 #include "formats/source.hpp"
 #include "parallel.hpp"
 
@@ -30,55 +30,6 @@ std::string some(const std::vector<std::string>& names) {
 std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
-
-/// The instances of a scene, each once.
-class InstanceTable {
-public:
-    explicit InstanceTable(std::size_t objects) : first_(objects, none) {}
-
-    /// The number of the instance in `all`, to which it is added if it is new.
-    std::uint32_t number(const Instance& instance, std::vector<Instance>& all) {
-        const auto next = static_cast<std::uint32_t>(all.size());
-        std::uint32_t& first = first_[instance.object];
-        if (first == none) {
-            first = next;
-            others_.push_back(none);
-            all.push_back(instance);
-            return next;
-        }
-        // Not the only place of its object: looked up among those that are not the first ones.
-        if (equal(all[first], instance)) return first;
-        const std::uint64_t hash = hash_of(instance);
-        const std::uint32_t last = cells_.find(hash);
-        for (std::uint32_t i = last; i != none; i = others_[i])
-            if (equal(all[i], instance)) return i;
-        others_.push_back(last);
-        cells_.exchange(hash, next);
-        all.push_back(instance);
-        return next;
-    }
-
-private:
-    static constexpr std::uint32_t none = CellTable::none;
-
-    static bool equal(const Instance& a, const Instance& b) {
-        return a.object == b.object && a.piece == b.piece && a.matrix == b.matrix;
-    }
-    static std::uint64_t hash_of(const Instance& instance) {
-        std::uint64_t hash = (14695981039346656037u ^ instance.object) * 1099511628211u ^ instance.piece;
-        for (const double value : instance.matrix) {
-            std::uint64_t bits;
-            std::memcpy(&bits, &value, sizeof bits);
-            hash = (hash ^ bits) * 1099511628211u;
-            hash ^= hash >> 29;
-        }
-        return hash;
-    }
-
-    std::vector<std::uint32_t> first_;   ///< one an object: its first instance
-    CellTable cells_;                    ///< of those that are not: the last one of each hash
-    std::vector<std::uint32_t> others_;  ///< one an instance: the one before it of the same hash
-};
 
 /// Instances that only dropped parts of trees used are dropped, too.
 void drop_unused(FlatScene& flat) {
@@ -142,17 +93,29 @@ struct TermsPart {
     FlatPart flat;
 };
 
+/// Asks for what the terms after number `i` will read first, most of the time.
+void fetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, std::size_t i) {
+    const auto object_at = [&](std::size_t term) { return terms[term].forest->leftmost_start(terms[term].node).object; };
+    if (i + 2 < terms.size()) fetch_whole(scene.objects[object_at(i + 2)]);
+    if (i + 1 == terms.size() || index.kind(object_at(i + 1)) >= Names::Kind::solid) return;
+    const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[object_at(i + 1)]).tree.nodes;
+    constexpr std::size_t most = 8;
+    for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) fetch_whole(nodes[k]);
+}
+
 TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, bool skip_unsupported) {
     TermsPart part;
     part.regions.reserve(terms.size());
     Flattener flattener(scene, index, skip_unsupported, part.flat);
-    for (const auto& [forest, term] : terms) {
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+        fetch_ahead(scene, index, terms, i);
+        const auto& [forest, term] = terms[i];
         const RegionStart& start = forest->leftmost_start(term);
         const Object& origin = scene.objects[start.object];
         TermsPart::Written& written = part.regions.emplace_back();
         FlatRegion& region = written.region;
         written.kind = flattener.write(*forest, term, region.tree);
-        region.info = describe_region(std::get_if<Combination>(&origin), start.attributes, scene.region_colors);
+        region.info = describe_region(std::get_if<Combination>(&origin), forest->attributes_of(start), scene.region_colors);
         region.info.path = forest->path(start.path);
         written.contains_space = written.kind == Flattener::Kind::everything ||
                                  (written.kind == Flattener::Kind::tree && contains_empty_space(region.tree));
@@ -176,7 +139,9 @@ public:
 
     void add(TermsPart& part) {
         numbers_.clear();
-        for (const Instance& leaf : part.flat.leaves) numbers_.push_back(instances_.number(leaf, result_.instances));
+        const std::vector<Matrix>& matrices = result_.matrices.emplace_back(std::move(part.flat.matrices));
+        for (const auto& [object, piece, matrix] : part.flat.leaves)
+            numbers_.push_back(instances_.number({object, piece, &matrices[matrix]}, result_.instances));
         for (auto& [region, kind, contains_space] : part.regions) {
             const std::size_t term = next_++;
             if (kind == Flattener::Kind::nothing || contains_space) {
@@ -189,6 +154,7 @@ public:
                 if (node.op == Operator::leaf) node.solid = numbers_[node.solid];
             result_.regions.push_back(std::move(region));
         }
+        has_unused_ = has_unused_ || part.flat.has_unused;
         result_.composites.merge(part.flat.composites);
         for (auto& [object, text] : part.flat.skipped)
             if (skipped_.insert(object).second) result_.skipped.push_back(std::move(text));
@@ -196,6 +162,7 @@ public:
     }
 
     const std::vector<NoRegion>& no_regions() const { return no_regions_; }
+    bool has_unused() const { return has_unused_; }
 
 private:
     const Scene& scene_;
@@ -207,6 +174,7 @@ private:
     std::vector<NoRegion> no_regions_;
     std::size_t next_ = 0;
     std::uint64_t references_ = 0;
+    bool has_unused_ = false;
 };
 
 }  // namespace
@@ -259,7 +227,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
             return flatten_part(scene, index, std::span(terms).subspan(first, last - first), skip_unsupported);
         },
         [&](TermsPart& part) { joiner.add(part); });
-    drop_unused(result);
+    if (joiner.has_unused()) drop_unused(result);
 
     // What there is to tell.
     std::vector<std::string> empty_regions;

@@ -14,9 +14,9 @@ namespace csgrt {
 
 /// A solid in its place. Two places of one solid with bit-equal matrices are one instance.
 struct Instance {
-    std::uint32_t object = 0;  ///< into Scene::objects
-    std::uint32_t piece = 0;   ///< of a solid that is made of others
-    Matrix matrix{};           ///< from the root: M_top ... M_leg
+    std::uint32_t object = 0;        ///< into Scene::objects
+    std::uint32_t piece = 0;         ///< of a solid that is made of others
+    const Matrix* matrix = nullptr;  ///< from the root: M_top ... M_leg; those of one region mostly share it
 };
 
 struct FlatRegion {
@@ -25,6 +25,7 @@ struct FlatRegion {
 };
 
 struct FlatScene {
+    std::vector<std::vector<Matrix>> matrices;             ///< of the instances
     std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
     std::vector<FlatRegion> regions;                       ///< in the order of the walk
     std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others

@@ -27,7 +27,7 @@ Flattener::Kind Flattener::write(const RegionForest& forest, std::uint32_t term,
         const RegionForest::Node& node = forest.node(number);
         if (node.op == Operator::leaf) {
             const RegionStart& start = forest.start(node.left);
-            expand(start.object, start.matrix);
+            expand(start.object, forest.matrix_of(start));
         } else if (operands_done) {
             operate(node.op, node.op == Operator::not_ ? 1 : 2);
         } else {
@@ -62,7 +62,8 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
 
 void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
     check_references(++result_.references);
-    if (!index_.is_solid(object)) {
+    const Names::Kind kind = index_.kind(object);
+    if (kind < Names::Kind::solid) {
         const Combination* combination = &std::get<Combination>(scene_.objects[object]);
         if (const auto known = hollow_.find(combination); known != hollow_.end()) {
             operands_.push_back({tree_->nodes.size(), known->second});
@@ -71,21 +72,22 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         }
         return;
     }
-    const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
-    if (const auto* unsupported = std::get_if<Unsupported>(&shape); unsupported && skip_unsupported_) {
-        result_.skipped.emplace_back(object, name_of(scene_.objects[object]) + " (" + unsupported->type + ")" +
+    const auto shape = [&]() -> const Shape& { return std::get<Solid>(scene_.objects[object]).shape; };
+    if (kind == Names::Kind::unsupported && skip_unsupported_) {
+        const std::string& type = std::get<Unsupported>(shape()).type;
+        result_.skipped.emplace_back(object, name_of(scene_.objects[object]) + " (" + type + ")" +
                                                  (frames_.empty() ? "" : ", used by " + frames_.back().combination->name));
         operands_.push_back({tree_->nodes.size(), Kind::nothing});
         return;
     }
     ++leaves_;
     operands_.push_back({tree_->nodes.size(), Kind::tree});
-    if (!std::holds_alternative<Pipe>(shape) && !std::holds_alternative<Cline>(shape)) {
+    if (kind != Names::Kind::composite) {
         tree_->nodes.push_back({Operator::leaf, 0, instance_of(object, 0, matrix)});
         return;
     }
     auto known = result_.composites.find(object);
-    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(shape)).first;
+    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(shape())).first;
     for (FlatTree::Node node : known->second.tree.nodes) {
         if (node.op == Operator::leaf) node.solid = instance_of(object, node.solid, matrix);
         tree_->nodes.push_back(node);
@@ -93,8 +95,10 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
 }
 
 std::uint32_t Flattener::instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix) {
-    Instance& instance = result_.leaves.emplace_back(Instance{object, piece, matrix});
-    for (double& value : instance.matrix) value += 0.0;  // -0 and 0 are one place
+    Matrix place = matrix;
+    for (double& value : place) value += 0.0;  // -0 and 0 are one place
+    if (result_.matrices.empty() || result_.matrices.back() != place) result_.matrices.push_back(place);
+    result_.leaves.push_back({object, piece, static_cast<std::uint32_t>(result_.matrices.size() - 1)});
     return static_cast<std::uint32_t>(result_.leaves.size() - 1);
 }
 
@@ -147,6 +151,7 @@ void Flattener::operate(Operator op, std::uint32_t arity) {
         if (trees > 1) append(op, trees);
         if (complement) append(Operator::not_, 1);
     } else {
+        result_.has_unused = result_.has_unused || tree_->nodes.size() > first;
         tree_->nodes.resize(first);
         if (complement) result = result == Kind::nothing ? Kind::everything : Kind::nothing;
     }

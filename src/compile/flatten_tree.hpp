@@ -14,10 +14,15 @@ namespace csgrt {
 
 /// What some of a scene's trees hold: a part of it is a thread's.
 struct FlatPart {
-    std::vector<Instance> leaves;  ///< in the order of the trees; not each once
+    struct Leaf {
+        std::uint32_t object, piece, matrix;
+    };
+    std::vector<Leaf> leaves;  ///< in the order of the trees; not each once
+    std::vector<Matrix> matrices;
     std::unordered_map<std::uint32_t, Pieces> composites;
     std::vector<std::pair<std::uint32_t, std::string>> skipped;  ///< objects, and what to say of them
     std::uint64_t references = 0;                                ///< to combinations and solids
+    bool has_unused = false;                                     ///< leaves that no tree holds any more
 };
 
 /// Throws Error (scene) if there are more references than any model has.

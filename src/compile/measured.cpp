@@ -12,9 +12,13 @@ constexpr std::size_t chunk_size = 1024;
 Measured::Measured(const Scene& scene, const FlatScene& flat)
     : chunks_((flat.instances.size() + chunk_size - 1) / chunk_size) {
     const std::size_t count = flat.instances.size();
-    boxes.resize(count);
-    brlcad_boxes.resize(count);
-    first_face_.resize(count);
+    const auto make = [count](auto& one_an_instance) {
+        reserve_cleared(one_an_instance, count);
+        one_an_instance.resize(count);
+    };
+    make(boxes);
+    make(brlcad_boxes);
+    make(first_face_);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
         std::vector<Plane>& planes = chunks_[number];
         for (std::size_t i = first; i < last; ++i) {
@@ -23,11 +27,11 @@ Measured::Measured(const Scene& scene, const FlatScene& flat)
             first_face_[i] = static_cast<std::uint32_t>(planes.size());
             SolidBoxes both;
             if (const auto* arb = std::get_if<Arb>(&shape)) {
-                const ArbFaces faces = arb_faces(*arb, instance.matrix);
+                const ArbFaces faces = arb_faces(*arb, *instance.matrix);
                 planes.insert(planes.end(), faces.planes.begin(), faces.planes.end());
-                both = solid_boxes(shape, instance.matrix, {}, &faces);
+                both = solid_boxes(shape, *instance.matrix, {}, &faces);
             } else {
-                both = solid_boxes(shape, instance.matrix, cuts_of(flat, instance));
+                both = solid_boxes(shape, *instance.matrix, cuts_of(flat, instance));
             }
             boxes[i] = both.tight;
             brlcad_boxes[i] = both.brlcad;

@@ -144,6 +144,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         refs += of[number].size();
     }
     check_numbers(refs);
+    reserve_cleared(compiled.plane_refs, refs);
     compiled.plane_refs.resize(refs);
     for_each_chunk([&](std::size_t number) {
         std::copy(of[number].begin(), of[number].end(), compiled.plane_refs.begin() + first_ref[number]);

@@ -76,9 +76,13 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         for (std::size_t i = first; i < last; ++i) number[order[i]] = static_cast<std::uint32_t>(i);
     });
 
-    compiled.regions.resize(count);
-    compiled.region_info.resize(count);
-    compiled.flat_trees.resize(count);
+    const auto make = [count](auto& one_a_region) {
+        reserve_cleared(one_a_region, count);
+        one_a_region.resize(count);
+    };
+    make(compiled.regions);
+    make(compiled.region_info);
+    make(compiled.flat_trees);
     std::vector<kernel::MaterialRecord> materials(count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
@@ -113,6 +117,7 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         check_tree_words(words);
     }
     compiled.instances = static_cast<std::uint32_t>(leaves);
+    compiled.materials.reserve(count);  // what grows is copied
     MaterialTable table(count, compiled.materials);
     for (std::size_t i = 0; i < count; ++i) compiled.regions[i].material = table.number(materials[i]);
 

@@ -7,6 +7,7 @@
 #include "compile/pack_chunks.hpp"
 #include "compile/pack_solids.hpp"
 #include "compile/packer.hpp"
+#include "fetch.hpp"
 #include "parallel.hpp"
 
 namespace csgrt {
@@ -87,7 +88,19 @@ public:
             const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
             chunks_[number].parts.reserve(last - first);
             std::vector<Plane> planes;
-            for (std::size_t i = first; i < last; ++i) prepare(i, chunks_[number], planes);
+            for (std::size_t i = first; i < last; ++i) {
+                constexpr std::size_t soon = 4, later = 8;
+                if (i + later < last) {
+                    fetch(&flat_.instances[order_[i + later]]);
+                    fetch_whole(measured_.boxes[order_[i + later]]);
+                }
+                if (i + soon < last) {
+                    const Instance& instance = flat_.instances[order_[i + soon]];
+                    fetch_whole(scene_.objects[instance.object]);
+                    fetch_whole(*instance.matrix);
+                }
+                prepare(i, chunks_[number], planes);
+            }
             append_keys(planes, chunks_[number].planes);
         });
         share_surfaces();
@@ -121,7 +134,7 @@ private:
         part.is_large = !std::visit(IsSmall{}, shape);
         if (!part.is_large) {
             const std::size_t first_real = chunk.reals.size(), first_plane = planes.size();
-            Packer packer{instance.matrix, compiled_, shared_, chunk.reals, planes};
+            Packer packer{*instance.matrix, compiled_, shared_, chunk.reals, planes};
             if (std::holds_alternative<Arb>(shape)) {
                 packer.record.type = SOLID_ARB;
                 packer.faces(measured_.faces(order_[number]));
@@ -129,7 +142,7 @@ private:
                 std::visit(packer, shape);
             }
             part.faces = static_cast<std::uint32_t>(planes.size() - first_plane);
-            for (const Plane& cut : cuts_of(flat_, instance)) planes.push_back(transform_plane(instance.matrix, cut));
+            for (const Plane& cut : cuts_of(flat_, instance)) planes.push_back(transform_plane(*instance.matrix, cut));
             part.cuts = static_cast<std::uint32_t>(planes.size() - first_plane - part.faces);
             part.is_polyhedron = packer.is_polyhedron;
             part.first_real = static_cast<std::uint32_t>(first_real);
@@ -153,7 +166,7 @@ private:
         const Instance& instance = flat_.instances[order_[number]];
         std::vector<double> reals;
         std::vector<Plane> planes;
-        Packer packer{instance.matrix, compiled_, shared_, reals, planes};
+        Packer packer{*instance.matrix, compiled_, shared_, reals, planes};
         std::visit(packer, shape_of(scene_, flat_, instance));
         return packer.axes_in_world;
     }
@@ -172,9 +185,15 @@ private:
                 return std::span<double>(chunk.reals).subspan(part.first_real, part.reals);
             };
             const SurfaceTable::AxesOf axes = [&](std::uint32_t solid) { return axes_of(solid); };
-            for (const auto& [number, i] : members) {
-                const auto& [solid, surface] = chunks_[number].surfaces[i];
-                PackedChunk::Part& part = chunks_[number].parts[solid];
+            const auto chunk_at = [&](std::size_t i) -> PackedChunk& { return chunks_[members[i].chunk]; };
+            const auto surface_at = [&](std::size_t i) -> auto& { return chunk_at(i).surfaces[members[i].index]; };
+            const auto part_at = [&](std::size_t i) -> auto& { return chunk_at(i).parts[surface_at(i).first]; };
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                constexpr std::size_t soon = 6, later = 12;
+                if (i + later < members.size()) fetch_whole(surface_at(i + later));
+                if (i + soon < members.size()) fetch(&part_at(i + soon));
+                const SurfaceTable::Surface& surface = surface_at(i).second;
+                PackedChunk::Part& part = part_at(i);
                 part.stands = table.add(surface, part.stands, reals_of, axes);
             }
         });
@@ -217,7 +236,7 @@ private:
     void pack_large(std::size_t number, PackedChunk& chunk, PackedChunk::Part& part) {
         const Instance& instance = flat_.instances[order_[number]];
         std::vector<Plane> faces;
-        Packer packer{instance.matrix, compiled_, shared_, compiled_.reals, faces};
+        Packer packer{*instance.matrix, compiled_, shared_, compiled_.reals, faces};
         packer.record.first_real = static_cast<std::uint32_t>(compiled_.reals.size());
         std::visit(packer, shape_of(scene_, flat_, instance));
         compiled_.solids[number] = packer.record;

@@ -171,13 +171,14 @@ ArbFaces faces_through(const std::array<Wide, 8>& corners, long double same, lon
         const Wide unit = glm::normalize(normal);
         result.planes.push_back(plane_of(on, unit));
 
-        std::array<long double, 8> above;
+        std::array<bool, 8> below;
         for (std::size_t i = 0; i < 8; ++i) {
-            above[i] = glm::dot(unit, corners[i] - on);
-            if (above[i] > above_flat) result.is_hull = false;
+            const long double above = glm::dot(unit, corners[i] - on);
+            if (above > above_flat) result.is_hull = false;
+            below[i] = above < -above_flat;
         }
         for (const std::size_t i : face)
-            if (above[i] < -above_flat) result.is_hull = false;
+            if (below[i]) result.is_hull = false;
     }
     if (result.planes.size() < 4) result.is_hull = false;
     return result;

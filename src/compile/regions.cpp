@@ -10,7 +10,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::uint32_t no_path = 0xffffffff;
+constexpr std::uint32_t none = 0xffffffff;
 
 // Groups of groups hold more references than solids, though not many times more.
 constexpr std::uint64_t reference_limit = 4 * Limits::instances;
@@ -34,6 +34,7 @@ std::uint32_t ObjectIndex::child(std::uint32_t object, std::size_t node) const {
 }
 
 double ObjectIndex::solids_below(std::uint32_t object) {
+    if (known_solids(object) >= 0) return known_solids(object);
     struct Frame {
         std::uint32_t object;
         std::size_t next;
@@ -43,23 +44,22 @@ double ObjectIndex::solids_below(std::uint32_t object) {
     while (!frames.empty()) {
         Frame& frame = frames.back();
         const std::span<const std::uint32_t> children = names_.children(frame.object);
-        if (names_.is_solid(frame.object)) {
-            solids_[frame.object] = 1;
-        } else if (frame.next < children.size()) {
-            const std::size_t number = frame.next++;
-            if (children[number] == Names::operation) continue;
-            const std::uint32_t child = this->child(frame.object, number);
-            if (solids_[child] >= 0) {
-                frame.solids += solids_[child];
-            } else {
-                --frame.next;
-                frames.push_back({child, 0, 0});
-            }
-            continue;
-        } else {
+        if (frame.next == children.size()) {
             solids_[frame.object] = frame.solids;
+            frames.pop_back();
+            continue;
         }
-        frames.pop_back();
+        const std::size_t number = frame.next;
+        if (children[number] != Names::operation) {
+            const std::uint32_t child = this->child(frame.object, number);
+            const double solids = known_solids(child);
+            if (solids < 0) {
+                frames.push_back({child, 0, 0});
+                continue;
+            }
+            frame.solids += solids;
+        }
+        ++frame.next;
     }
     return solids_[object];
 }
@@ -67,30 +67,43 @@ double ObjectIndex::solids_below(std::uint32_t object) {
 RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const std::string& object, bool air,
                            std::vector<std::string>& dropped)
     : scene_(scene), index_(index), air_(air) {
-    visit(index.find(object), identity, {}, no_path, dropped);
+    visit({index.find(object), none, none, 0}, dropped);
     while (!frames_.empty()) {
         Frame& frame = frames_.back();
-        const std::vector<TreeNode>& nodes = frame.combination->tree.nodes;
-        if (frame.next == nodes.size()) {
-            if (nodes.empty()) operands_.push_back(nothing);
-            if (starts_.size() == frame.first_start) hollow_.emplace(frame.object, operands_.back());
+        const Above& above = above_[frame.above];
+        const std::span<const std::uint32_t> children = index.children(above.object);
+        if (frame.next == children.size()) {
+            if (children.empty()) operands_.push_back(nothing);
+            if (starts_.size() == frame.first_start) hollow_.emplace(above.object, operands_.back());
             frames_.pop_back();
             continue;
         }
-        const std::size_t number = frame.next++;
-        const TreeNode& node = nodes[number];
-        if (node.op == Operator::leaf) {
-            visit(index.child(frame.object, number), compose(frame.matrix, node.matrix), frame.attributes, frame.path,
-                  dropped);
-        } else {
+        const std::uint32_t number = frame.next++;
+        if (children[number] == Names::operation) {
+            const TreeNode& node = std::get<Combination>(scene.objects[above.object]).tree.nodes[number];
             operate(node.op, node.arity);
+        } else {
+            visit({index.child(above.object, number), frame.path, frame.above, number}, dropped);
         }
     }
     root_ = operands_.back();
 }
 
-void RegionForest::visit(std::uint32_t object, const Matrix& matrix, Attributes attributes, std::uint32_t above,
-                         std::vector<std::string>& dropped) {
+Matrix RegionForest::matrix_of(const RegionStart& start) const {
+    if (start.above == none) return identity;
+    const Above& above = above_[start.above];
+    return compose(above.matrix, std::get<Combination>(scene_.objects[above.object]).tree.nodes[start.node].matrix);
+}
+
+Attributes RegionForest::attributes_of(const RegionStart& start) const {
+    Attributes attributes;
+    if (start.above != none) attributes = above_[start.above].attributes;
+    if (const auto* combination = std::get_if<Combination>(&scene_.objects[start.object])) attributes.apply(*combination);
+    return attributes;
+}
+
+void RegionForest::visit(RegionStart start, std::vector<std::string>& dropped) {
+    const std::uint32_t object = start.object;
     if (paths_.size() >= reference_limit)
         throw Error(Status::scene, "more than " + std::to_string(reference_limit) + " references above the regions");
     if (const auto known = hollow_.find(object); known != hollow_.end()) {
@@ -98,21 +111,21 @@ void RegionForest::visit(std::uint32_t object, const Matrix& matrix, Attributes 
         return;
     }
     const auto path = static_cast<std::uint32_t>(paths_.size());
-    paths_.push_back({above, object});
-    const auto* combination = std::get_if<Combination>(&scene_.objects[object]);
-    if (combination != nullptr) {
-        attributes.apply(*combination);
-        if (!combination->region) {
-            frames_.push_back({combination, matrix, attributes, object, path, 0, starts_.size()});
-            return;
-        }
-        if (combination->air != 0 && !air_) {
-            dropped.push_back(this->path(path));
-            operands_.push_back(nothing);
-            return;
-        }
+    paths_.push_back({start.path, object});
+    start.path = path;
+    const Names::Kind kind = index_.kind(object);
+    if (kind == Names::Kind::combination) {
+        const auto above = static_cast<std::uint32_t>(above_.size());
+        above_.push_back({object, matrix_of(start), attributes_of(start)});
+        frames_.push_back({above, path, 0, starts_.size()});
+        return;
     }
-    starts_.push_back({object, path, matrix, attributes});
+    if (kind == Names::Kind::air_region && !air_) {
+        dropped.push_back(this->path(path));
+        operands_.push_back(nothing);
+        return;
+    }
+    starts_.push_back(start);
     operands_.push_back(add_node(Operator::leaf, static_cast<std::uint32_t>(starts_.size() - 1)));
 }
 
@@ -197,7 +210,6 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
         Pending pending;
         std::uint32_t operand, outer;
     };
-    constexpr std::uint32_t none = 0xffffffff;
     std::vector<Context> contexts;
     struct Task {
         std::uint32_t node, context;
@@ -247,7 +259,7 @@ const RegionStart& RegionForest::leftmost_start(std::uint32_t node) const {
 
 std::string RegionForest::path(std::uint32_t number) const {
     std::vector<std::uint32_t> steps;
-    for (; number != no_path; number = paths_[number].above) steps.push_back(paths_[number].object);
+    for (; number != none; number = paths_[number].above) steps.push_back(paths_[number].object);
     std::string text;
     for (auto step = steps.rbegin(); step != steps.rend(); ++step) text += "/" + name_of(scene_.objects[*step]);
     return text;

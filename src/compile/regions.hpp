@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -31,22 +32,27 @@ public:
     std::uint32_t find(const std::string& name) const;
     /// What a leaf names; see Names::child. Throws Error (scene) if there is no such object.
     std::uint32_t child(std::uint32_t object, std::size_t node) const;
+    /// See Names::children.
+    std::span<const std::uint32_t> children(std::uint32_t object) const { return names_.children(object); }
     /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
     double solids_below(std::uint32_t object);
-    bool is_solid(std::uint32_t object) const { return names_.is_solid(object); }
+    Names::Kind kind(std::uint32_t object) const { return names_.kind(object); }
 
 private:
     const Scene& scene_;
     const Names& names_;
-    std::vector<double> solids_;  ///< negative: not counted yet
+    /// Negative: not counted yet.
+    double known_solids(std::uint32_t object) const { return names_.is_solid(object) ? 1 : solids_[object]; }
+
+    std::vector<double> solids_;  ///< of combinations
 };
 
 /// Where a region starts: a combination with the region flag, or a solid outside all regions.
 struct RegionStart {
-    std::uint32_t object = 0;
-    std::uint32_t path = 0;  ///< see RegionForest::path
-    Matrix matrix{};
-    Attributes attributes;  ///< with the region's own
+    std::uint32_t object;
+    std::uint32_t path;   ///< see RegionForest::path
+    std::uint32_t above;  ///< the combination that uses it, as RegionForest numbers them
+    std::uint32_t node;   ///< of that one's tree
 };
 
 /// The expression over region starts that stands above the regions of one named object.
@@ -73,6 +79,9 @@ public:
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
     const RegionStart& leftmost_start(std::uint32_t node) const;
+    /// Where it stands, and what it and all above have set. Left to those who need them, since the walk is one thread's.
+    Matrix matrix_of(const RegionStart& start) const;
+    Attributes attributes_of(const RegionStart& start) const;
     /// "/top/.../name"
     std::string path(std::uint32_t number) const;
 
@@ -80,20 +89,23 @@ private:
     // Expressions that are a constant have no node.
     static constexpr std::uint32_t nothing = 0xffffffff, everything = 0xfffffffe;
 
-    struct Frame {
-        const Combination* combination;
+    /// A combination above regions, in one of its places.
+    struct Above {
+        std::uint32_t object;
         Matrix matrix;
         Attributes attributes;
-        std::uint32_t object, path;
-        std::size_t next;
+    };
+    struct Frame {
+        std::uint32_t above, path;
+        std::uint32_t next;
         std::size_t first_start;  ///< number of the first start below
     };
     struct PathStep {
         std::uint32_t above, object;
     };
 
-    void visit(std::uint32_t object, const Matrix& matrix, Attributes attributes, std::uint32_t above,
-               std::vector<std::string>& dropped);
+    /// `start`: with the path of what is above it.
+    void visit(RegionStart start, std::vector<std::string>& dropped);
     void operate(Operator op, std::uint32_t arity);
     std::uint32_t combine(Operator op, std::uint32_t left, std::uint32_t right);
     std::uint32_t complement(std::uint32_t operand);
@@ -105,6 +117,7 @@ private:
     std::unordered_map<std::uint32_t, std::uint32_t>
         hollow_;  ///< combinations without starts, and the constant they are
     std::vector<Frame> frames_;
+    std::vector<Above> above_;
     std::vector<std::uint32_t> operands_;
     std::uint32_t root_ = nothing;
     std::vector<Node> nodes_;

@@ -70,7 +70,6 @@ public:
 
         std::vector<std::uint16_t> of_;                               ///< one an item
         std::vector<std::pair<std::uint16_t, std::uint16_t>> joined_;  ///< shards that items have in common
-        std::array<std::uint32_t, count> next_{};                    ///< where the chunk's part of each shard goes on
     };
 
     explicit Shards(std::size_t chunks) : chunks_(chunks) { std::iota(root_.begin(), root_.end(), std::uint16_t{0}); }
@@ -82,25 +81,32 @@ public:
         for (const Chunk& chunk : chunks_)
             for (const auto& [a, b] : chunk.joined_) root_[root(a)] = root(b);
         for (std::uint32_t i = 0; i < count; ++i) root_[i] = root(static_cast<std::uint16_t>(i));
-        for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
-            for (std::uint16_t& shard : chunks_[c].of_) ++chunks_[c].next_[shard = root_[shard]];
+        // Many chunks together: for each there are numbers for all shards.
+        constexpr std::size_t most_groups = 64;
+        const std::size_t group_size = std::max<std::size_t>(1, (chunks_.size() + most_groups - 1) / most_groups);
+        std::vector<std::array<std::uint32_t, count>> groups((chunks_.size() + group_size - 1) / group_size);
+        for_chunks(chunks_.size(), group_size, 0, [&](std::size_t first, std::size_t last, std::size_t group) {
+            for (std::size_t c = first; c < last; ++c)
+                for (std::uint16_t& shard : chunks_[c].of_) ++groups[group][shard = root_[shard]];
         });
-        for (const Chunk& chunk : chunks_)
-            for (std::uint32_t shard = 0; shard < count; ++shard) first_[shard + 1] += chunk.next_[shard];
+        for (const auto& counts : groups)
+            for (std::uint32_t shard = 0; shard < count; ++shard) first_[shard + 1] += counts[shard];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        // From how many there are to where a group's part of each shard goes on.
         std::array<std::uint32_t, count + 1> next = first_;
-        for (Chunk& chunk : chunks_)
+        for (auto& counts : groups)
             for (std::uint32_t shard = 0; shard < count; ++shard)
-                next[shard] += std::exchange(chunk.next_[shard], next[shard]);
+                next[shard] += std::exchange(counts[shard], next[shard]);
         // No large one begins last, when the others have ended.
         for (std::uint32_t shard = 0; shard < count; ++shard)
             if (size_of(shard) > 0) by_size_.push_back(static_cast<std::uint16_t>(shard));
         std::stable_sort(by_size_.begin(), by_size_.end(), [this](auto a, auto b) { return size_of(a) > size_of(b); });
+        reserve_cleared(members_, first_[count]);
         members_.resize(first_[count]);
-        for_chunks(chunks_.size(), 1, 0, [&](std::size_t c, std::size_t, std::size_t) {
-            Chunk& chunk = chunks_[c];
-            for (std::uint32_t i = 0; i < chunk.of_.size(); ++i)
-                members_[chunk.next_[chunk.of_[i]]++] = {static_cast<std::uint32_t>(c), i};
+        for_chunks(chunks_.size(), group_size, 0, [&](std::size_t first, std::size_t last, std::size_t group) {
+            for (std::size_t c = first; c < last; ++c)
+                for (std::uint32_t i = 0; i < chunks_[c].of_.size(); ++i)
+                    members_[groups[group][chunks_[c].of_[i]]++] = {static_cast<std::uint32_t>(c), i};
         });
     }
     /// Calls work(table, members, shard) for each shard that has any, several at once, with a table that is cleared before. Each

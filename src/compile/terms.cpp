@@ -4,7 +4,10 @@
 #include "compile/terms.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <utility>
 
+#include "fetch.hpp"
 #include "parallel.hpp"
 
 namespace csgrt {
@@ -19,7 +22,9 @@ struct Term {
 /// The members of the unions at a tree's top, in order.
 void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record, std::uint32_t region,
                std::vector<Term>& terms) {
-    std::vector<Term> rest{{region, record.first_word, record.first_word + record.word_count}};
+    const Term whole{region, record.first_word, record.first_word + record.word_count};
+    if (trees[whole.first] >> TREE_SHIFT != OP_UNION) return terms.push_back(whole);
+    std::vector<Term> rest{whole};
     while (!rest.empty()) {
         const Term term = rest.back();
         rest.pop_back();
@@ -107,63 +112,89 @@ private:
     bool needs_undecided_ = false;
 };
 
-/// The record of a term, and the leaves that start it, ascending; positions in `trees`.
-struct TermStarts {
-    kernel::StartRecord record;
-    std::vector<std::uint32_t> leaves;
+/// Some terms, as one thread lists them.
+struct TermChunk {
+    std::vector<kernel::StartRecord> records;
+    std::vector<std::uint32_t> starts;  ///< the solids that start each of them, each once
+    std::vector<std::uint32_t> ends;    ///< one a term, among these
 };
-TermStarts starts_of(const std::vector<std::uint32_t>& trees, const Term& term) {
+
+void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermChunk& chunk) {
+    // Lists of leaves are linked: nodes, by their place in the term.
     struct Part {
-        std::vector<std::uint32_t> leaves;
+        std::uint32_t first, last, leaves;
         kernel::SolidFilter needed;
     };
+    const auto solid_at = [&](std::uint32_t node) { return trees[node] & TREE_MASK; };
+    const std::size_t before = chunk.starts.size();
     if (term.end - term.first == 1) {
-        const kernel::SolidFilter solid = kernel::filter_of(trees[term.first] & TREE_MASK);
-        return {{term.region, term.first, term.end, solid, solid, NONE}, {term.first}};
-    }
-    // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
-    std::vector<Part> stack;
-    kernel::SolidFilter solids{0, 0};
-    for (std::uint32_t node = term.end; node-- > term.first;) {
-        const std::uint32_t op = trees[node] >> TREE_SHIFT;
-        if (op == OP_LEAF) {
-            stack.push_back({{node}, kernel::filter_of(trees[node] & TREE_MASK)});
-            solids = kernel::with(solids, stack.back().needed);
-            continue;
+        const kernel::SolidFilter solid = kernel::filter_of(solid_at(term.first));
+        chunk.records.push_back({term.region, term.first, term.end, solid, solid, NONE});
+        chunk.starts.push_back(solid_at(term.first));
+    } else {
+        // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
+        std::vector<Part> stack;
+        stack.reserve(TREE_STACK);
+        std::vector<std::uint32_t> next(term.end - term.first, NONE);
+        kernel::SolidFilter solids{0, 0};
+        for (std::uint32_t node = term.end; node-- > term.first;) {
+            const std::uint32_t op = trees[node] >> TREE_SHIFT;
+            if (op == OP_LEAF) {
+                stack.push_back({node, node, 1, kernel::filter_of(solid_at(node))});
+                solids = kernel::with(solids, stack.back().needed);
+                continue;
+            }
+            const Part left = stack.back();
+            stack.pop_back();
+            Part& right = stack.back();
+            const kernel::SolidFilter needed = right.needed;
+            if (op == OP_DIFFERENCE) {
+                right = left;
+            } else if (op == OP_INTERSECTION) {
+                if (left.leaves <= right.leaves) right = left;
+                right.needed = kernel::with(left.needed, needed);
+            } else if (op != OP_REVERSE_DIFFERENCE) {
+                next[right.last - term.first] = left.first;
+                right = {right.first, left.last, left.leaves + right.leaves,
+                         {left.needed.even & needed.even, left.needed.odd & needed.odd}};
+            }
         }
-        Part left = std::move(stack.back());
-        stack.pop_back();
-        Part& right = stack.back();
-        if (op == OP_DIFFERENCE) {
-            right = std::move(left);
-        } else if (op == OP_INTERSECTION) {
-            right.needed = kernel::with(left.needed, right.needed);
-            if (left.leaves.size() <= right.leaves.size()) right.leaves = std::move(left.leaves);
-        } else if (op != OP_REVERSE_DIFFERENCE) {
-            right.needed = {left.needed.even & right.needed.even, left.needed.odd & right.needed.odd};
-            if (left.leaves.size() > right.leaves.size()) std::swap(left.leaves, right.leaves);
-            right.leaves.insert(right.leaves.end(), left.leaves.begin(), left.leaves.end());
-        }
+        const Part& whole = stack.back();
+        chunk.records.push_back({term.region, term.first, term.end, whole.needed, solids, NONE});
+        for (std::uint32_t node = whole.first; node != NONE; node = next[node - term.first])
+            chunk.starts.push_back(solid_at(node));
+        const auto own = chunk.starts.begin() + static_cast<std::ptrdiff_t>(before);
+        std::sort(own, chunk.starts.end());
+        chunk.starts.erase(std::unique(own, chunk.starts.end()), chunk.starts.end());
     }
-    std::sort(stack.back().leaves.begin(), stack.back().leaves.end());
-    return {{term.region, term.first, term.end, stack.back().needed, solids, NONE}, std::move(stack.back().leaves)};
+    chunk.ends.push_back(static_cast<std::uint32_t>(chunk.starts.size()));
 }
 
-/// Gives each solid its part of a table: `for_each(call)` calls call(solid, entry), in order, the same each time.
-template <class Entry, class ForEach>
-void fill_table(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::* first,
-                std::uint32_t kernel::SolidRecord::* count, std::vector<Entry>& table, const ForEach& for_each) {
-    for_each([&](std::uint32_t solid, const Entry&) { ++(solids[solid].*count); });
+/// Gives each solid as much of a table as it counts, and counts anew. Returns how large the table is.
+std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::* first,
+                      std::uint32_t kernel::SolidRecord::* count) {
     std::uint32_t total = 0;
     for (kernel::SolidRecord& solid : solids) {
         solid.*first = total;
-        total += solid.*count;
-        solid.*count = 0;
+        total += std::exchange(solid.*count, 0);
     }
-    table.resize(total);
-    for_each([&](std::uint32_t solid, const Entry& entry) {
-        table[solids[solid].*first + solids[solid].*count] = entry;
-        ++(solids[solid].*count);
+    return total;
+}
+
+/// Where the solids of large terms stand in them.
+void list_leaves(const std::vector<Term>& terms, CompiledScene& compiled) {
+    const auto for_each = [&](const auto& call) {
+        for (const Term& term : terms) {
+            if (term.end - term.first <= SCANNED_WORDS) continue;
+            for (std::uint32_t node = term.first; node < term.end; ++node)
+                if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF)
+                    call(compiled.solids[compiled.trees[node] & TREE_MASK], node);
+        }
+    };
+    for_each([](kernel::SolidRecord& solid, std::uint32_t) { ++solid.leaf_count; });
+    compiled.leaves.resize(lay_out(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count));
+    for_each([&](kernel::SolidRecord& solid, std::uint32_t node) {
+        compiled.leaves[solid.first_leaf + solid.leaf_count++] = node;
     });
 }
 
@@ -183,13 +214,15 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
         std::uint32_t first, end;
         std::uint32_t same, opposite;  // BEGINS_x of solids that the term needs there, and of those that it is without
     };
-    std::vector<Branch> rest{{first, end, BEGINS_AT_ENTRY, BEGINS_AT_EXIT}};
+    std::vector<Branch> rest;
+    rest.reserve(TREE_STACK);
+    rest.push_back({first, end, BEGINS_AT_ENTRY, BEGINS_AT_EXIT});
     while (!rest.empty()) {
         const auto [node, node_end, same, opposite] = rest.back();
         rest.pop_back();
         const std::uint32_t op = trees[node] >> TREE_SHIFT, right = trees[node] & TREE_MASK;
         if (op == OP_LEAF) {
-            solids[right].begins |= same;
+            std::atomic_ref(solids[right].begins).fetch_or(same, std::memory_order_relaxed);
         } else if (op == OP_NOT) {
             rest.push_back({node + 1, node_end, opposite, same});
         } else if (op == OP_XOR) {
@@ -205,41 +238,45 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
 }
 
 void list_terms(CompiledScene& compiled) {
-    const auto solid_at = [&](std::uint32_t node) { return compiled.trees[node] & TREE_MASK; };
     std::vector<Term> terms;
+    terms.reserve(compiled.regions.size());
     for (std::uint32_t region = 0; region < compiled.regions.size(); ++region)
         add_terms(compiled.trees, compiled.regions[region], region, terms);
-    for (const Term& term : terms) mark_begins(compiled.trees, term.first, term.end, compiled.solids);
-    std::vector<TermStarts> starts(terms.size());
-    constexpr std::size_t chunk = 1024;
-    for_chunks(terms.size(), chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
-        for (std::size_t i = first; i < last; ++i) starts[i] = starts_of(compiled.trees, terms[i]);
+
+    constexpr std::size_t chunk_size = 1024;
+    std::vector<TermChunk> chunks((terms.size() + chunk_size - 1) / chunk_size);
+    for_chunks(terms.size(), chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
+        TermChunk& chunk = chunks[number];
+        chunk.records.reserve(last - first);
+        chunk.ends.reserve(last - first);
+        for (std::size_t i = first; i < last; ++i) {
+            mark_begins(compiled.trees, terms[i].first, terms[i].end, compiled.solids);
+            add_starts(compiled.trees, terms[i], chunk);
+        }
+        for (const std::uint32_t solid : chunk.starts)
+            std::atomic_ref(compiled.solids[solid].start_count).fetch_add(1, std::memory_order_relaxed);
     });
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-        if (terms[i].end - terms[i].first <= PLAIN_WORDS) continue;
-        starts[i].record.roles = write_roles(compiled.trees, terms[i].first, terms[i].end);
+
+    const std::uint32_t count =
+        lay_out(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count);
+    reserve_cleared(compiled.starts, count);
+    compiled.starts.resize(count);
+    for (TermChunk& chunk : chunks) {
+        std::uint32_t i = 0;
+        for (std::size_t term = 0; term < chunk.records.size(); ++term) {
+            kernel::StartRecord& record = chunk.records[term];
+            const std::uint32_t words = record.end_word - record.first_word;
+            if (words > PLAIN_WORDS) record.roles = write_roles(compiled.trees, record.first_word, record.end_word);
+            compiled.has_large_terms = compiled.has_large_terms || words > SCANNED_WORDS;
+            for (; i < chunk.ends[term]; ++i) {
+                constexpr std::size_t soon = 16;
+                if (i + soon < chunk.starts.size()) fetch(&compiled.solids[chunk.starts[i + soon]]);
+                kernel::SolidRecord& solid = compiled.solids[chunk.starts[i]];
+                compiled.starts[solid.first_start + solid.start_count++] = record;
+            }
+        }
     }
-    std::vector<std::size_t> last;
-    fill_table(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count, compiled.starts,
-               [&](const auto& call) {
-                   last.assign(compiled.solids.size(), terms.size());
-                   for (std::size_t i = 0; i < terms.size(); ++i)
-                       for (const std::uint32_t node : starts[i].leaves) {
-                           const std::uint32_t solid = solid_at(node);
-                           if (last[solid] == i) continue;
-                           last[solid] = i;
-                           call(solid, starts[i].record);
-                       }
-               });
-    fill_table(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count, compiled.leaves,
-               [&](const auto& call) {
-                   for (const Term& term : terms) {
-                       if (term.end - term.first <= SCANNED_WORDS) continue;
-                       compiled.has_large_terms = true;
-                       for (std::uint32_t node = term.first; node < term.end; ++node)
-                           if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF) call(solid_at(node), node);
-                   }
-               });
+    if (compiled.has_large_terms) list_leaves(terms, compiled);
 }
 
 }  // namespace csgrt

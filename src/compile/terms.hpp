@@ -14,6 +14,7 @@ void list_terms(CompiledScene& compiled);
 std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end);
 
 /// Notes at the solids of that term where it may begin to be true: as the ray enters them, leaves them, or both.
+/// May be called by several threads at once.
 void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end,
                  std::vector<kernel::SolidRecord>& solids);
 

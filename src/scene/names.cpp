@@ -4,13 +4,25 @@
 #include <functional>
 #include <utility>
 
+#include "fetch.hpp"
 #include "parallel.hpp"
 
 namespace csgrt {
 
 namespace {
+
 constexpr std::size_t chunk = 8192;  // objects that a thread takes at once
+
+Names::Kind kind_of(const Object& object) {
+    using Kind = Names::Kind;
+    if (const auto* combination = std::get_if<Combination>(&object))
+        return !combination->region ? Kind::combination : combination->air == 0 ? Kind::region : Kind::air_region;
+    const Shape& shape = std::get<Solid>(object).shape;
+    if (std::holds_alternative<Unsupported>(shape)) return Kind::unsupported;
+    return std::holds_alternative<Pipe>(shape) || std::holds_alternative<Cline>(shape) ? Kind::composite : Kind::solid;
 }
+
+}  // namespace
 
 std::uint32_t Names::hash_of(std::string_view name) {
     const std::uint64_t hash = std::hash<std::string_view>{}(name);
@@ -27,21 +39,24 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
 
 Names::Names(const Scene& scene)
     : scene_(scene),
-      slots_(std::bit_ceil(2 * scene.objects.size() + 2), Slot{0, none}),
       first_child_(scene.objects.size() + 1),
-      is_solid_(scene.objects.size()) {
-    const std::size_t count = scene.objects.size();
+      kinds_(scene.objects.size()) {
+    const std::size_t count = scene.objects.size(), slots = std::bit_ceil(2 * count + 2);
+    reserve_cleared(slots_, slots);
+    slots_.assign(slots, Slot{0, none});
     std::vector<std::uint32_t> hashes(count);
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
             hashes[i] = hash_of(name_of(scene.objects[i]));
             const auto* combination = std::get_if<Combination>(&scene.objects[i]);
             first_child_[i] = combination == nullptr ? 0 : combination->tree.nodes.size();
-            is_solid_[i] = combination == nullptr;
+            kinds_[i] = kind_of(scene.objects[i]);
         }
     });
     std::uint64_t children = 0;
     for (std::size_t object = 0; object < count; ++object) {
+        constexpr std::size_t soon = 16;
+        if (object + soon < count) fetch(&slots_[hashes[object + soon] & (slots - 1)]);
         std::size_t i = hashes[object] & (slots_.size() - 1);
         for (; slots_[i].object != none; i = (i + 1) & (slots_.size() - 1)) {
             if (slots_[i].hash == hashes[object] &&
@@ -59,11 +74,22 @@ Names::Names(const Scene& scene)
     children_.resize(children);
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
-            const auto* combination = std::get_if<Combination>(&scene.objects[i]);
-            if (combination == nullptr) continue;
-            const std::vector<TreeNode>& nodes = combination->tree.nodes;
+            if (kinds_[i] >= Kind::solid) continue;
+            const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[i]).tree.nodes;
+            // First all hashes: the memory where their names are found is asked for meanwhile.
+            std::uint32_t* const own = children_.data() + first_child_[i];
+            for (std::size_t k = 0; k < nodes.size(); ++k) {
+                if (nodes[k].op != Operator::leaf) continue;
+                own[k] = hash_of(nodes[k].object);
+                fetch(&slots_[own[k] & (slots - 1)]);
+            }
+            for (std::size_t k = 0; k < nodes.size(); ++k) {
+                if (nodes[k].op != Operator::leaf) continue;
+                if (const Slot& slot = slots_[own[k] & (slots - 1)]; slot.object != none)
+                    fetch_whole(scene.objects[slot.object]);
+            }
             for (std::size_t k = 0; k < nodes.size(); ++k)
-                children_[first_child_[i] + k] = nodes[k].op == Operator::leaf ? find(nodes[k].object) : operation;
+                own[k] = nodes[k].op == Operator::leaf ? find(nodes[k].object, own[k]) : operation;
         }
     });
 }

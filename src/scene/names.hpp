@@ -27,7 +27,10 @@ public:
     std::span<const std::uint32_t> children(std::uint32_t object) const {
         return std::span(children_).subspan(first_child_[object], first_child_[object + 1] - first_child_[object]);
     }
-    bool is_solid(std::uint32_t object) const { return is_solid_[object] != 0; }
+    /// Told without the object, which takes far more memory.
+    enum class Kind : std::uint8_t { combination, region, air_region, solid, composite, unsupported };
+    Kind kind(std::uint32_t object) const { return kinds_[object]; }
+    bool is_solid(std::uint32_t object) const { return kinds_[object] >= Kind::solid; }
     /// Objects with names that others before them have.
     const std::vector<std::uint32_t>& taken() const { return taken_; }
     /// See csgrt::top_objects.
@@ -45,7 +48,7 @@ private:
     std::vector<Slot> slots_;  // a power of two of them, at most half of them taken
     std::vector<std::uint32_t> taken_;
     std::vector<std::uint64_t> first_child_;  // one an object, and the end: where its tree's nodes begin in `children_`
-    std::vector<std::uint8_t> is_solid_;      // one an object
+    std::vector<Kind> kinds_;                 // one an object
     std::vector<std::uint32_t> children_;
 };
 

@@ -162,6 +162,10 @@ private:
             report_cycle(object, combination().tree.nodes[node]);
         } else if (child.state == State::done) {
             add_below(parent, child);
+        } else if (child.sound && names_.is_solid(object)) {
+            child.solids = 1;  // what entering and leaving it comes to
+            child.state = State::done;
+            add_below(parent, child);
         } else {
             enter(object);
         }
@@ -210,10 +214,9 @@ private:
 
     void report_unsupported() {
         for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+            if (names_.kind(i) != Names::Kind::unsupported || objects_[i].state == State::unseen) continue;
             const auto* solid = std::get_if<Solid>(&scene_.objects[i]);
-            if (objects_[i].state == State::unseen || solid == nullptr) continue;
             const auto* shape = std::get_if<Unsupported>(&solid->shape);
-            if (shape == nullptr) continue;
             std::string message = "'" + solid->name + "' is a solid of type '" + shape->type + "', which ";
             message += shape->reason.empty() ? "csgrt does not support" : "is not complete: " + shape->reason;
             if (objects_[i].users > 0) {

@@ -192,7 +192,7 @@ TEST_CASE("one solid in one place is one instance, whoever uses it") {
     const FlatScene flat = flatten(s, {"r1", "r2", "g", "h"}, false);
     REQUIRE(flat.regions.size() == 4);
     REQUIRE(flat.instances.size() == 2);
-    CHECK(flat.instances[0].matrix == away);
+    CHECK(*flat.instances[0].matrix == away);
     CHECK(flat.regions[2].tree.nodes[0].solid == 1);  // there and back: the identity
     CHECK(flat.regions[3].tree.nodes[0].solid == 0);
 }
@@ -202,7 +202,7 @@ TEST_CASE("matrices multiply in the order of the path") {
     const Scene s = scene({ball("a"), group("g", {leg("a", moved(1, 2, 3))}), region("r", {leg("g", scale)}),
                            group("top", {leg("r", turned(std::acos(0.0)))})});
     const FlatScene flat = flatten(s, {"top"}, false);
-    const Matrix& m = flat.instances.at(0).matrix;
+    const Matrix& m = *flat.instances.at(0).matrix;
     CHECK(near(m[3], -4));
     CHECK(near(m[7], 2));
     CHECK(near(m[11], 6));

@@ -29,7 +29,7 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
     for (const Instance& instance : flat.instances) by_name[name_of(scene.objects[instance.object])] = &instance;
     for (std::size_t i = 0; i < compiled.solids.size(); ++i) {
         const Instance& instance = *by_name.at(compiled.solid_info[i].name);
-        pack_solid(shape_of(scene, flat, instance), {}, instance.matrix, compiled.solid_boxes[i], alone, planes,
+        pack_solid(shape_of(scene, flat, instance), {}, *instance.matrix, compiled.solid_boxes[i], alone, planes,
                    surfaces, shared);
     }
     CHECK((alone.reals == compiled.reals));

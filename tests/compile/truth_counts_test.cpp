@@ -134,7 +134,7 @@ TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it fin
                 all_known = false;
                 break;
             }
-            boxes.push_back(brlcad_box(shape, instance.matrix, cuts_of(flat, instance)));
+            boxes.push_back(brlcad_box(shape, *instance.matrix, cuts_of(flat, instance)));
         }
         if (!all_known) continue;
         Box box = empty_box;
