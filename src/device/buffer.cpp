@@ -72,10 +72,7 @@ void Buffer::upload(const void* source, std::size_t bytes, std::size_t offset) {
 }
 
 void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
-    // Long copies of another queue would all be made first.
-    const bool beside = device_->long_copies() > 0;
-    if (beside) device_->finish();
-    transfer_out(beside ? device_->copy_queue() : device_->queue(), target, bytes, offset, true);
+    transfer_out(device_->queue(), target, bytes, offset, true);
 }
 
 Buffer::Mapping Buffer::map(std::size_t bytes) const {

@@ -39,7 +39,6 @@ std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> c
     job->copies = std::move(copies);
     job->after = std::move(after);
     std::shared_future<void> done = job->done.get_future();
-    ++device_.long_copies();
     if (!thread_.joinable()) {
         give(job);
         while (!underway_.empty()) retire();
@@ -88,7 +87,7 @@ void CopyFeed::give(const std::shared_ptr<Job>& job) {
     } catch (...) {
         job->failure = std::current_exception();
     }
-    underway_.push_back({Event(), job, 0});  // its end
+    underway_.push_back({Event(), job, 0, true});
 }
 
 void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
@@ -99,6 +98,8 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
     const cl_event first = job->after.get();
     const cl_uint waits = first ? 1 : 0;
     cl_event event = nullptr;
+    underway_.push_back({Event(), job, bytes, false});
+    bytes_ += bytes;
     if (copy.lines == 1) {
         check(clEnqueueReadBuffer(device_.copy_queue(), job->buffer->get(), CL_FALSE, copy.begin * size, bytes, copy.target, waits,
                                   first ? &first : nullptr, &event),
@@ -110,8 +111,7 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
                                       copy.pitch * size, 0, copy.target, waits, first ? &first : nullptr, &event),
               "clEnqueueReadBufferRect (" + job->buffer->name() + ")");
     }
-    underway_.push_back({Event(event), job, bytes});
-    bytes_ += bytes;
+    underway_.back().event = Event(event);
     check(clFlush(device_.copy_queue()), "clFlush (copies)");
 }
 
@@ -120,7 +120,7 @@ void CopyFeed::retire() {
     const Underway first = std::move(underway_.front());
     underway_.pop_front();
     bytes_ -= first.bytes;
-    if (first.event) {
+    if (!first.is_end) {
         try {
             wait_for(first.event);
         } catch (...) {
@@ -128,7 +128,6 @@ void CopyFeed::retire() {
         }
         return;
     }
-    --device_.long_copies();
     if (first.job->failure) {
         first.job->done.set_exception(first.job->failure);
     } else {

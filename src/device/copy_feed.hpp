@@ -49,6 +49,7 @@ private:
         Event event;
         std::shared_ptr<Job> job;
         std::size_t bytes;
+        bool is_end;  ///< of a job, no piece
     };
     void work();
     void give(const std::shared_ptr<Job>& job);

@@ -1,7 +1,6 @@
 // One OpenCL device in use: its context, its in-order queue of kernels, and the count of its memory.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -34,11 +33,10 @@ public:
     cl_command_queue queue() const noexcept { return queue_.get(); }
     /// A second one, for what comes to the host beside kernels.
     cl_command_queue copy_queue() const noexcept { return copy_queue_.get(); }
-    std::atomic<std::size_t>& long_copies() const noexcept { return long_copies_; }  ///< that the copy queue has, or will have
 
-    /// Hands what is queued to the device without waiting.
+    /// Hands what is queued, but for copies, to the device without waiting.
     void flush() const;
-    /// Waits until everything queued is done. Throws Error (device_fault, out_of_memory) if something failed.
+    /// Waits until all that is done. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
     void finish() const;
 
     /// Bytes that all buffers together may take, and that one buffer may take. Devices misreport both, and change their
@@ -59,7 +57,6 @@ private:
     cl_device_id id_ = nullptr;
     Handle<cl_context, clReleaseContext> context_;
     Handle<cl_command_queue, clReleaseCommandQueue> queue_, copy_queue_;
-    mutable std::atomic<std::size_t> long_copies_ = 0;
     std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
     std::map<std::string, std::uint64_t> allocations_;
 };

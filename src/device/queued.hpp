@@ -52,18 +52,20 @@ public:
         buffer_ = &buffer;
         bytes_ = bytes;
     }
-    /// Has them copied. Does not wait, but the device must have finished all that is queued; until wait() the buffer must stay as
+    void forget() { buffer_ = nullptr; }
+    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that is queued; until wait() the buffer must stay as
     /// it is. If this was asked of several before one waits, their bytes come together.
     void fetch() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {
+            wait_until_done(event_);  // if nobody waited for it
             memory_.reset();
             memory_.emplace(*device_, name_, bytes_);
         }
         event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_);
     }
     /// The first `count` values of what start() has asked for, once they are there; they stay until the next fetch().
-    /// Throws Error (device_fault, out_of_memory) if it, or a command before it, failed.
+    /// Throws Error (device_fault, out_of_memory) if the copy failed; of the command that wrote them only its event tells.
     template <class T>
     std::span<const T> wait(std::size_t count) {
         if (count * sizeof(T) > bytes_) throw std::logic_error(name_ + ": more than was asked for");

@@ -38,6 +38,7 @@ bool PictureLines::has_room(const Buffer& buffer, std::uint64_t bytes) const {
 void PictureLines::look(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
                         const TileBuffers& tile, const RenderTarget& target) {
     has_looked_ = false;
+    read_.forget();
     const std::size_t extents_bytes = 2 * rows_of(frame, first, end) * sizeof(cl_uint), places_bytes = (end - first) * sizeof(cl_uint);
     if (target.planes.empty() || !has_room(places_, places_bytes)) return;
     places_.reserve(places_bytes);
@@ -47,9 +48,9 @@ void PictureLines::look(const kernel::Frame& frame, std::uint32_t first, std::ui
     has_looked_ = true;
     if (drawn == 0) return;
     extents_.queue_fill(0, extents_bytes);
-    find_shown_->launch(std::size_t{drawn} * block_rays, block_rays, cl_uint{frame.width}, cl_uint{frame.height},
-                        static_cast<cl_uint>(target.planes.size()), background_of(target), cl_uint{first}, tile.rays,
-                        tile.picture, places_, extents_);
+    shown_ = find_shown_->launch(std::size_t{drawn} * block_rays, block_rays, cl_uint{frame.width}, cl_uint{frame.height},
+                                  static_cast<cl_uint>(target.planes.size()), background_of(target), cl_uint{first}, tile.rays,
+                                  tile.picture, places_, extents_);
     read_.start(extents_, extents_bytes);
     device_.flush();
 }
@@ -60,7 +61,10 @@ bool PictureLines::put_blocks(const kernel::Frame& frame, std::uint32_t first, s
     if (!std::exchange(has_looked_, false)) return false;
     const auto planes = static_cast<cl_uint>(target.planes.size());
     std::vector<std::uint32_t> extents(2 * rows_of(frame, first, end), 0);
-    if (drawn > 0) std::ranges::copy(read_.wait<std::uint32_t>(extents.size()), extents.begin());
+    if (drawn > 0) {
+        std::ranges::copy(read_.wait<std::uint32_t>(extents.size()), extents.begin());
+        wait_for(shown_);  // the read does not tell if it failed
+    }
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, extents, target);
     std::size_t floats = 0;
     for (Rectangle& r : rectangles) {  // a copy by lines begins with one
@@ -69,8 +73,10 @@ bool PictureLines::put_blocks(const kernel::Frame& frame, std::uint32_t first, s
     }
     if (floats > 0) {
         const std::size_t bytes = floats * sizeof(float), rays = std::size_t{end - first} * block_rays;
-        const bool are_many = std::size_t{frame.width} * frame.height > 2 * rays;  // tiles: others may have more to copy
-        Lines& lines = lines_[are_many ? next_lines_++ % lines_.size() : 0];
+        const std::size_t pixels = std::size_t{frame.width} * frame.height;
+        const bool are_many = pixels > 2 * rays;  // tiles: others may have more to copy
+        const bool are_small = pixels >= 8 * rays;  // of the picture: memory for two is little of what it takes
+        Lines& lines = lines_[are_small ? next_lines_++ % lines_.size() : 0];
         if (lines.copied.valid()) std::exchange(lines.copied, {}).get();  // before they change
         if (!has_room(lines.buffer, bytes)) return false;
         lines.buffer.reserve(bytes);

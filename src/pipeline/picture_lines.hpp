@@ -30,8 +30,9 @@ public:
               const RenderTarget& target);
     /// Has the answer copied; see QueuedRead.
     void fetch() { read_.fetch(); }
-    /// Puts them into the target. Unless this is the last of the device's in a frame it may return before it is
-    /// done: until then the target must last, the tile need not. False: there is no room on the device, nothing was done.
+    /// Puts them into the target. Unless this is the last of the device's in a frame, and the picture's memory not known to it, it
+    /// may return before it is done: until then the target must last, the tile need not. False: there is no room on the device,
+    /// nothing was done.
     bool put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn,
                     const TileBuffers& tile, bool is_last, const RenderTarget& target);
     /// Returns when all is done. Throws what kept it from being done.
@@ -40,7 +41,7 @@ public:
     void abandon() noexcept;
 
     std::uint64_t held() const;  ///< bytes on the device
-    void release();  ///< gives all its memory there back
+    void release();              ///< gives all its memory there back
 
 private:
     /// Memory that the device copies to at full speed.
@@ -67,6 +68,7 @@ private:
     std::optional<Kernel> find_shown_, put_lines_;
     Buffer places_, extents_;
     QueuedRead read_;  ///< extents_
+    Event shown_;      ///< find_shown's
     bool has_looked_ = false;
     std::array<Lines, 2> lines_;
     std::size_t next_lines_ = 0;

@@ -27,7 +27,8 @@ public:
     void fetch() { lines_.fetch(); }
     /// Puts the blocks from number `first` to `end` into the target. `drawn`: the numbers of those that were drawn, which
     /// tile.rays has, too; tile.picture: their pixels, as put_blocks() of picture.hpp has them. Unless this is the last of the
-    /// device's in a frame it may return before it is done: until then the target must last, the tile need not.
+    /// device's in a frame, and the picture's memory not known to it, it may return before it is done: until then the target must
+    /// last, the tile need not.
     void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                     const std::vector<std::uint32_t>& drawn, const TileBuffers& tile, bool is_last, const RenderTarget& target);
     /// The same for single rays. It is done when this returns, as is all that came before.

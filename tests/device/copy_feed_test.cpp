@@ -55,3 +55,20 @@ TEST_CASE("copies that a device refuses are told by their future, and those behi
     CHECK_NOTHROW(made.get());
     CHECK(host == values);
 }
+
+TEST_CASE("a feed waits for what its copies come after", "[device]") {
+    Device device;
+    const Buffer buffer(device, "lines", std::vector<float>(100, 3));
+    std::vector<float> host(100, -1);
+    cl_int code = CL_SUCCESS;
+    CopyFeed feed(device);
+    const Event before(clCreateUserEvent(device.context(), &code));
+    REQUIRE(code == CL_SUCCESS);
+    REQUIRE(clRetainEvent(before.get()) == CL_SUCCESS);
+    const auto made = feed.add(buffer, {{0, host.data(), 100, 100, 1}}, Event(before.get()));
+    CHECK(made.wait_for(std::chrono::milliseconds(30)) == std::future_status::timeout);
+    CHECK(host[0] == -1);
+    REQUIRE(clSetUserEventStatus(before.get(), CL_COMPLETE) == CL_SUCCESS);
+    CHECK_NOTHROW(made.get());
+    CHECK(host == std::vector<float>(100, 3));
+}

@@ -1,6 +1,8 @@
 // The way in which pixels come from a GPU, on any device: it makes the same picture as from a processor.
 #include "pipeline/picture_reader.hpp"
 
+#include <algorithm>
+
 #include <csgrt/renderer.hpp>
 
 #include "bench/parts.hpp"
@@ -83,4 +85,77 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     pipeline.render(prepared, {0, prepared.rays}, [] { return RayRange{}; }, nothing, nullptr, counts);
     pipeline.finish();
     CHECK(renderer.render(none).channels.empty());
+}
+
+namespace {
+
+/// A pipeline that brings pixels by lines, and the memory of a picture that it draws into.
+struct ByLines {
+    explicit ByLines(const Scene& scene)
+        : renderer(scene, {}, settings), compiled(compile(scene, {})),
+          kernels(make_kernels(compiled, settings.precision, settings.quartic)), device(settings.device),
+          pipeline(device, compiled, *kernels, settings, Readback::lines) {}
+
+    /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress` interrupts it.
+    void draw(int width, int height, bool every_partition, std::uint64_t rays, const Progress& progress = nullptr) {
+        View view;
+        view.width = width;
+        view.height = height;
+        view.every_partition = every_partition;
+        Image image = renderer.render(view);
+        const std::size_t size = std::size_t(width) * std::size_t(height);
+        std::vector<std::vector<float>> pixels(image.channels.size(), std::vector<float>(size, -1));
+        std::vector<ChannelPlane> planes;
+        for (std::size_t p = 0; p < pixels.size(); ++p)
+            planes.push_back({pixels[p].data(), p == 4 ? std::numeric_limits<float>::infinity() : 0.0f});
+        std::vector<std::uint8_t> drawn((width + BLOCK - 1) / BLOCK * ((height + BLOCK - 1) / BLOCK), 1);
+        const RenderTarget target{.planes = planes, .drawn = drawn};
+        const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
+        const auto range_at = [&](std::uint64_t first) {
+            return RayRange{std::min(first, prepared.rays), std::min(first + rays, prepared.rays)};
+        };
+        PipelineCounts counts;
+        try {
+            for (RayRange range = range_at(0); range.first < range.end; range = range_at(range.end))
+                pipeline.render(prepared, range, [&] { return range_at(range.end); }, target, progress, counts);
+            pipeline.finish();
+        } catch (...) {
+            pipeline.abandon();
+            throw;
+        }
+        Image packed = image;
+        packed.channels = pixels;
+        test::require_same(packed, image);
+    }
+
+    Settings settings = test::on_device();
+    Renderer renderer;
+    CompiledScene compiled;
+    std::unique_ptr<HostKernels> kernels;
+    Device device;
+    Pipeline pipeline;
+};
+
+}  // namespace
+
+TEST_CASE("pixels by lines: parts of a frame one after the other, each asked ahead for what the next one sees") {
+    ByLines by_lines(bench::scene_of_parts(20));
+    const bool every_partition = GENERATE(false, true);
+    for (const std::uint64_t blocks : {7, 40, 1000}) by_lines.draw(203, 161, every_partition, blocks * block_rays);
+}
+
+TEST_CASE("pixels by lines: a picture of several copies, each put as it comes") {
+    ByLines by_lines(bench::scene_of_parts(20));
+    by_lines.draw(700, 500, false, 1 << 20);
+    by_lines.draw(900, 800, true, 1 << 20);
+}
+
+TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
+    ByLines by_lines(bench::scene_of_parts(20));
+    const bool every_partition = GENERATE(false, true);
+    int told = 0;
+    CHECK_THROWS_AS(by_lines.draw(90, 80, every_partition, 30 * block_rays, [&](double) { return ++told < 3; }), Error);
+    by_lines.draw(300, 250, every_partition, 200 * block_rays);
+    CHECK_THROWS_AS(by_lines.draw(300, 250, every_partition, 200 * block_rays, [](double) { return false; }), Error);
+    by_lines.draw(40, 50, every_partition, 10 * block_rays);
 }
