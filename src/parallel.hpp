@@ -71,6 +71,13 @@ void reserve_cleared(std::vector<T>& all, std::size_t count) {
     });
 }
 
+/// Makes them `count` elements, the new ones in such memory.
+template <class T>
+void resize_cleared(std::vector<T>& all, std::size_t count) {
+    reserve_cleared(all, count);
+    all.resize(count);
+}
+
 /// Makes make(first, last) of such chunks, several at once, and calls take() with what they are, one at a time and in
 /// their order, as soon as those before are taken.
 template <class Make, class Take>

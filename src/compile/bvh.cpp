@@ -72,8 +72,7 @@ private:
 Builder::Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,
                  unsigned threads)
     : first_solid_(first_solid), threads_(thread_count(threads)) {
-    reserve_cleared(boxes_, count);
-    boxes_.resize(count);
+    resize_cleared(boxes_, count);
     const double pad = bvh_padding * radius;
     std::vector<Range> ranges((count + task_size - 1) / task_size);
     for_chunks(count, task_size, threads_, [&](std::size_t first, std::size_t last, std::size_t chunk) {
@@ -220,8 +219,7 @@ Hierarchy Builder::build() {
     Hierarchy result;
     if (boxes_.empty()) return result;
     const std::size_t most = 2 * boxes_.size() - 1;
-    reserve_cleared(nodes_, most);
-    nodes_.resize(most);
+    resize_cleared(nodes_, most);
     tasks_.push_back({all_, 0});
     waiting_.push_back(0);
     unfinished_ = 1;

@@ -12,13 +12,9 @@ constexpr std::size_t chunk_size = 1024;
 Measured::Measured(const Scene& scene, const FlatScene& flat)
     : chunks_((flat.instances.size() + chunk_size - 1) / chunk_size) {
     const std::size_t count = flat.instances.size();
-    const auto make = [count](auto& one_an_instance) {
-        reserve_cleared(one_an_instance, count);
-        one_an_instance.resize(count);
-    };
-    make(boxes);
-    make(brlcad_boxes);
-    make(first_face_);
+    resize_cleared(boxes, count);
+    resize_cleared(brlcad_boxes, count);
+    resize_cleared(first_face_, count);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
         std::vector<Plane>& planes = chunks_[number];
         for (std::size_t i = first; i < last; ++i) {

@@ -101,8 +101,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
     std::size_t records = 0, refs = 0;
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
-    reserve_cleared(compiled.planes, records);
-    compiled.planes.resize(records);
+    resize_cleared(compiled.planes, records);
     for_each_chunk([&](std::size_t number) {
         std::uint32_t next = first_record[number];
         for (PackedPlane& plane : chunks[number].planes) {
@@ -144,8 +143,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         refs += of[number].size();
     }
     check_numbers(refs);
-    reserve_cleared(compiled.plane_refs, refs);
-    compiled.plane_refs.resize(refs);
+    resize_cleared(compiled.plane_refs, refs);
     for_each_chunk([&](std::size_t number) {
         std::copy(of[number].begin(), of[number].end(), compiled.plane_refs.begin() + first_ref[number]);
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)

@@ -76,13 +76,9 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         for (std::size_t i = first; i < last; ++i) number[order[i]] = static_cast<std::uint32_t>(i);
     });
 
-    const auto make = [count](auto& one_a_region) {
-        reserve_cleared(one_a_region, count);
-        one_a_region.resize(count);
-    };
-    make(compiled.regions);
-    make(compiled.region_info);
-    make(compiled.flat_trees);
+    resize_cleared(compiled.regions, count);
+    resize_cleared(compiled.region_info, count);
+    resize_cleared(compiled.flat_trees, count);
     std::vector<kernel::MaterialRecord> materials(count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {

@@ -76,13 +76,9 @@ public:
           chunks_((order.size() + PackedChunk::size - 1) / PackedChunk::size) {}
 
     void pack() {
-        const auto make = [this](auto& one_a_solid) {
-            reserve_cleared(one_a_solid, order_.size());
-            one_a_solid.resize(order_.size());
-        };
-        make(compiled_.solids);
-        make(compiled_.solid_info);
-        make(compiled_.solid_boxes);
+        resize_cleared(compiled_.solids, order_.size());
+        resize_cleared(compiled_.solid_info, order_.size());
+        resize_cleared(compiled_.solid_boxes, order_.size());
         for_each_chunk([this](std::size_t number) {
             const std::size_t first = number * PackedChunk::size;
             const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
@@ -219,8 +215,7 @@ private:
             }
             check_numbers(std::max(next, compiled_.words.size()));
         }
-        reserve_cleared(reals, next);
-        reals.resize(next);
+        resize_cleared(reals, next);
         for_each_chunk([&](std::size_t number) {
             const PackedChunk& chunk = chunks_[number];
             for (std::size_t i = 0; i < chunk.parts.size(); ++i) {

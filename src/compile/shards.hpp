@@ -101,8 +101,7 @@ public:
         for (std::uint32_t shard = 0; shard < count; ++shard)
             if (size_of(shard) > 0) by_size_.push_back(static_cast<std::uint16_t>(shard));
         std::stable_sort(by_size_.begin(), by_size_.end(), [this](auto a, auto b) { return size_of(a) > size_of(b); });
-        reserve_cleared(members_, first_[count]);
-        members_.resize(first_[count]);
+        resize_cleared(members_, first_[count]);
         for_chunks(chunks_.size(), group_size, 0, [&](std::size_t first, std::size_t last, std::size_t group) {
             for (std::size_t c = first; c < last; ++c)
                 for (std::uint32_t i = 0; i < chunks_[c].of_.size(); ++i)

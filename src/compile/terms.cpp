@@ -259,8 +259,7 @@ void list_terms(CompiledScene& compiled) {
 
     const std::uint32_t count =
         lay_out(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count);
-    reserve_cleared(compiled.starts, count);
-    compiled.starts.resize(count);
+    resize_cleared(compiled.starts, count);
     for (TermChunk& chunk : chunks) {
         std::uint32_t i = 0;
         for (std::size_t term = 0; term < chunk.records.size(); ++term) {

@@ -95,24 +95,23 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
     const std::size_t bytes = copy.columns * copy.lines * size;
     if (bytes == 0) return;
     while (bytes_ > 0 && bytes_ + bytes > most_underway) retire();
-    const cl_event first = job->after.get();
-    const cl_uint waits = first ? 1 : 0;
-    cl_event event = nullptr;
     underway_.push_back({Event(), job, bytes, false});
     bytes_ += bytes;
-    if (copy.lines == 1) {
-        check(clEnqueueReadBuffer(device_.copy_queue(), job->buffer->get(), CL_FALSE, copy.begin * size, bytes, copy.target, waits,
-                                  first ? &first : nullptr, &event),
-              "clEnqueueReadBuffer (" + job->buffer->name() + ")");
-    } else {
-        const std::size_t from[3] = {copy.begin % copy.columns * size, copy.begin / copy.columns, 0}, to[3] = {0, 0, 0},
-                          region[3] = {copy.columns * size, copy.lines, 1};
-        check(clEnqueueReadBufferRect(device_.copy_queue(), job->buffer->get(), CL_FALSE, from, to, region, copy.columns * size, 0,
-                                      copy.pitch * size, 0, copy.target, waits, first ? &first : nullptr, &event),
-              "clEnqueueReadBufferRect (" + job->buffer->name() + ")");
-    }
-    underway_.back().event = Event(event);
-    check(clFlush(device_.copy_queue()), "clFlush (copies)");
+    underway_.back().event = copy.lines == 1 ? job->buffer->copy_read(copy.target, bytes, copy.begin * size, job->after)
+                                             : queue_lines(*job, copy);
+    device_.flush_copies();
+}
+
+Event CopyFeed::queue_lines(const Job& job, const Copy& copy) const {
+    constexpr std::size_t size = sizeof(float);
+    const std::size_t from[3] = {copy.begin % copy.columns * size, copy.begin / copy.columns, 0}, to[3] = {0, 0, 0},
+                      region[3] = {copy.columns * size, copy.lines, 1};
+    const cl_event first = job.after.get();
+    cl_event event = nullptr;
+    check(clEnqueueReadBufferRect(device_.copy_queue(), job.buffer->get(), CL_FALSE, from, to, region, copy.columns * size, 0,
+                                  copy.pitch * size, 0, copy.target, first ? 1 : 0, first ? &first : nullptr, &event),
+          "clEnqueueReadBufferRect (" + job.buffer->name() + ")");
+    return Event(event);
 }
 
 /// Waits for the first of those underway.

@@ -54,6 +54,7 @@ private:
     void work();
     void give(const std::shared_ptr<Job>& job);
     void give_piece(const std::shared_ptr<Job>& job, const Copy& copy);
+    Event queue_lines(const Job& job, const Copy& copy) const;
     void retire();
 
     const Device& device_;

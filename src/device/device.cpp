@@ -48,6 +48,10 @@ void Device::flush() const {
     check(clFlush(queue()), "clFlush");
 }
 
+void Device::flush_copies() const {
+    check(clFlush(copy_queue()), "clFlush (copies)");
+}
+
 void Device::finish() const {
     check(clFinish(queue()), "clFinish");
 }

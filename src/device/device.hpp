@@ -36,6 +36,7 @@ public:
 
     /// Hands what is queued, but for copies, to the device without waiting.
     void flush() const;
+    void flush_copies() const;  ///< the same of copies
     /// Waits until all that is done. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
     void finish() const;
 

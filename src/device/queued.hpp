@@ -22,8 +22,8 @@ public:
     QueuedUpload& operator=(const QueuedUpload&) = delete;
     ~QueuedUpload() { wait_until_done(event_); }
 
-    /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the upload before
-    /// this one only. Throws Error (device_fault, out_of_memory), also for that.
+    /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the upload
+    /// before this one only. Throws Error (device_fault, out_of_memory), also for that.
     template <class T>
     void start(Buffer& buffer, std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -53,8 +53,8 @@ public:
         bytes_ = bytes;
     }
     void forget() { buffer_ = nullptr; }
-    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that is queued; until wait() the buffer must stay as
-    /// it is. If this was asked of several before one waits, their bytes come together.
+    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that is queued; until wait() the
+    /// buffer must stay as it is. If this was asked of several before one waits, their bytes come together.
     void fetch() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {

@@ -39,7 +39,8 @@ void PictureLines::look(const kernel::Frame& frame, std::uint32_t first, std::ui
                         const TileBuffers& tile, const RenderTarget& target) {
     has_looked_ = false;
     read_.forget();
-    const std::size_t extents_bytes = 2 * rows_of(frame, first, end) * sizeof(cl_uint), places_bytes = (end - first) * sizeof(cl_uint);
+    const std::size_t extents_bytes = 2 * rows_of(frame, first, end) * sizeof(cl_uint);
+    const std::size_t places_bytes = (end - first) * sizeof(cl_uint);
     if (target.planes.empty() || !has_room(places_, places_bytes)) return;
     places_.reserve(places_bytes);
     if (!has_room(extents_, extents_bytes)) return;
@@ -154,7 +155,7 @@ void PictureLines::copy_while_waiting(const kernel::Frame& frame, std::span<cons
     const auto copy = [&] {
         pieces.events.push_back(lines.copy_read(values + begin, (end - begin) * sizeof(float), begin * sizeof(float), put));
         begin = end;
-        check(clFlush(device_.copy_queue()), "clFlush (copies)");
+        device_.flush_copies();
     };
     for (const Rectangle& r : rectangles)
         for (std::size_t p = 0; p < target.planes.size(); ++p) {

@@ -24,8 +24,8 @@ public:
     void build();
     bool is_built() const { return copies_.has_value(); }
 
-    /// Asks which of the blocks from number `first` to `end` show something, once it is built. `drawn` of them were drawn: tile.rays
-    /// has their numbers, tile.picture their pixels, as put_blocks() has them. Does not wait.
+    /// Asks which of the blocks from number `first` to `end` show something, once it is built. `drawn` of them were drawn:
+    /// tile.rays has their numbers, tile.picture their pixels, as put_blocks() has them. Does not wait.
     void look(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::uint32_t drawn, const TileBuffers& tile,
               const RenderTarget& target);
     /// Has the answer copied; see QueuedRead.

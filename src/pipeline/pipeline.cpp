@@ -184,20 +184,21 @@ bool Pipeline::draw(kernel::Frame frame, const Tile& tile, const Tile& next, con
     frame.first_ray = tile.first;
     const bool sees = list_rays(frame, seen, block_rays, target.planes.size() * sizeof(float),
                                 frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes);
-    if (sees && frame.every_partition) {
+    const bool short_way = sees && !frame.every_partition;
+    if (short_way) {
+        first_hits().launch(buffers_, tile_, frame.ray_count);
+    } else if (sees) {
         if (!run_exactly(frame.ray_count, Rays::blocks, counts)) return false;
         exact().add_tallies(frame.ray_count, counts);
-    } else if (sees) {
-        first_hits().launch(buffers_, tile_, frame.ray_count);
     }
     look_ahead(frame, next);
     reader_.look(frame, first, end, seen.size(), tile_, target);
     device_.finish();
-    if (sees && !frame.every_partition) first_hits().fetch();
+    if (short_way) first_hits().fetch();
     reader_.fetch();
     if (ahead_) cull(frame).fetch();
     std::vector<std::uint32_t> overflown;
-    if (sees && !frame.every_partition) overflown = first_hits().overflown(counts);
+    if (short_way) overflown = first_hits().overflown(counts);
     reader_.put_blocks(frame, first, end, seen, tile_, next.rays == 0, target);
     draw_exactly(frame, overflown, target, counts);
     return true;
