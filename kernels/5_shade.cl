@@ -8,14 +8,15 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
                     __global const LightRecord* lights, __global const RayCount* offsets,
                     __global const End* ends, __global const PartitionNode* nodes,
                     __global const u32* firsts, __global RayTally* tallies, __global const RayRecord* rays,
-                    __global float* picture) {
-    u32 id = (u32)get_global_id(0), seen = NONE;
+                    __global TileTally* tally_of_tile, __global float* picture) {
+    u32 id = (u32)get_global_id(0), seen = NONE, number;
     RayTally tally;
     Pixel pixel;
     pixel_position at;
     ray3 r;
     if (id >= frame->ray_count) return;
-    at = pixel_of(number_of(frame, rays, id), frame->width, frame->height);
+    number = number_of(frame, rays, id);
+    at = pixel_of(number, frame->width, frame->height);
     if (!at.inside) return;
     r = geometry_ray(frame, camera_ray(frame, at));
     tally = tallies[id];
@@ -44,5 +45,6 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     pixel.partitions = tally.partitions;
     pixel.overlap = tally.overlaps;
     tallies[id].overlaps = tally.overlaps;
-    put_pixel(frame, picture + id, pixel);
+    put_pixel(frame, picture + place_of(frame, at, id), pixel);
+    if (pixel.depth) mark_shown(frame, tally_of_tile, number);  // a ray that meets no segment sees nothing
 }

@@ -20,6 +20,23 @@ FN pixel_position pixel_of(u32 ray, u32 width, u32 height) {
     return p;
 }
 
+// Where a pixel stands in whole lines of the picture's, from the top of a tile's first block on.
+FN size_t place_in_lines(u32 width, u32 first_ray, pixel_position at) {
+    const u32 top = first_ray / (BLOCK * BLOCK) / ((width + BLOCK - 1u) / BLOCK) * BLOCK;
+    return (size_t)(at.y - top) * width + at.x;
+}
+
+// Where a ray's pixel stands in a plane of the tile's picture, and how many floats that has.
+FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
+    return f->lines ? place_in_lines(f->width, f->first_ray, at) : id;
+}
+FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * f->width : f->ray_count; }
+
+// Tells the host that the ray's block shows something. Any number of them may say so at once.
+FN void mark_shown(GLOBAL const Frame* f, GLOBAL TileTally* tally, u32 number) {
+    if (f->lines) ((GLOBAL unsigned char*)(tally + 1))[(number - f->first_ray) / (BLOCK * BLOCK)] = 1;
+}
+
 FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) { return view_ray(f, (wide)at.x, (wide)at.y); }
 
 FN wide3 frame_center(GLOBAL const Frame* f) { return make_wide3(f->center[0], f->center[1], f->center[2]); }

@@ -1,5 +1,7 @@
 // The first hits of a picture, without segments in memory: from a block's nodes to its pixels. How a work-item goes that way
 // comes before this: a ray at a time (first_hits_ray.h), or on processors eight (first_hits_packet.h).
+//
+// Of a tile whose pixels come by lines the host need not know how many blocks see anything: items of the others end at once.
 
 __kernel void first_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                          __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
@@ -7,14 +9,14 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
                          __global const RegionRecord* regions, __global const StartRecord* starts, __global const u32* leaves,
                          __global const u32* trees, __global const MaterialRecord* materials,
                          __global const LightRecord* lights, __global const BlockNode* block_nodes,
-                         __global const RayRecord* rays,
-                         __global u32* overflows, __global u32* overflown, __global float* picture) {
+                         __global const RayRecord* rays, __global TileTally* tally, __global u32* overflown,
+                         __global float* picture) {
     const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
-    u32 number, lost;
+    u32 number, lost, sees;
     pixel_position at;
     scene_tables s;
     appearance_tables a;
-    if (id >= frame->ray_count) return;
+    if (id >= frame->ray_count || (frame->lines && id / (BLOCK * BLOCK) >= tally->seen)) return;
     number = number_of(frame, rays, id);
     at = pixel_of(number, frame->width, frame->height);
     if (!at.inside) return;
@@ -26,6 +28,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     a.regions = regions;
     a.materials = materials;
     a.lights = lights;
-    lost = draw(frame, s, a, list_of(frame, block_nodes, number), at, picture + id);
-    for (; lost; lost &= lost - 1u) overflown[atomic_inc(overflows)] = number + lowest(lost);
+    lost = draw(frame, s, a, list_of(frame, block_nodes, number), at, picture + place_of(frame, at, id), &sees);
+    if (sees) mark_shown(frame, tally, number);
+    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&tally->overflows)] = number + lowest(lost);
 }

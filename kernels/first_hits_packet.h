@@ -25,15 +25,16 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
 }
 
 // Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the rays
-// that had no room, of which nothing is drawn.
+// that had no room, of which nothing is drawn. `seen`: those that see anything.
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const BlockNode* list, pixel_position first,
-            __global float* picture) {
+            __global float* picture, u32* seen) {
     u32 within = 0, hit, lost, k;
     packet p;
     start_packet(&p, f, first);
     for (k = 0; k < PACKET; ++k) within |= first.x + k < f->width ? 1u << k : 0;
     hit = first_hits_of(&p, f, s, list, within, &lost);
     put_pixels(&p, f, s.g, a, picture, within & ~lost, hit);
+    *seen = hit;
     return lost;
 }
 

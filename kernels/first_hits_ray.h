@@ -7,13 +7,14 @@
 
 #define RAYS_AN_ITEM 1u
 
-// Draws the pixel at `at`, whose channels begin at `picture`. 1: the ray had no room, nothing is drawn.
+// Draws the pixel at `at`, whose channels begin at `picture`. 1: the ray had no room, nothing is drawn. `seen`: does it see anything?
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const BlockNode* list, pixel_position at,
-            __global float* picture) {
+            __global float* picture, u32* seen) {
     const ray3 r = geometry_ray(f, camera_ray(f, at));
     front w;
     const u32 found = first_hit(f, s, list, r, &w);
     Pixel pixel;
+    *seen = found == RAY_HITS;
     if (found == RAY_OVERFLOWS) return 1;
     if (found == RAY_HITS) {
         const MaterialRecord material = a.materials[a.regions[w.region].material];

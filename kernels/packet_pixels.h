@@ -115,7 +115,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
 // The pixels of `which`; those of `hit` see something.
 FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture, u32 which,
                    u32 hit) {
-    const size_t size = f->ray_count;
+    const size_t size = plane_of(f);
     const int8 seen = of_bits(hit);
     packet_view v;
     u32 k;

@@ -68,7 +68,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
 
 // Stores what a ray sees, channel by channel; `picture`: its place in the tile's first.
 FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, Pixel p) {
-    const size_t size = f->ray_count;
+    const size_t size = plane_of(f);
     u32 i;
     if (f->channels & CHANNEL_COLOR)
         for (i = 0; i < 4; ++i, picture += size) *picture = p.rgba[i];

@@ -8,13 +8,12 @@
 #define PURE __attribute__((overloadable, const))
 
 PURE size_t get_global_id(uint dimension);
-PURE size_t get_global_size(uint dimension);
 PURE size_t get_group_id(uint dimension);
 PURE size_t get_local_id(uint dimension);
 OVERLOADED __attribute__((convergent)) void barrier(cl_mem_fence_flags flags);
 OVERLOADED uint atomic_inc(volatile __global uint* counter);
-OVERLOADED uint atomic_max(volatile __global uint* largest, uint value);
-OVERLOADED uint atomic_or(volatile __local uint* bits, uint more);
+OVERLOADED uint atomic_inc(volatile __local uint* counter);
+OVERLOADED uint atomic_add(volatile __global uint* sum, uint more);
 PURE uint clz(uint bits);
 PURE uint add_sat(uint a, uint b);
 PURE int any(long8 truths);

@@ -176,6 +176,7 @@ typedef struct {
     u32 every_partition;   // 0: only the first hits are wanted
     u32 picked;            // 1: the tile's rays are those whose numbers are listed; 0: the blocks of them are
     u32 channels;          // of the picture: CHANNEL_x bits
+    u32 lines;             // that the tile's picture has, see place_of() in camera.h; 0: a float of each ray
 } Frame;
 
 // A float for each plane of a picture.
@@ -198,6 +199,16 @@ typedef struct {
     float entry;  // no ray of the block comes there before this distance, less that of the scene's center
 } BlockNode;
 #define LISTED_NODES 32u  // entries of a block
+
+// Of a tile whose pixels come by lines: its blocks by what they cost, and what the host wants to know when it is drawn. Behind it
+// stands a byte for each of the tile's blocks: not 0 if a ray of it sees something.
+#define COST_CLASSES 16u
+typedef struct {
+    u32 blocks[COST_CLASSES];  // how many of each class; of class 0 those that see nothing
+    u32 listed[COST_CLASSES];  // of them, those that have their place in the list
+    u32 seen;                  // blocks of all classes but 0
+    u32 overflows;             // first hits: rays without room, in no order
+} TileTally;
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
@@ -246,7 +257,7 @@ typedef struct {
     u32 depth, partitions, overlap;
 } Pixel;
 
-// The picture: for each channel, in this order, a float of each of the tile's rays.
+// The picture: for each channel, in this order, a plane: a float of each of the tile's rays, or of each pixel of its lines.
 #define CHANNEL_COLOR 1u     // R G B A
 #define CHANNEL_DISTANCE 2u  // Z
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z

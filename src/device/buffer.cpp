@@ -22,16 +22,16 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     return *this;
 }
 
-Buffer::~Buffer() {
-    if (size_) device_->release(name_, size_);
+Buffer::~Buffer() { release(); }
+
+void Buffer::release() noexcept {
+    memory_ = {};
+    if (size_) device_->release(name_, std::exchange(size_, 0));
 }
 
 void Buffer::reserve(std::size_t bytes) {
     if (bytes <= size_) return;
-    if (size_) {
-        memory_ = {};
-        device_->release(name_, std::exchange(size_, 0));
-    }
+    release();
     device_->claim(name_, bytes);
     cl_int code = CL_SUCCESS;
     memory_ = Handle<cl_mem, clReleaseMemObject>(
@@ -56,13 +56,11 @@ Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t off
     return Event(event);
 }
 
-Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait,
-                           const Event& after) const {
+Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait) const {
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    const cl_event first = after.get();
-    check(clEnqueueReadBuffer(queue, get(), wait, offset, bytes, target, first ? 1 : 0, first ? &first : nullptr, &event),
+    check(clEnqueueReadBuffer(queue, get(), wait, offset, bytes, target, 0, nullptr, &event),
           "clEnqueueReadBuffer (" + name_ + ")");
     return Event(event);
 }
@@ -96,15 +94,15 @@ Event Buffer::queue_read(void* target, std::size_t bytes, std::size_t offset) co
     return transfer_out(device_->queue(), target, bytes, offset, false);
 }
 
-Event Buffer::copy_read(void* target, std::size_t bytes, std::size_t offset, const Event& after) const {
-    return transfer_out(device_->copy_queue(), target, bytes, offset, false, after);
+Event Buffer::copy_read(void* target, std::size_t bytes, std::size_t offset) const {
+    return transfer_out(device_->copy_queue(), target, bytes, offset, false);
 }
 
-Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes) {
-    check_range(bytes, 0);
+Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes, std::size_t offset) {
+    check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    check(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, 0, bytes, 0, nullptr, &event),
+    check(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, offset, bytes, 0, nullptr, &event),
           "clEnqueueFillBuffer (" + name_ + ")");
     return Event(event);
 }

@@ -37,6 +37,7 @@ public:
 
     /// Makes the buffer at least `bytes` large; what it held is lost if it had to grow.
     void reserve(std::size_t bytes);
+    void release() noexcept;  ///< gives the memory back
 
     /// Copies host -> device and back, and waits for it. `offset` is a place in the buffer, in bytes.
     void upload(const void* source, std::size_t bytes, std::size_t offset = 0);
@@ -62,15 +63,14 @@ public:
     /// The same without the wait: the host's memory must stay as it is until the event, or the queue, is done.
     Event queue_upload(const void* source, std::size_t bytes, std::size_t offset = 0);
     Event queue_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
-    /// By the device's copy queue, once `after`, of a queue that was flushed, is done: what else is queued is not waited for.
-    Event copy_read(void* target, std::size_t bytes, std::size_t offset = 0, const Event& after = {}) const;
-    /// Fills the first `bytes` (a multiple of 4) with copies of `value`.
-    Event queue_fill(std::uint32_t value, std::size_t bytes);
+    /// By the device's copy queue, which does not wait for what else is queued.
+    Event copy_read(void* target, std::size_t bytes, std::size_t offset = 0) const;
+    /// Fills `bytes` (a multiple of 4) with copies of `value`.
+    Event queue_fill(std::uint32_t value, std::size_t bytes, std::size_t offset = 0);
 
 private:
     Event transfer_in(const void* source, std::size_t bytes, std::size_t offset, bool wait);
-    Event transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait,
-                       const Event& after = {}) const;
+    Event transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait) const;
     void check_range(std::size_t bytes, std::size_t offset) const;
 
     Device* device_;

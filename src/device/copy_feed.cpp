@@ -12,6 +12,10 @@ namespace {
 constexpr std::size_t piece = std::size_t{1} << 20;  // floats
 constexpr std::size_t most_underway = 2 * piece * sizeof(float);
 
+std::size_t end_of(const CopyFeed::Copy& copy) {
+    return copy.begin + (copy.planes - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
+}
+
 }  // namespace
 
 CopyFeed::CopyFeed(const Device& device) : device_(device) {
@@ -30,14 +34,13 @@ CopyFeed::~CopyFeed() {
     if (thread_.joinable()) thread_.join();
 }
 
-std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies, Event after) {
+std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies) {
     for (const Copy& copy : copies)
-        if ((copy.begin + copy.columns * copy.lines) * sizeof(float) > buffer.size())
+        if (copy.size() > 0 && (end_of(copy) * sizeof(float) > buffer.size()))
             throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
     const auto job = std::make_shared<Job>();
     job->buffer = &buffer;
     job->copies = std::move(copies);
-    job->after = std::move(after);
     std::shared_future<void> done = job->done.get_future();
     if (!thread_.joinable()) {
         give(job);
@@ -73,44 +76,53 @@ void CopyFeed::work() {
 
 void CopyFeed::give(const std::shared_ptr<Job>& job) {
     try {
-        for (const Copy& copy : job->copies) {
-            if (copy.lines == 1) {
-                for (std::size_t x = 0; x < copy.columns; x += piece)
-                    give_piece(job, {copy.begin + x, copy.target + x, copy.pitch, std::min(piece, copy.columns - x), 1});
-                continue;
-            }
-            const std::size_t lines = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, copy.columns));
-            for (std::size_t y = 0; y < copy.lines; y += lines)
-                give_piece(job, {copy.begin + y * copy.columns, copy.target + y * copy.pitch, copy.pitch, copy.columns,
-                                 std::min(lines, copy.lines - y)});
-        }
+        for (const Copy& copy : job->copies) give_pieces(job, copy);
     } catch (...) {
         job->failure = std::current_exception();
     }
     underway_.push_back({Event(), job, 0, true});
 }
 
+// Several planes, or part of one, or of a line.
+void CopyFeed::give_pieces(const std::shared_ptr<Job>& job, const Copy& copy) {
+    const std::size_t plane = copy.columns * copy.lines;
+    const std::size_t planes = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, plane));
+    const std::size_t lines = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, copy.columns));
+    for (std::size_t p = 0; p < copy.planes; p += planes)
+        for (std::size_t y = 0; y < copy.lines; y += planes > 1 ? copy.lines : lines)
+            for (std::size_t x = 0; x < copy.columns; x += lines > 1 ? copy.columns : piece) {
+                Copy part = copy;
+                part.planes = std::min(planes, copy.planes - p);
+                part.lines = planes > 1 ? copy.lines : std::min(lines, copy.lines - y);
+                part.columns = lines > 1 ? copy.columns : std::min(piece, copy.columns - x);
+                part.begin += p * copy.slice + y * copy.pitch + x;
+                part.target += p * copy.target_slice + y * copy.target_pitch + x;
+                give_piece(job, part);
+            }
+}
+
 void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
-    constexpr std::size_t size = sizeof(float);
-    const std::size_t bytes = copy.columns * copy.lines * size;
-    if (bytes == 0) return;
+    const std::size_t bytes = copy.size() * sizeof(float);
     while (bytes_ > 0 && bytes_ + bytes > most_underway) retire();
     underway_.push_back({Event(), job, bytes, false});
     bytes_ += bytes;
-    underway_.back().event = copy.lines == 1 ? job->buffer->copy_read(copy.target, bytes, copy.begin * size, job->after)
-                                             : queue_lines(*job, copy);
+    underway_.back().event = queue(device_, *job->buffer, copy);
     device_.flush_copies();
 }
 
-Event CopyFeed::queue_lines(const Job& job, const Copy& copy) const {
+Event CopyFeed::queue(const Device& device, const Buffer& buffer, const Copy& copy) {
     constexpr std::size_t size = sizeof(float);
-    const std::size_t from[3] = {copy.begin % copy.columns * size, copy.begin / copy.columns, 0}, to[3] = {0, 0, 0},
-                      region[3] = {copy.columns * size, copy.lines, 1};
-    const cl_event first = job.after.get();
+    if (copy.size() == 0) return {};
+    if (copy.lines == 1 && copy.planes == 1)
+        return buffer.copy_read(copy.target, copy.columns * size, copy.begin * size);
+    const std::size_t from[3] = {copy.begin % copy.pitch * size, copy.begin / copy.pitch, 0}, to[3] = {0, 0, 0},
+                      region[3] = {copy.columns * size, copy.lines, copy.planes};
+    const bool is_flat = copy.planes == 1;
     cl_event event = nullptr;
-    check(clEnqueueReadBufferRect(device_.copy_queue(), job.buffer->get(), CL_FALSE, from, to, region, copy.columns * size, 0,
-                                  copy.pitch * size, 0, copy.target, first ? 1 : 0, first ? &first : nullptr, &event),
-          "clEnqueueReadBufferRect (" + job.buffer->name() + ")");
+    check(clEnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region, copy.pitch * size,
+                                  is_flat ? 0 : copy.slice * size, copy.target_pitch * size, is_flat ? 0 : copy.target_slice * size,
+                                  copy.target, 0, nullptr, &event),
+          "clEnqueueReadBufferRect (" + buffer.name() + ")");
     return Event(event);
 }
 

@@ -18,13 +18,19 @@ namespace csgrt {
 
 class CopyFeed {
 public:
-    /// Lines of `columns` floats, which stand side by side in a buffer from float `begin` on, a multiple of `columns` if they
-    /// are several; at the target they begin `pitch` floats apart.
+    /// Floats that stand apart as those of a picture's rectangle do: of each plane its lines, one beneath the other.
     struct Copy {
-        std::size_t begin;
-        float* target;
-        std::size_t pitch, columns, lines;
+        std::size_t columns, lines = 1, planes = 1;
+        /// Where the first one is in the buffer; from line to line, and from plane to plane, of which the first divides the second.
+        std::size_t begin = 0, pitch = 0, slice = 0;
+        float* target = nullptr;  ///< and on the host
+        std::size_t target_pitch = 0, target_slice = 0;
+
+        std::size_t size() const { return columns * lines * planes; }
     };
+
+    /// Queues the copy, as one command of the device's copy queue. Does not wait.
+    static Event queue(const Device& device, const Buffer& buffer, const Copy& copy);
 
     explicit CopyFeed(const Device& device);
     CopyFeed(const CopyFeed&) = delete;
@@ -32,15 +38,14 @@ public:
     /// Makes all copies first.
     ~CopyFeed();
 
-    /// Makes the copies when those given before are made and `after`, of a queue that was flushed, is done. Does not wait: until
-    /// the future is ready the buffer must stay as it is. That throws Error (device_fault, out_of_memory) if a copy failed.
-    std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies, Event after);
+    /// Makes the copies when those given before are made. Does not wait: until the future is ready the buffer must stay as it is, and
+    /// what wrote it must be done already. The future throws Error (device_fault, out_of_memory) if a copy failed.
+    std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies);
 
 private:
     struct Job {
         const Buffer* buffer;
         std::vector<Copy> copies;
-        Event after;
         std::promise<void> done;
         std::exception_ptr failure;
     };
@@ -53,8 +58,8 @@ private:
     };
     void work();
     void give(const std::shared_ptr<Job>& job);
+    void give_pieces(const std::shared_ptr<Job>& job, const Copy& copy);
     void give_piece(const std::shared_ptr<Job>& job, const Copy& copy);
-    Event queue_lines(const Job& job, const Copy& copy) const;
     void retire();
 
     const Device& device_;

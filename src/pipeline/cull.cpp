@@ -25,32 +25,26 @@ void for_each_seen(std::span<const unsigned char> costs, const Work& work) {
 }  // namespace
 
 Cull::Cull(Device& device, const Program& program)
-    : device_(device),
-      cull_blocks_(program.kernel("cull_blocks")),
-      costs_(device, "blocks"),
-      lists_(device, "blocks' nodes"),
-      read_(device, "blocks") {}
+    : device_(device), cull_blocks_(program.kernel("cull_blocks")), costs_(device, "blocks"), lists_(device, "blocks' nodes") {}
 
 // Measured (bench/NOTES.md): a GPU finds a ray's candidates as soon without.
 bool Cull::is_listed(const kernel::Frame& frame) const {
     return !frame.every_partition || device_.info().type == "cpu";
 }
 
-void Cull::launch(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame) {
-    count_ = frame.ray_count / block_rays;
-    first_ = frame.first_ray / block_rays;
-    costs_.reserve(count_);
+Event Cull::launch(const SceneBuffers& scene, const Buffer& on_device, const kernel::Frame& frame) {
+    const std::uint32_t blocks = frame.ray_count / block_rays;
+    costs_.reserve(blocks);
     if (is_listed(frame))
-        lists_.reserve(std::size_t{count_} * LISTED_NODES * sizeof(kernel::BlockNode));
+        lists_.reserve(std::size_t{blocks} * LISTED_NODES * sizeof(kernel::BlockNode));
     else
-        lists_ = Buffer(device_, lists_.name());
-    event_ = cull_blocks_.launch(count_, uneven_group(device_), tile.frame, scene.nodes, costs_, lists_);
-    read_.start(costs_, count_);
+        lists_.release();
+    return cull_blocks_.launch(blocks, uneven_group(device_), on_device, scene.nodes, costs_, lists_);
 }
 
-std::vector<std::uint32_t> Cull::seen(PipelineCounts& counts) {
-    const std::span<const unsigned char> costs = read_.wait<unsigned char>(count_);
-    counts.cull_blocks += milliseconds(event_);
+std::vector<std::uint32_t> Cull::seen(const Tile& tile) const {
+    const Buffer::Mapping mapping = costs_.map(tile.blocks());
+    const std::span costs(static_cast<const unsigned char*>(mapping.data()), tile.blocks());
 
     // A device that ends with the longest waits for it.
     std::array<std::uint32_t, 256> begin{};  // where those of a cost stand, by 255 - cost
@@ -58,7 +52,7 @@ std::vector<std::uint32_t> Cull::seen(PipelineCounts& counts) {
     std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
     std::vector<std::uint32_t> seen(begin[255]);
     for_each_seen(costs, [&](std::size_t i, unsigned char cost) {
-        seen[begin[255 - cost]++] = first_ + static_cast<std::uint32_t>(i);
+        seen[begin[255 - cost]++] = tile.first_block() + static_cast<std::uint32_t>(i);
     });
     return seen;
 }

@@ -1,7 +1,6 @@
 // Which blocks of a tile can see anything, and what: kernel 0.
 #pragma once
 
-#include "device/queued.hpp"
 #include "pipeline/stages.hpp"
 
 namespace csgrt {
@@ -11,14 +10,13 @@ public:
     /// `program` holds the kernel.
     Cull(Device& device, const Program& program);
 
-    /// Asks what the frame's tile's blocks may see; does not wait. Lists every block's nodes, too: by distance if only first
-    /// hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).
-    void launch(const SceneBuffers& scene, const TileBuffers& tile, const kernel::Frame& frame);
-    /// Has the answer copied; see QueuedRead.
-    void fetch() { read_.fetch(); }
-    /// The numbers of those of the tile's blocks that may see a solid, those that cost most first. Waits.
-    std::vector<std::uint32_t> seen(PipelineCounts& counts);
+    /// Looks what the frame's tile's blocks may see; does not wait. `on_device`: the frame's buffer. Lists every block's nodes, too: by
+    /// distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).
+    Event launch(const SceneBuffers& scene, const Buffer& on_device, const kernel::Frame& frame);
+    /// The numbers of those of the frame's tile's blocks that may see a solid, those that cost most first. Waits.
+    std::vector<std::uint32_t> seen(const Tile& tile) const;
 
+    const Buffer& costs() const { return costs_; }  ///< a byte a block
     const Buffer& lists() const { return lists_; }  ///< empty: there are none
     static constexpr std::uint64_t list_bytes = LISTED_NODES * sizeof(kernel::BlockNode) / block_rays;  ///< a ray
     std::uint64_t held() const { return costs_.size() + lists_.size(); }
@@ -28,11 +26,7 @@ private:
 
     Device& device_;
     Kernel cull_blocks_;
-    Buffer costs_;  // a byte a block
-    Buffer lists_;
-    QueuedRead read_;  // costs_
-    Event event_;
-    std::uint32_t first_ = 0, count_ = 0;  // blocks
+    Buffer costs_, lists_;
 };
 
 }  // namespace csgrt

@@ -40,7 +40,8 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       candidates_(device, "candidates"),
       found_(device, "candidates' segments, then partitions"),
       ends_(device, "segments"),
-      bits_(device, "partitions' bits") {}
+      bits_(device, "partitions' bits"),
+      read_(device, "sums of tallies") {}
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = cull_.held();
@@ -50,34 +51,32 @@ std::uint64_t Exact::held() const {
 }
 
 void Exact::release() {
-    for (Buffer* buffer : {&places_, &counts_, &firsts_}) *buffer = Buffer(device_, buffer->name());
+    for (Buffer* buffer : {&places_, &counts_, &firsts_}) buffer->release();
     release_counted();
 }
 
 void Exact::release_counted() {
-    for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_})
-        *buffer = Buffer(device_, buffer->name());
+    for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_}) buffer->release();
 }
 
-Event Exact::sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level) {
+void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level) {
     while (sums_.size() <= level) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
     sums_[level]->reserve(blocks_of(size) * sizeof(kernel::RayCount));
-    return scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries, *sums_[level], size);
+    timed_.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries,
+                                                                   *sums_[level], size));
 }
 
-kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times) {
-    const kernel::RayCount zero{};
-    counts.upload(&zero, sizeof zero, rays * sizeof zero);
+kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays) {
+    counts.queue_fill(0, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
     std::vector<std::uint32_t> sizes{rays + 1};
     while (sizes.back() > 1) sizes.push_back(blocks_of(sizes.back()));
-    std::vector<Event> events;
     const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) events.push_back(sum_blocks(level(i), sizes[i], i + 1));
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) sum_blocks(level(i), sizes[i], i + 1);
     for (std::size_t i = sizes.size() - 1; i-- > 1;)
-        events.push_back(scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
+        timed_.emplace_back(&PipelineCounts::scan,
+                            scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
     kernel::RayCount total;
     counts.read(&total, sizeof total, rays * sizeof total);
-    for (const Event& event : events) times.scan += milliseconds(event);
     return total;
 }
 
@@ -99,12 +98,18 @@ bool Exact::reserve_counted(const kernel::RayCount& total) {
     }
     if (needed > device_.available() + held) return false;
     if (grown > device_.available() + held)
-        for (const auto& [buffer, bytes] : wanted) *buffer = Buffer(device_, buffer->name());
+        for (const auto& [buffer, bytes] : wanted) buffer->release();
     for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
     return true;
 }
 
-bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
+bool Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
+    if (try_weave(scene, tile, rays, kind, counts)) return true;
+    release_counted();  // a smaller tile is not to be kept from its own
+    return false;
+}
+
+bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
     const SceneBuffers& s = scene;
     const std::size_t entries = std::size_t{rays} + 1;
     if (entries * ray_bytes > device_.available()) release_counted();
@@ -112,10 +117,13 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     counts_.reserve(entries * sizeof(kernel::RayCount));
     firsts_.reserve(rays * sizeof(cl_uint));
 
+    timed_.clear();
+    const auto run = [&](double PipelineCounts::*time, Event event) { timed_.emplace_back(time, std::move(event)); };
     const Buffer none(device_, "nothing");
     const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
-    const Event find = find_candidates_.launch(rays, uneven_group(device_), tile.frame, s.nodes, lists, tile.rays, places_, none);
-    const cl_uint candidates = scan(places_, rays, counts).segments;
+    const std::size_t group = uneven_group(device_);
+    run(&PipelineCounts::count_hits, find_candidates_.launch(rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
+    const cl_uint candidates = scan(places_, rays).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
     const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
     if (candidates == COUNT_MAX || found_bytes > device_.max_buffer()) return false;
@@ -126,36 +134,25 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
         candidates_.reserve(candidate_bytes);
         found_.reserve(found_bytes);
     }
-    const Event list = find_candidates_.launch(candidates ? rays : 0, uneven_group(device_), tile.frame, s.nodes, lists, tile.rays,
-                                               places_, candidates_);
-    const Event count =
-        count_hits_.launch(candidates, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                           s.inner_nodes, tile.rays, candidates, candidates_, found_);
-    const Event sum = sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_);
-    total_ = scan(counts_, rays, counts);
-    for (const Event* event : {&find, &list, &count, &sum}) counts.count_hits += milliseconds(*event);
+    run(&PipelineCounts::count_hits,
+        find_candidates_.launch(candidates ? rays : 0, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
+    run(&PipelineCounts::count_hits, count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                                        s.inner_nodes, tile.rays, candidates, candidates_, found_));
+    run(&PipelineCounts::count_hits, sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_));
+    total_ = scan(counts_, rays);
     if (!reserve_counted(total_)) return false;
 
     const cl_uint nodes = 2 * total_.segments;
-    const Event store = store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals,
-                                               s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays, candidates,
-                                               candidates_, found_, counts_, ends_, bits_);
+    run(&PipelineCounts::store_segments,
+        store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                               s.inner_nodes, tile.rays, candidates, candidates_, found_, counts_, ends_, bits_));
     Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
-    const Event order = order_ends_.launch(nodes, work_group, counts_, ends_, bits_, nodes, partitions);
-    const Event weave =
-        weave_.launch(rays, uneven_group(device_), tile.frame, tile.rays, counts_, ends_, partitions, bits_, firsts_, places_);
-    const Event evaluate = evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_,
-                                            bits_, nodes, partitions);
-    Event shade;
-    if (kind != Rays::listed)
-        shade = shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                              s.inner_nodes, s.regions, s.materials, tile.lights, counts_, ends_, partitions, firsts_,
-                              places_, tile.rays, tile.picture);
-    counts.store_segments += milliseconds(store);
-    counts.weave += milliseconds(order) + milliseconds(weave);
-    counts.evaluate += milliseconds(evaluate);
-    counts.shade += milliseconds(shade);
+    run(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, counts_, ends_, bits_, nodes, partitions));
+    run(&PipelineCounts::weave,
+        weave_.launch(rays, group, tile.frame, tile.rays, counts_, ends_, partitions, bits_, firsts_, places_));
+    run(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_, bits_,
+                                                    nodes, partitions));
 
     counts.segments += total_.segments;
     counts.hits += nodes;
@@ -166,14 +163,30 @@ bool Exact::run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays
     return true;
 }
 
+void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {
+    timed_.emplace_back(&PipelineCounts::shade,
+                        shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
+                                      s.regions, s.materials, s.lights, counts_, ends_, found_, firsts_, places_, tile.rays,
+                                      tile.tally, picture));
+}
+
 // The first step of a scan leaves the sums of blocks, so that not every ray's tally has to come to the host.
-void Exact::add_tallies(std::uint32_t rays, PipelineCounts& counts) {
-    const Event sum = sum_blocks(places_, rays, 1);
-    for (const kernel::RayTally& tally : sums_[1]->read<kernel::RayTally>(blocks_of(rays))) {
+void Exact::tally(std::uint32_t rays) {
+    sum_blocks(places_, rays, 1);
+    tallies_ = blocks_of(rays);
+    read_.start(*sums_[1], tallies_ * sizeof(kernel::RayTally));
+}
+
+void Exact::add_tallies(PipelineCounts& counts) {
+    for (const kernel::RayTally& tally : read_.wait<kernel::RayTally>(tallies_)) {
         counts.partitions_used += tally.partitions;
         counts.overlaps += tally.overlaps;
     }
-    counts.scan += milliseconds(sum);
+}
+
+void Exact::add_times(PipelineCounts& counts) {
+    for (const auto& [time, kernel] : timed_) counts.*time += milliseconds(kernel);
+    timed_.clear();
 }
 
 std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "compile/claims.hpp"
+#include "device/queued.hpp"
 #include "pipeline/cull.hpp"
 
 namespace csgrt {
@@ -20,14 +22,22 @@ class Exact {
 public:
     Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
-    /// Runs the kernels on the tile's rays, the last one only if they are a picture's. Waits. False: the rays' segments
-    /// do not fit the memory; nothing is lost then, the caller takes a smaller tile.
-    bool run(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
+    /// Runs the kernels on the tile's rays, but the last one; waits for counts only. False: the rays' segments do not fit the
+    /// memory; nothing is lost then, the caller takes a smaller tile.
+    bool weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
+    /// Runs the last one on the last run's rays, if they are a picture's. Does not wait.
+    void shade(const SceneBuffers& scene, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
+    /// Has the last run's partitions and overlaps summed, once it is shaded. Does not wait.
+    void tally(std::uint32_t rays);
+    /// Has the sums copied; see QueuedRead.
+    void fetch() { read_.fetch(); }
+    /// Adds them up. Waits.
+    void add_tallies(PipelineCounts& counts);
+    /// Adds up how long the last run's kernels took. Waits for them. Once a run.
+    void add_times(PipelineCounts& counts);
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
     std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays) const;
-    /// Adds up the last run's partitions and overlaps. Once a run.
-    void add_tallies(std::uint32_t rays, PipelineCounts& counts);
 
     Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes =
@@ -36,10 +46,11 @@ public:
     void release();  ///< gives all its memory back: another use of the budget wants it
 
 private:
+    bool try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
     /// A step of the scan: of each block of entries the sum, in sums_[level]; the entries become sums within their block.
-    Event sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level);
+    void sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level);
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set; returns the last sum.
-    kernel::RayCount scan(Buffer& counts, std::uint32_t rays, PipelineCounts& times);
+    kernel::RayCount scan(Buffer& counts, std::uint32_t rays);
     void release_counted();  // what holds segments and partitions
     bool reserve_counted(const kernel::RayCount& total);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends,
@@ -63,6 +74,9 @@ private:
     Buffer ends_, bits_;
     std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
     kernel::RayCount total_{};                              // of the last run
+    std::vector<std::pair<double PipelineCounts::*, Event>> timed_;  // the last run's kernels
+    std::size_t tallies_ = 0;  // sums, that the host reads
+    QueuedRead read_;
 };
 
 }  // namespace csgrt

@@ -31,30 +31,13 @@ FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings&
                defines(scene, settings, rays_an_item_ != 1),
                settings.precision != Precision::double_),
       cull_(device, program_),
-      first_hits_(program_.kernel("first_hits")),
-      overflows_(device, "count of rays without room", sizeof(cl_uint)),
-      overflown_(device, "rays without room"),
-      read_(device, "count of rays without room") {}
+      first_hits_(program_.kernel("first_hits")) {}
 
-void FirstHits::release() {
-    overflown_ = Buffer(device_, overflown_.name());
-}
-
-void FirstHits::launch(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays) {
-    const SceneBuffers& s = scene;
-    overflown_.reserve(std::size_t{rays} * sizeof(cl_uint));
-    overflows_.queue_fill(0, sizeof(cl_uint));
-    event_ =
-        first_hits_.launch(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes,
-                           s.plane_refs, s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials,
-                           tile.lights, cull_.lists(), tile.rays, overflows_, overflown_, tile.picture);
-    read_.start(overflows_, sizeof(cl_uint));
-}
-
-std::vector<std::uint32_t> FirstHits::overflown(PipelineCounts& counts) {
-    const std::uint32_t overflows = read_.wait<cl_uint>(1).front();
-    counts.first_hits += milliseconds(event_);
-    return overflown_.read<std::uint32_t>(overflows);
+Event FirstHits::launch(const SceneBuffers& s, TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {
+    tile.overflown.reserve(rays * ray_bytes);
+    return first_hits_.launch(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
+                              s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials, s.lights,
+                              cull_.lists(), tile.rays, tile.tally, tile.overflown, picture);
 }
 
 }  // namespace csgrt

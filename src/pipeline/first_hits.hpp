@@ -9,17 +9,12 @@ class FirstHits {
 public:
     FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the tile's rays, whose blocks were culled before. Does not wait.
-    void launch(const SceneBuffers& scene, TileBuffers& tile, std::uint32_t rays);
-    /// Has what overflown() tells copied; see QueuedRead.
-    void fetch() { read_.fetch(); }
-    /// The numbers of those that hold more segments at a time than the kernel does: their pixels are not drawn. Waits.
-    std::vector<std::uint32_t> overflown(PipelineCounts& counts);
+    /// Draws the tile's rays, whose blocks were culled before, into `picture`. Does not wait.
+    Event launch(const SceneBuffers& scene, TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
 
     Cull& cull() { return cull_; }
-    static constexpr std::uint64_t ray_bytes = 4;  ///< that it needs itself, at most
-    std::uint64_t held() const { return overflown_.size() + cull_.held(); }
-    void release();  ///< gives all its memory back
+    static constexpr std::uint64_t ray_bytes = 4;  ///< of the tile's buffers that it needs itself, at most
+    std::uint64_t held() const { return cull_.held(); }
 
 private:
     Device& device_;
@@ -27,9 +22,6 @@ private:
     Program program_;
     Cull cull_;
     Kernel first_hits_;
-    Buffer overflows_, overflown_;
-    QueuedRead read_;  // overflows_
-    Event event_;
 };
 
 }  // namespace csgrt

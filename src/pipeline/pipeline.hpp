@@ -1,17 +1,18 @@
 // CompiledScene + Frame -> a picture or partitions. Rays go through in tiles (ranges of their numbers): of a picture the
 // blocks that see nothing are left out (cull.hpp), the rays of the others go the short way (first_hits.hpp) if only the first
-// hits are wanted, else the exact way (exact.hpp), and their pixels into the image (picture.hpp). A tile that does not fit
-// the memory is halved, down to one ray. Nothing a ray computes depends on its tile.
+// hits are wanted, else the exact way (exact.hpp), and their pixels into the image: in place (picture.hpp), or by lines from a GPU,
+// which is given the next tile before the host looks at this one (by_lines.hpp). A tile that does not fit the memory is halved, down
+// to one ray. Nothing a ray computes depends on its tile.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "pipeline/by_lines.hpp"
 #include "pipeline/exact.hpp"
 #include "pipeline/first_hits.hpp"
 #include "pipeline/picture.hpp"
-#include "pipeline/picture_reader.hpp"
 
 namespace csgrt {
 
@@ -21,6 +22,9 @@ struct RayRange {
 };
 
 using Progress = std::function<bool(double)>;
+
+/// How pixels come to the host: by lines, as from a GPU, also from another device?
+enum class Readback { by_device, lines };
 
 class Pipeline {
 public:
@@ -47,28 +51,25 @@ public:
     double build_ms() const { return build_ms_; }  ///< spent on compiling kernels so far
 
 private:
-    /// Rays [first, first + rays) of a picture, of a list or of those picked.
-    struct Tile {
-        std::uint32_t first = 0, rays = 0;
-        bool operator==(const Tile&) const = default;
-    };
     Exact& exact();
     FirstHits& first_hits();
+    Cull& cull(const kernel::Frame& frame);
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
     void make_room(std::uint64_t bytes, std::uint64_t reused);
     void for_each_tile(RayRange range, std::uint64_t size, std::uint64_t unit, const Progress& progress,
                        const std::function<bool(const Tile&)>& work);
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
-    Cull& cull(const kernel::Frame& frame);
-    std::vector<std::uint32_t> seen_blocks(const kernel::Frame& frame, const Tile& tile, PipelineCounts& counts);
-    static std::uint64_t cull_bytes(const Tile& tile) { return tile.rays * (Cull::list_bytes + 1); }
-    void ask_for_seen(kernel::Frame frame, const Tile& tile);
-    void look_ahead(const kernel::Frame& frame, const Tile& tile);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
-    bool run_exactly(std::uint32_t rays, Rays kind, PipelineCounts& counts);
-    bool draw(kernel::Frame frame, const Tile& tile, const Tile& next, const RenderTarget& target, PipelineCounts& counts);
+    bool weave(const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
+
+    std::uint64_t bytes_a_ray(const kernel::Frame& frame, const RenderTarget& target) const;
+    bool draw_in_place(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts);
+    bool draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
+                       PipelineCounts& counts);
+    bool queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but);
+    bool weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
 
@@ -77,12 +78,12 @@ private:
     const HostKernels& kernels_;
     Settings settings_;
     SceneBuffers buffers_;
-    TileBuffers tile_;
+    TileBuffers tile_;  ///< in place, single rays, and lists
+    Buffer picture_;    ///< its pixels, ray by ray
+    QueuedUpload frame_upload_, list_upload_;
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
-    PictureReader reader_;
-    std::optional<Tile> ahead_;  ///< the tile that was asked for what it sees
-    QueuedUpload frame_upload_, list_upload_;
+    std::optional<ByLines> by_lines_;
     double build_ms_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "pipeline/rectangles.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "kernel_geometry.hpp"
 
@@ -16,6 +17,21 @@ struct Extent {
     std::size_t begin = 0, end = 0;
     bool is_empty() const { return begin == end; }
 };
+
+/// Of bytes, the first of which is block `left`'s, from the first to the last that is not 0: eight at a time.
+Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t left) {
+    const auto are_zero = [&](std::size_t at) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, bytes.data() + at, sizeof eight);
+        return eight == 0;
+    };
+    std::size_t begin = 0, end = bytes.size();
+    while (begin + 8 <= end && are_zero(begin)) begin += 8;
+    while (begin < end && bytes[begin] == 0) ++begin;
+    while (end >= begin + 8 && are_zero(end - 8)) end -= 8;
+    while (end > begin && bytes[end - 1] == 0) --end;
+    return begin == end ? Extent{} : Extent{left + begin, left + end};
+}
 
 /// A tile's rows of blocks, the first and the last of which may be parts of rows.
 class Rows {
@@ -36,20 +52,14 @@ public:
         const Extent all = whole(row);
         return target.drawn.subspan((first_row_ + row) * across_ + all.begin, all.end - all.begin);
     }
-    /// What find_shown says of a row.
-    Extent shown(std::size_t row, std::span<const std::uint32_t> extents) const {
-        return extents[2 * row] == 0 ? Extent{} : Extent{across_ - extents[2 * row + 1], extents[2 * row]};
+    /// What is shown of a row.
+    Extent shown(std::size_t row, std::span<const std::uint8_t> shown) const {
+        const Extent all = whole(row);
+        const std::size_t start = (first_row_ + row) * across_;
+        return extent_of(shown.subspan(start + all.begin - first_, all.end - all.begin), all.begin);
     }
     /// What the target holds of a row.
-    Extent held(std::size_t row, const RenderTarget& target) const {
-        const auto bytes = drawn(row, target);
-        const auto is_held = [](std::uint8_t byte) { return byte != 0; };
-        const auto begin = std::find_if(bytes.begin(), bytes.end(), is_held);
-        if (begin == bytes.end()) return {};
-        const auto end = std::find_if(bytes.rbegin(), bytes.rend(), is_held).base();
-        const std::size_t left = whole(row).begin;
-        return {left + static_cast<std::size_t>(begin - bytes.begin()), left + static_cast<std::size_t>(end - bytes.begin())};
-    }
+    Extent held(std::size_t row, const RenderTarget& target) const { return extent_of(drawn(row, target), whole(row).begin); }
     /// A row's pixels; where there is room beside them, whole lines of the processor's cache, the first of which begins with
     /// pixel `aligned`: a GPU writes those a quarter sooner (bench/NOTES.md).
     Rectangle pixels(std::size_t row, Extent extent, std::size_t aligned) const {
@@ -79,13 +89,13 @@ private:
 }  // namespace
 
 std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
-                                       std::span<const std::uint32_t> extents, const RenderTarget& target) {
+                                       std::span<const std::uint8_t> shown_blocks, const RenderTarget& target) {
     constexpr std::size_t copy_cost = 1 << 14;  // pixels; of what is copied the bus, not the begin of copies, is what takes time
     const Rows rows(frame, first, end);
     const std::size_t behind = reinterpret_cast<std::uintptr_t>(target.planes.front().pixels) % 64 / sizeof(float);
     std::vector<Rectangle> found;
     for (std::size_t row = 0; row < rows.count(); ++row) {
-        const Extent shown = rows.shown(row, extents), held = rows.held(row, target);
+        const Extent shown = rows.shown(row, shown_blocks), held = rows.held(row, target);
         if (shown.is_empty() && held.is_empty()) continue;
         const Extent both = shown.is_empty()  ? held
                             : held.is_empty() ? shown
@@ -103,19 +113,9 @@ std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t
     return found;
 }
 
-void mark_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> extents,
-                const RenderTarget& target) {
-    const Rows rows(frame, first, end);
-    for (std::size_t row = 0; row < rows.count(); ++row) {
-        const auto bytes = rows.drawn(row, target);
-        const Extent shown = rows.shown(row, extents);
-        std::fill(bytes.begin(), bytes.end(), std::uint8_t{0});
-        if (shown.is_empty()) continue;
-        const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(shown.begin - rows.whole(row).begin);
-        std::fill_n(begin, shown.end - shown.begin, std::uint8_t{1});
-    }
+Rectangle lines_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end) {
+    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK;
+    return {0, frame.width, first / across * BLOCK, std::min<std::size_t>(frame.height, (end + across - 1) / across * BLOCK)};
 }
-
-std::size_t rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end) { return Rows(frame, first, end).count(); }
 
 }  // namespace csgrt

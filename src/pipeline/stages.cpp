@@ -14,7 +14,8 @@ SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const Hos
       regions(device, "regions", scene.regions),
       trees(device, "trees", scene.trees),
       materials(device, "materials", scene.materials),
-      nodes(device, "bounding volumes", tables.nodes) {}
+      nodes(device, "bounding volumes", tables.nodes),
+      lights(device, "lights") {}
 
 std::size_t uneven_group(const Device& device) { return device.info().type == "cpu" ? 1 : work_group; }
 

@@ -19,17 +19,34 @@ std::size_t uneven_group(const Device& device);
 
 inline constexpr std::uint32_t block_rays = BLOCK * BLOCK;
 
-/// The compiled scene on the device.
+/// The compiled scene on the device, and the frame's lights.
 struct SceneBuffers {
     SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables);
-    Buffer solids, reals, planes, plane_refs, words, inner_nodes, starts, leaves, regions, trees, materials, nodes;
+    Buffer solids, reals, planes, plane_refs, words, inner_nodes, starts, leaves, regions, trees, materials, nodes, lights;
 };
 
-/// One tile on the device: its frame; its rays, or their numbers, or those of their blocks; and what is seen along them.
+/// Rays [first, first + rays) of a picture, of a list or of those picked.
+struct Tile {
+    std::uint32_t first = 0, rays = 0;
+    bool operator==(const Tile&) const = default;
+
+    std::uint32_t first_block() const { return first / block_rays; }
+    std::uint32_t end_block() const { return (first + rays) / block_rays; }
+    std::uint32_t blocks() const { return rays / block_rays; }
+};
+
+/// One tile on the device: its frame; its rays, or their numbers, or those of their blocks; what the host wants to know of them
+/// (kernel::TileTally); and, of first hits, the numbers of the rays that had no room.
 struct TileBuffers {
     explicit TileBuffers(Device& device)
-        : frame(device, "frame"), lights(device, "lights"), rays(device, "rays"), picture(device, "picture") {}
-    Buffer frame, lights, rays, picture;
+        : frame(device, "frame"), rays(device, "rays"), tally(device, "tally"), overflown(device, "rays without room") {}
+    Buffer frame, rays, tally, overflown;
+
+    std::uint64_t held() const { return rays.size() + tally.size() + overflown.size(); }
+    /// Gives that back.
+    void release() {
+        for (Buffer* buffer : {&rays, &tally, &overflown}) buffer->release();
+    }
 };
 
 /// Figures of one frame, summed over its tiles. Times in milliseconds, the device's own; `build`: the host's.

@@ -18,16 +18,30 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
     const Buffer other(device, "other", std::vector<float>{1, 2, 3});
 
     constexpr std::size_t columns = 1024, lines = 3000, pitch = 1100;
-    std::vector<float> whole(values.size()), apart(pitch * lines, -1), wide(values.size(), -1), few(50, -1);
+    std::vector<float> whole(values.size()), apart(pitch * lines, -1), wide(values.size(), -1), few(50, -1),
+        planes(2 * 2600 * 1000, -1), small(18, -1);
     std::vector<std::shared_future<void>> done;
     {
         CopyFeed feed(device);
-        done.push_back(feed.add(buffer, {{0, whole.data(), values.size(), values.size(), 1}}, Event()));
+        done.push_back(feed.add(buffer, {{.columns = values.size(), .target = whole.data()}}));
         CHECK(other.read<float>(3) == std::vector<float>{1, 2, 3});
-        done.push_back(feed.add(buffer, {{7 * columns, apart.data(), pitch, columns, lines}, {10, few.data(), 50, 50, 1}}, Event()));
-        done.push_back(feed.add(buffer, {}, Event()));
-        done.push_back(feed.add(buffer, {{0, wide.data(), 2'500'000, 2'500'000, 2}, {0, nullptr, 9, 9, 0}, {0, nullptr, 0, 0, 5}}, Event()));
-        CHECK_THROWS_AS(feed.add(buffer, {{4'999'999, whole.data(), 5, 5, 1}}, Event()), std::logic_error);
+        done.push_back(feed.add(buffer, {{.columns = columns, .lines = lines, .begin = 7 * columns, .pitch = columns,
+                                          .target = apart.data(), .target_pitch = pitch},
+                                         {.columns = 50, .begin = 10, .target = few.data()}}));
+        done.push_back(feed.add(buffer, {}));
+        done.push_back(feed.add(buffer, {{.columns = 2'500'000, .lines = 2, .pitch = 2'500'000, .target = wide.data(),
+                                          .target_pitch = 2'500'000},
+                                         {.columns = 9, .lines = 0},
+                                         {.columns = 0, .lines = 5}}));
+        // Of two planes of 1,000 lines a part, line by line side by side; and of three small ones, one behind the other.
+        done.push_back(feed.add(buffer, {{.columns = 1300, .lines = 1000, .planes = 2, .begin = 17, .pitch = 2000, .slice = 2'000'000,
+                                          .target = planes.data(), .target_pitch = 2600, .target_slice = 2'600'000}}));
+        done.push_back(feed.add(buffer, {{.columns = 3, .lines = 2, .planes = 3, .begin = 1, .pitch = 10, .slice = 30,
+                                          .target = small.data(), .target_pitch = 3, .target_slice = 6}}));
+        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 5, .begin = 4'999'999, .target = whole.data()}}), std::logic_error);
+        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 2, .lines = 2, .planes = 2, .pitch = 2, .slice = 5'000'000,
+                                           .target = whole.data(), .target_pitch = 2, .target_slice = 4}}),
+                        std::logic_error);
         done[0].get();
         CHECK(whole == values);
     }
@@ -39,6 +53,15 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
     for (std::size_t y = 0; y < lines; ++y)
         for (std::size_t x = 0; x < columns; ++x) expected[y * pitch + x] = values[(7 + y) * columns + x];
     CHECK(apart == expected);
+    std::vector<float> of_planes(planes.size(), -1), of_small;
+    for (std::size_t p = 0; p < 2; ++p)
+        for (std::size_t y = 0; y < 1000; ++y)
+            for (std::size_t x = 0; x < 1300; ++x) of_planes[(p * 1000 + y) * 2600 + x] = values[17 + (p * 1000 + y) * 2000 + x];
+    CHECK(planes == of_planes);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t y = 0; y < 2; ++y)
+            for (std::size_t x = 0; x < 3; ++x) of_small.push_back(values[1 + 30 * p + 10 * y + x]);
+    CHECK(small == of_small);
     CHECK(few == std::vector<float>(values.begin() + 10, values.begin() + 60));
     CHECK(std::vector<float>(wide.begin(), wide.begin() + 5'000'000) == std::vector<float>(values.begin(), values.begin() + 5'000'000));
 }
@@ -49,26 +72,9 @@ TEST_CASE("copies that a device refuses are told by their future, and those behi
     const Buffer buffer(device, "lines", values);
     std::vector<float> host(100);
     CopyFeed feed(device);
-    const auto refused = feed.add(buffer, {{0, nullptr, 100, 100, 1}}, Event());  // to nowhere
-    const auto made = feed.add(buffer, {{0, host.data(), 100, 100, 1}}, Event());
+    const auto refused = feed.add(buffer, {{.columns = 100}});  // to nowhere
+    const auto made = feed.add(buffer, {{.columns = 100, .target = host.data()}});
     CHECK_THROWS_AS(refused.get(), Error);
     CHECK_NOTHROW(made.get());
     CHECK(host == values);
-}
-
-TEST_CASE("a feed waits for what its copies come after", "[device]") {
-    Device device;
-    const Buffer buffer(device, "lines", std::vector<float>(100, 3));
-    std::vector<float> host(100, -1);
-    cl_int code = CL_SUCCESS;
-    CopyFeed feed(device);
-    const Event before(clCreateUserEvent(device.context(), &code));
-    REQUIRE(code == CL_SUCCESS);
-    REQUIRE(clRetainEvent(before.get()) == CL_SUCCESS);
-    const auto made = feed.add(buffer, {{0, host.data(), 100, 100, 1}}, Event(before.get()));
-    CHECK(made.wait_for(std::chrono::milliseconds(30)) == std::future_status::timeout);
-    CHECK(host[0] == -1);
-    REQUIRE(clSetUserEventStatus(before.get(), CL_COMPLETE) == CL_SUCCESS);
-    CHECK_NOTHROW(made.get());
-    CHECK(host == std::vector<float>(100, 3));
 }

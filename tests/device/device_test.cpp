@@ -247,7 +247,9 @@ TEST_CASE("memory made known to a device keeps what it holds, takes copies by li
     {
         const Buffer buffer(*device, "lines", values);
         CopyFeed copies(*device);
-        copies.add(buffer, {{30 * 10, host.data() + 5 * 100 + 11, 100, 30, 20}}, Event()).get();
+        copies.add(buffer, {{.columns = 30, .lines = 20, .begin = 30 * 10, .pitch = 30, .target = host.data() + 5 * 100 + 11,
+                             .target_pitch = 100}})
+            .get();
     }
     std::vector<float> expected(host.size(), 7);
     for (std::size_t y = 0; y < 20; ++y)

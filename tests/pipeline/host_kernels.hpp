@@ -170,7 +170,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
                   prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.firsts.data(), run.tallies.data(), listed,
-                  values.data());
+                  nullptr, values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
     }
@@ -187,7 +187,7 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     std::vector<u32> numbers = all_numbers(frame);
     const HostBlocks blocks = cull(scene, frame);
     std::vector<u32> overflown(frame.ray_count);
-    u32 overflows = 0;
+    TileTally tally{};
     std::erase_if(numbers, [&](u32 number) { return !blocks.costs[number / (BLOCK * BLOCK)]; });
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
@@ -195,9 +195,9 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
                    scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.lists.data(),
-                   reinterpret_cast<const RayRecord*>(numbers.data()), &overflows, overflown.data(), values.data());
+                   reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
-    return overflows;
+    return tally.overflows;
 }
 
 }  // namespace csgrt::test

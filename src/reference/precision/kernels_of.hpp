@@ -138,6 +138,7 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.every_partition = f.every_partition;
     frame.picked = f.picked;
     frame.channels = f.channels;
+    frame.lines = f.lines;
     return frame;
 }
 decltype(auto) convert_frame(const kernel::Frame& f) { return convert_frame(f, static_cast<const k::Frame*>(nullptr)); }

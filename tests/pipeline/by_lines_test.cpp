@@ -1,5 +1,5 @@
 // The way in which pixels come from a GPU, on any device: it makes the same picture as from a processor.
-#include "pipeline/picture_reader.hpp"
+#include "pipeline/pipeline.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,6 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "pipeline/known_picture.hpp"
-#include "pipeline/pipeline.hpp"
 #include "pipeline/same_answers.hpp"
 #include "reference/reference.hpp"
 
@@ -90,8 +89,8 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
 namespace {
 
 /// A pipeline that brings pixels by lines, and the memory of a picture that it draws into.
-struct ByLines {
-    explicit ByLines(const Scene& scene)
+struct Lined {
+    explicit Lined(const Scene& scene)
         : renderer(scene, {}, settings), compiled(compile(scene, {})),
           kernels(make_kernels(compiled, settings.precision, settings.quartic)), device(settings.device),
           pipeline(device, compiled, *kernels, settings, Readback::lines) {}
@@ -139,23 +138,23 @@ struct ByLines {
 }  // namespace
 
 TEST_CASE("pixels by lines: parts of a frame one after the other, each asked ahead for what the next one sees") {
-    ByLines by_lines(bench::scene_of_parts(20));
+    Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
-    for (const std::uint64_t blocks : {7, 40, 1000}) by_lines.draw(203, 161, every_partition, blocks * block_rays);
+    for (const std::uint64_t blocks : {7, 40, 1000}) lined.draw(203, 161, every_partition, blocks * block_rays);
 }
 
 TEST_CASE("pixels by lines: a picture of several copies, each put as it comes") {
-    ByLines by_lines(bench::scene_of_parts(20));
-    by_lines.draw(700, 500, false, 1 << 20);
-    by_lines.draw(900, 800, true, 1 << 20);
+    Lined lined(bench::scene_of_parts(20));
+    lined.draw(700, 500, false, 1 << 20);
+    lined.draw(900, 800, true, 1 << 20);
 }
 
 TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
-    ByLines by_lines(bench::scene_of_parts(20));
+    Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     int told = 0;
-    CHECK_THROWS_AS(by_lines.draw(90, 80, every_partition, 30 * block_rays, [&](double) { return ++told < 3; }), Error);
-    by_lines.draw(300, 250, every_partition, 200 * block_rays);
-    CHECK_THROWS_AS(by_lines.draw(300, 250, every_partition, 200 * block_rays, [](double) { return false; }), Error);
-    by_lines.draw(40, 50, every_partition, 10 * block_rays);
+    CHECK_THROWS_AS(lined.draw(90, 80, every_partition, 30 * block_rays, [&](double) { return ++told < 3; }), Error);
+    lined.draw(300, 250, every_partition, 200 * block_rays);
+    CHECK_THROWS_AS(lined.draw(300, 250, every_partition, 200 * block_rays, [](double) { return false; }), Error);
+    lined.draw(40, 50, every_partition, 10 * block_rays);
 }

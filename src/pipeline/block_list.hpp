@@ -1,0 +1,35 @@
+// Of a tile whose pixels come by lines: which blocks see anything, listed on the device, and the background of the others
+// (kernels/picture_blocks.cl).
+#pragma once
+
+#include <optional>
+
+#include "pipeline/cull.hpp"
+
+namespace csgrt {
+
+class BlockList {
+public:
+    explicit BlockList(Device& device) : device_(device) {}
+
+    /// Compiles its kernels.
+    void build();
+    bool is_built() const { return list_.has_value(); }
+
+    /// Lists the tile's blocks in buffers.rays, those that cost most first, and counts them in buffers.tally, whose other values and
+    /// bytes become 0. Does not wait.
+    void list(const Tile& tile, const Buffer& costs, TileBuffers& buffers);
+    /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
+    void put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
+                        std::uint32_t planes, const Buffer& picture);
+
+    /// Of the tile's buffers: what list() reserves.
+    static std::uint64_t tally_bytes(const Tile& tile) { return sizeof(kernel::TileTally) + (tile.blocks() + 3) / 4 * 4; }
+
+private:
+    Device& device_;
+    std::optional<Program> program_;
+    std::optional<Kernel> count_, list_, put_background_;
+};
+
+}  // namespace csgrt

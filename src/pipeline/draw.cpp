@@ -1,0 +1,206 @@
+// A tile of a picture, each of the ways: in place, by lines, ray by ray.
+#include <algorithm>
+#include <utility>
+
+#include "kernel_geometry.hpp"
+#include "pipeline/pipeline.hpp"
+
+namespace csgrt {
+namespace {
+
+std::uint64_t pixel_bytes_of(const RenderTarget& target) { return target.planes.size() * sizeof(float); }
+
+std::uint64_t cull_bytes(const Tile& tile) { return tile.rays * Cull::list_bytes + tile.blocks(); }
+
+kernel::PlaneValues background_of(const RenderTarget& target) {
+    kernel::PlaneValues background{};
+    for (std::size_t p = 0; p < target.planes.size(); ++p) background.of[p] = target.planes[p].background;
+    return background;
+}
+
+// Of memory for lines. First hits' next tile is drawn while two others' are on their way; of every partition, kernels take so long
+// that one is. Where a tile is much of the picture, memory for several would be much of what a pixel may take.
+std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile) {
+    const std::uint64_t pixels = std::uint64_t{frame.width} * frame.height;
+    const bool is_small = pixels >= 8 * std::uint64_t{tile.rays};
+    if (frame.every_partition) return is_small ? 2 : 1;
+    return is_small ? 3 : pixels > tile.rays ? 2 : 1;
+}
+
+}  // namespace
+
+std::uint64_t Pipeline::bytes_a_ray(const kernel::Frame& frame, const RenderTarget& target) const {
+    const std::uint64_t own = frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes;
+    const std::uint64_t pictures = by_lines_ ? 2 : 1;  // and what they are drawn with, at a time
+    return pictures * (pixel_bytes_of(target) + sizeof(std::uint32_t) + own) + Cull::list_bytes;
+}
+
+// Makes the frame's tile one of these rays, or blocks of them.
+bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
+                         std::uint64_t pixel_bytes, std::uint64_t ray_bytes) {
+    frame.ray_count = static_cast<std::uint32_t>(numbers.size()) * rays_each;
+    frame.picked = rays_each == 1;
+    if (numbers.empty()) return false;
+    const std::uint64_t picture = frame.ray_count * pixel_bytes, list = numbers.size() * sizeof(std::uint32_t);
+    make_room(picture + list + frame.ray_count * ray_bytes, picture_.size() + tile_.rays.size());
+    picture_.reserve(picture);
+    list_upload_.start<std::uint32_t>(tile_.rays, numbers);
+    upload(frame);
+    return true;
+}
+
+// What the last tiles' pixels took comes before a smaller tile.
+bool Pipeline::weave(const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
+    if (exact().weave(buffers_, tile, rays, kind, counts)) return true;
+    if (!by_lines_ || by_lines_->held() == 0) return false;
+    const auto own = std::find_if(by_lines_->tiles.begin(), by_lines_->tiles.end(),
+                                  [&](const QueuedTile& queued) { return &queued.buffers == &tile; });
+    by_lines_->release(own == by_lines_->tiles.end() ? nullptr : &*own);
+    return exact().weave(buffers_, tile, rays, kind, counts);
+}
+
+// False: the tile does not fit the memory.
+bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts) {
+    frame.first_ray = tile.first;
+    frame.ray_count = tile.rays;
+    make_room(cull_bytes(tile), cull(frame).held());
+    upload(frame);
+    const Event culled = cull(frame).launch(buffers_, tile_.frame, frame);
+    const std::vector<std::uint32_t> seen = cull(frame).seen(tile);
+    counts.cull_blocks += milliseconds(culled);
+
+    const std::uint64_t pixel_bytes = pixel_bytes_of(target);
+    const bool sees =
+        list_rays(frame, seen, block_rays, pixel_bytes, frame.every_partition ? Exact::ray_bytes : FirstHits::ray_bytes);
+    std::vector<std::uint32_t> overflown;
+    if (sees && frame.every_partition) {
+        if (!weave(tile_, frame.ray_count, Rays::blocks, counts)) return false;
+        exact().shade(buffers_, tile_, picture_, frame.ray_count);
+        exact().tally(frame.ray_count);
+        exact().add_tallies(counts);
+        exact().add_times(counts);
+    } else if (sees) {
+        tile_.tally.reserve(sizeof(kernel::TileTally));
+        tile_.tally.queue_fill(0, sizeof(kernel::TileTally));
+        const Event drawn = first_hits().launch(buffers_, tile_, picture_, frame.ray_count);
+        const std::uint32_t overflows = tile_.tally.read<kernel::TileTally>(1).front().overflows;
+        overflown = tile_.overflown.read<std::uint32_t>(overflows);
+        counts.first_hits += milliseconds(drawn);
+    }
+    {
+        const Buffer::Mapping picture = picture_.map(seen.size() * block_rays * pixel_bytes);
+        put_blocks(frame, tile.first_block(), tile.end_block(), seen, static_cast<const float*>(picture.data()), target);
+    }
+    draw_exactly(frame, overflown, target, counts);
+    return true;
+}
+
+// Has a tile's first kernels run: of first hits all. `but`: the tile before it, which is not put yet. False: there is no room.
+bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but) {
+    const bool every = frame.every_partition;
+    const Rectangle all = lines_of(frame, tile.first_block(), tile.end_block());
+    frame.first_ray = tile.first;
+    frame.ray_count = tile.rays;
+    frame.lines = static_cast<std::uint32_t>(all.lines());
+    queued.frame = frame;
+    queued.tile = tile;
+    queued.lines = by_lines_->lines.next(all.size() * pixel_bytes_of(target), lines_in_turn(frame, tile), but ? but->lines : nullptr, every);
+    if (!queued.lines) return false;
+    const std::uint64_t listed = tile.blocks() * sizeof(std::uint32_t) + BlockList::tally_bytes(tile),
+                        bytes = listed + cull_bytes(tile) + (every ? 0 : tile.rays * FirstHits::ray_bytes);
+    if (bytes > device_.available() + queued.buffers.held() + cull(frame).held()) return false;
+
+    queued.upload.start<std::byte>(queued.buffers.frame, kernels_.frame(frame));
+    queued.culled = cull(frame).launch(buffers_, queued.buffers.frame, frame);
+    by_lines_->list.list(tile, cull(frame).costs(), queued.buffers);
+    queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : BlockList::tally_bytes(tile));
+    if (!every) {
+        PictureLines::wait(*queued.lines);
+        by_lines_->list.put_background(frame, tile, cull(frame).costs(), background_of(target),
+                                       static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer);
+        queued.drawn = first_hits().launch(buffers_, queued.buffers, queued.lines->buffer, tile.rays);
+    }
+    device_.flush();
+    return true;
+}
+
+// Every partition of a queued tile. False: it does not fit the memory.
+bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts) {
+    const std::uint32_t rays = queued.tally().seen * block_rays;
+    if (rays > 0) {
+        queued.frame.ray_count = rays;
+        queued.upload.start<std::byte>(queued.buffers.frame, kernels_.frame(queued.frame));
+        if (!weave(queued.buffers, rays, Rays::blocks, counts)) return false;
+    }
+    PictureLines::wait(*queued.lines);
+    by_lines_->list.put_background(queued.frame, queued.tile, exact().cull().costs(), background_of(target),
+                                   static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer);
+    if (rays > 0) {
+        exact().shade(buffers_, queued.buffers, queued.lines->buffer, rays);
+        exact().tally(rays);
+    }
+    queued.answer.start(queued.buffers.tally, BlockList::tally_bytes(queued.tile));
+    device_.flush();
+    return true;
+}
+
+// False: the tile does not fit the memory. A device, and the bus, stand still whenever the host waits for an answer before it says what
+// comes next: therefore the next tile is queued before the host looks at what has become of this one.
+bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
+                             PipelineCounts& counts) {
+    ByLines& by = *by_lines_;
+    QueuedTile& own = by.tiles[by.next];
+    const bool every = frame.every_partition;
+    if (std::exchange(by.ahead, {}) != tile && !queue(own, frame, tile, target, nullptr)) {
+        by.release();
+        if (exact_) exact_->release();
+        if (!queue(own, frame, tile, target, nullptr)) return false;
+    }
+    if (every && !weave_queued(own, target, counts)) return false;
+    by.next = (by.next + 1) % by.tiles.size();
+    QueuedTile& other = by.tiles[by.next];
+    if (next.rays > 0 && next.rays % block_rays == 0 && queue(other, frame, next, target, &own)) by.ahead = next;
+
+    every ? device_.finish() : wait_for(own.drawn);
+    own.answer.fetch();
+    if (every) {
+        exact().fetch();
+        if (by.ahead) other.answer.fetch();
+    }
+    counts.cull_blocks += milliseconds(own.culled);
+    std::vector<std::uint32_t> overflown;
+    if (!every) {
+        counts.first_hits += milliseconds(own.drawn);
+        if (own.tally().overflows > 0) overflown = own.buffers.overflown.read<std::uint32_t>(own.tally().overflows);
+    } else if (own.tally().seen > 0) {
+        exact().add_tallies(counts);
+        exact().add_times(counts);
+    }
+    by.lines.put(own.frame, tile, own.shown(), *own.lines, next.rays == 0, target);
+    draw_exactly(frame, overflown, target, counts);
+    return true;
+}
+
+// Rays of a picture the exact way, one by one.
+void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
+                            PipelineCounts& counts) {
+    const std::uint64_t pixel_bytes = pixel_bytes_of(target), bytes = pixel_bytes + sizeof(std::uint32_t) + Exact::ray_bytes;
+    if (!numbers.empty() && by_lines_) by_lines_->lines.finish();  // what comes in whole blocks comes before
+    for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
+        const auto begin = numbers.begin() + tile.first;
+        const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
+        list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);
+        if (!weave(tile_, frame.ray_count, Rays::picked, counts)) return false;
+        exact().shade(buffers_, tile_, picture_, frame.ray_count);
+        const Buffer::Mapping picture = picture_.map(picked.size() * pixel_bytes);
+        put_rays(frame, picked, static_cast<const float*>(picture.data()), target);
+        if (frame.every_partition) {
+            exact().tally(tile.rays);
+            exact().add_tallies(counts);
+        }
+        exact().add_times(counts);
+        return true;
+    });
+}
+
+}  // namespace csgrt
