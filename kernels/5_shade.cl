@@ -16,7 +16,7 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     ray3 r;
     if (id >= frame->ray_count) return;
     number = number_of(frame, rays, id);
-    at = pixel_of(number, frame->width, frame->height);
+    at = pixel_of(number, frame->window);
     if (!at.inside) return;
     r = geometry_ray(frame, camera_ray(frame, at));
     tally = tallies[id];

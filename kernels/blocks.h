@@ -26,7 +26,7 @@ FN beam make_beam(GLOBAL const Frame* f, u32 block) {
     wide3 u = make_wide3(f->u[0], f->u[1], f->u[2]), v = make_wide3(f->v[0], f->v[1], f->v[2]);
     wide3 w = make_wide3(f->w[0], f->w[1], f->w[2]);
     wide across = (wide)(BLOCK / 2) * (wide_sqrt(wide_dot(u, u)) + wide_sqrt(wide_dot(v, v)));
-    pixel_position at = pixel_of(block * BLOCK * BLOCK, f->width, f->height);
+    pixel_position at = pixel_of(block * BLOCK * BLOCK, f->window);
     real spread, reach;
     ray3 r;
     beam b;

@@ -1,4 +1,5 @@
-// From a ray's number to the ray. Rays of a picture are numbered in blocks of 8 x 8 pixels, row by row from the top left.
+// From a ray's number to the ray. Rays of a picture are numbered in blocks of 8 x 8 pixels of its window, row by row from the top
+// left.
 #ifndef CSGRT_CAMERA_H
 #define CSGRT_CAMERA_H
 
@@ -9,28 +10,26 @@ typedef struct {
     int inside;
 } pixel_position;
 
-FN pixel_position pixel_of(u32 ray, u32 width, u32 height) {
+FN pixel_position pixel_of(u32 ray, Window w) {
     pixel_position p;
-    u32 blocks_across = (width + BLOCK - 1u) / BLOCK;
-    u32 block = ray / (BLOCK * BLOCK);
-    u32 within = ray % (BLOCK * BLOCK);
-    p.x = block % blocks_across * BLOCK + within % BLOCK;
-    p.y = block / blocks_across * BLOCK + within / BLOCK;
-    p.inside = p.x < width && p.y < height;
+    const u32 across = blocks_across(w), block = ray / (BLOCK * BLOCK), within = ray % (BLOCK * BLOCK);
+    p.x = w.left + block % across * BLOCK + within % BLOCK;
+    p.y = w.top + block / across * BLOCK + within / BLOCK;
+    p.inside = p.x < w.right && p.y < w.bottom;
     return p;
 }
 
-// Where a pixel stands in whole lines of the picture's, from the top of a tile's first block on.
-FN size_t place_in_lines(u32 width, u32 first_ray, pixel_position at) {
-    const u32 top = first_ray / (BLOCK * BLOCK) / ((width + BLOCK - 1u) / BLOCK) * BLOCK;
-    return (size_t)(at.y - top) * width + at.x;
+// Where a pixel stands in whole lines of the window's, from the top of a tile's first block on.
+FN size_t place_in_lines(Window w, u32 first_ray, pixel_position at) {
+    const u32 top = w.top + first_ray / (BLOCK * BLOCK) / blocks_across(w) * BLOCK;
+    return (size_t)(at.y - top) * width_of(w) + (at.x - w.left);
 }
 
 // Where a ray's pixel stands in a plane of the tile's picture, and how many floats that has.
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
-    return f->lines ? place_in_lines(f->width, f->first_ray, at) : id;
+    return f->lines ? place_in_lines(f->window, f->first_ray, at) : id;
 }
-FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * f->width : f->ray_count; }
+FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * width_of(f->window) : f->ray_count; }
 
 // Tells the host that the ray's block shows something. Any number of them may say so at once.
 FN void mark_shown(GLOBAL const Frame* f, GLOBAL TileTally* tally, u32 number) {
@@ -95,7 +94,7 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
         *r = geometry_ray(f, w);
         return 1;
     } else {
-        pixel_position at = pixel_of(number, f->width, f->height);
+        pixel_position at = pixel_of(number, f->window);
         *r = geometry_ray(f, camera_ray(f, at));
         return at.inside;
     }

@@ -18,7 +18,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     appearance_tables a;
     if (id >= frame->ray_count || (frame->lines && id / (BLOCK * BLOCK) >= tally->seen)) return;
     number = number_of(frame, rays, id);
-    at = pixel_of(number, frame->width, frame->height);
+    at = pixel_of(number, frame->window);
     if (!at.inside) return;
     s.g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
     s.nodes = nodes;

@@ -31,7 +31,7 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     u32 within = 0, hit, lost, k;
     packet p;
     start_packet(&p, f, first);
-    for (k = 0; k < PACKET; ++k) within |= first.x + k < f->width ? 1u << k : 0;
+    for (k = 0; k < PACKET; ++k) within |= first.x + k < f->window.right ? 1u << k : 0;
     hit = first_hits_of(&p, f, s, list, within, &lost);
     put_pixels(&p, f, s.g, a, picture, within & ~lost, hit);
     *seen = hit;

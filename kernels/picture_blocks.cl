@@ -42,14 +42,14 @@ __kernel void list_blocks(__global const unsigned char* costs, u32 first, u32 co
     if (id == 0) tally->seen = count - tally->blocks[0];
 }
 
-// Fills what no ray will, of a picture of whole lines. A group of BLOCK * BLOCK items a block.
-__kernel void put_background(__global const unsigned char* costs, u32 width, u32 height, u32 first_ray, u32 lines, u32 planes,
+// Fills what no ray will, of a picture of whole lines of the window. A group of BLOCK * BLOCK items a block.
+__kernel void put_background(__global const unsigned char* costs, Window window, u32 first_ray, u32 lines, u32 planes,
                              PlaneValues background, __global float* picture) {
     pixel_position at;
     u32 p;
     if (costs[get_group_id(0)]) return;
-    at = pixel_of(first_ray + (u32)get_global_id(0), width, height);
+    at = pixel_of(first_ray + (u32)get_global_id(0), window);
     if (!at.inside) return;
-    picture += place_in_lines(width, first_ray, at);
-    for (p = 0; p < planes; ++p) picture[(size_t)p * lines * width] = background.of[p];
+    picture += place_in_lines(window, first_ray, at);
+    for (p = 0; p < planes; ++p) picture[(size_t)p * lines * width_of(window)] = background.of[p];
 }

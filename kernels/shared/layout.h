@@ -157,6 +157,11 @@ typedef struct {
 
 // ---- Rays ----
 
+// Pixels of a picture: columns left ... right - 1 and lines top ... bottom - 1. It begins with a block of BLOCK * BLOCK pixels.
+typedef struct {
+    u32 left, top, right, bottom;
+} Window;
+
 typedef struct {
     // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
     wide eye[3];   // perspective: the eye. Orthographic: the centre of the picture plane
@@ -176,6 +181,7 @@ typedef struct {
     u32 every_partition;   // 0: only the first hits are wanted
     u32 picked;            // 1: the tile's rays are those whose numbers are listed; 0: the blocks of them are
     u32 channels;          // of the picture: CHANNEL_x bits
+    Window window;         // the picture's pixels that can show anything; none of the others has a ray
     u32 lines;             // that the tile's picture has, see place_of() in camera.h; 0: a float of each ray
 } Frame;
 
@@ -263,6 +269,9 @@ typedef struct {
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z
 #define CHANNEL_IDS 8u       // region, solid
 #define CHANNEL_COUNTS 16u   // depth, partitions, overlap
+
+FN u32 width_of(Window w) { return w.right - w.left; }
+FN u32 blocks_across(Window w) { return (width_of(w) + BLOCK - 1u) / BLOCK; }
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }

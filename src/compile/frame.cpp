@@ -6,6 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/window.hpp"
+
 namespace csgrt {
 namespace {
 
@@ -111,7 +113,9 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     }
     frame.light_count = static_cast<std::uint32_t>(result.lights.size());
 
-    const std::uint64_t across = (frame.width + BLOCK - 1) / BLOCK, down = (frame.height + BLOCK - 1) / BLOCK;
+    frame.window = window_of(scene, frame);
+    const std::uint64_t across = kernel::blocks_across(frame.window),
+                        down = (frame.window.bottom - frame.window.top + BLOCK - 1) / BLOCK;
     result.rays = across * down * BLOCK * BLOCK;
     result.right = from_glm(right);
     result.up = from_glm(up);

@@ -21,7 +21,7 @@ void BlockList::list(const Tile& tile, const Buffer& costs, TileBuffers& buffers
 void BlockList::put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs,
                                const kernel::PlaneValues& background, std::uint32_t planes, const Buffer& picture) {
     if (planes == 0) return;
-    put_background_->launch(tile.rays, block_rays, costs, cl_uint{frame.width}, cl_uint{frame.height}, cl_uint{tile.first},
+    put_background_->launch(tile.rays, block_rays, costs, frame.window, cl_uint{tile.first},
                             cl_uint{frame.lines}, cl_uint{planes}, background, picture);
 }
 

@@ -20,6 +20,10 @@ public:
     const Buffer& lists() const { return lists_; }  ///< empty: there are none
     static constexpr std::uint64_t list_bytes = LISTED_NODES * sizeof(kernel::BlockNode) / block_rays;  ///< a ray
     std::uint64_t held() const { return costs_.size() + lists_.size(); }
+    void release() {
+        costs_.release();
+        lists_.release();
+    }
 
 private:
     bool is_listed(const kernel::Frame& frame) const;

@@ -21,7 +21,7 @@ kernel::PlaneValues background_of(const RenderTarget& target) {
 // Of memory for lines. First hits' next tile is drawn while two others' are on their way; of every partition, kernels take so long
 // that one is. Where a tile is much of the picture, memory for several would be much of what a pixel may take.
 std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile) {
-    const std::uint64_t pixels = std::uint64_t{frame.width} * frame.height;
+    const std::uint64_t pixels = std::uint64_t{frame.width} * frame.height;  // what memory is compared with
     const bool is_small = pixels >= 8 * std::uint64_t{tile.rays};
     if (frame.every_partition) return is_small ? 2 : 1;
     return is_small ? 3 : pixels > tile.rays ? 2 : 1;

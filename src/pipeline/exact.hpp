@@ -43,7 +43,7 @@ public:
     static constexpr std::uint64_t ray_bytes =
         2 * sizeof(kernel::RayCount) + sizeof(std::uint32_t) + 4;  ///< whatever a ray hits
     std::uint64_t held() const;
-    void release();  ///< gives all its memory back: another use of the budget wants it
+    void release();  ///< gives all but the culling's back: another use of the budget wants it
 
 private:
     bool try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
 
 #include "kernel_geometry.hpp"
 #include "parallel.hpp"
+#include "pipeline/block_rows.hpp"
 
 namespace csgrt {
 namespace {
@@ -69,23 +71,25 @@ class Blocks {
 public:
     Blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
            const float* values, const RenderTarget& target)
-        : width_(frame.width), height_(frame.height), first_(first), end_(end), drawn_(drawn.size()),
-          values_(values), places_(end - first, none), target_(target) {
+        : rows_(frame, first, end), width_(frame.width), drawn_(drawn.size()), values_(values), places_(end - first, none), target_(target) {
         for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
-        const auto held = target.drawn.subspan(first_, end_ - first_);
-        const auto clear = static_cast<std::size_t>(std::count(held.begin(), held.end(), 0));
-        pixels_ = (drawn.size() + held.size() - clear) * BLOCK * BLOCK;
+        std::size_t held = 0;
+        for (std::size_t row = 0; row < rows_.count(); ++row) {
+            const auto of_row = rows_.held(row, target);
+            held += of_row.size() - static_cast<std::size_t>(std::count(of_row.begin(), of_row.end(), 0));
+        }
+        pixels_ = (drawn.size() + held) * BLOCK * BLOCK;
     }
 
     template <class Line>
     void put() const {
-        const std::size_t first_row = first_ / across_, rows = (end_ + across_ - 1) / across_ - first_row;
+        const std::size_t rows = rows_.count();
         const std::size_t rows_a_chunk = std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
         for_chunks(rows, rows_a_chunk, target_.threads, [&](std::size_t row, std::size_t last, std::size_t) {
             std::vector<Run> runs;
             for (; row < last; ++row) {
-                find_runs(first_row + row, runs);
-                if (!runs.empty()) put_row<Line>(first_row + row, runs);
+                find_runs(row, runs);
+                if (!runs.empty()) put_row<Line>(row, runs);
             }
             Line::end();
         });
@@ -95,29 +99,30 @@ private:
     /// What is to be written of a row of blocks; and keeps what the row then holds.
     void find_runs(std::size_t row, std::vector<Run>& runs) const {
         runs.clear();
-        const std::size_t start = row * across_;  // the number of the row's first block
-        const std::size_t from = std::max(first_, start), to = std::min(end_, start + across_);
-        for (std::size_t block = from; block < to; ++block) {
-            const std::uint32_t place = places_[block - first_];
+        const BlockRows::Extent all = rows_.whole(row);
+        const std::span<std::uint8_t> held = rows_.held(row, target_);
+        for (std::size_t block = all.begin; block < all.end; ++block) {
+            const std::uint32_t place = places_[rows_.place(row, block)];
             const bool is_drawn = place != none;
-            if (is_drawn || target_.drawn[block]) {
-                const std::size_t begin = (block - start) * BLOCK, end = std::min<std::size_t>(begin + BLOCK, width_);
+            std::uint8_t& holds = held[block - all.begin];
+            if (is_drawn || holds) {
+                const std::size_t begin = rows_.column(block), end = rows_.column(block + 1);
                 if (!is_drawn && !runs.empty() && runs.back().place == none && runs.back().end == begin)
                     runs.back().end = end;
                 else
                     runs.push_back({begin, end, place});
             }
-            target_.drawn[block] = is_drawn;
+            holds = is_drawn;
         }
     }
 
     template <class Line>
     void put_row(std::size_t row, std::span<const Run> runs) const {
-        const std::size_t lines = std::min<std::size_t>(BLOCK, height_ - row * BLOCK);
+        const std::size_t top = rows_.top(row), lines = rows_.top(row + 1) - top;
         for (std::size_t p = 0; p < target_.planes.size(); ++p) {
             const ChannelPlane& plane = target_.planes[p];
             for (std::size_t y = 0; y < lines; ++y) {
-                float* line = plane.pixels + (row * BLOCK + y) * width_;
+                float* line = plane.pixels + (top + y) * width_;
                 for (const Run& run : runs) {
                     if (run.place != none)
                         Line::copy(line + run.begin, run.end - run.begin,
@@ -129,14 +134,25 @@ private:
         }
     }
 
-    std::size_t width_, height_, first_, end_;
-    std::size_t across_ = (width_ + BLOCK - 1) / BLOCK;  ///< blocks
+    BlockRows rows_;
+    std::size_t width_;  ///< of the picture
     std::size_t drawn_;  ///< how many
     const float* values_;
-    std::vector<std::uint32_t> places_;  ///< of the blocks from first_ to end_ among the drawn ones
+    std::vector<std::uint32_t> places_;  ///< of the tile's blocks among the drawn ones
     const RenderTarget& target_;
     std::size_t pixels_;  ///< that are written, at most
 };
+
+/// The first byte from `begin` on that is not 0, or `end`: eight are looked at at once.
+std::size_t next_held(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
+    for (; begin + 8 <= end; begin += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, bytes.data() + begin, sizeof eight);
+        if (eight != 0) break;
+    }
+    while (begin < end && bytes[begin] == 0) ++begin;
+    return begin;
+}
 
 }  // namespace
 
@@ -182,12 +198,38 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
     put(Cached{});
 }
 
+void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
+    const kernel::Window& window = frame.window;
+    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK, down = (frame.height + BLOCK - 1) / BLOCK;
+    const std::size_t left = window.left / BLOCK, right = (window.right + BLOCK - 1) / BLOCK;
+    std::vector<std::size_t> held;
+    const auto find = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; (i = next_held(target.drawn, i, end)) < end; ++i) held.push_back(i);
+    };
+    for (std::size_t row = 0; row < down; ++row) {
+        const bool is_within = row * BLOCK >= window.top && row * BLOCK < window.bottom;
+        find(row * across, row * across + (is_within ? left : across));
+        if (is_within) find(row * across + right, (row + 1) * across);
+    }
+    for_chunks(held.size(), pixels_a_thread / (BLOCK * BLOCK), target.threads, [&](std::size_t i, std::size_t last, std::size_t) {
+        for (; i < last; ++i) {
+            const std::size_t x = held[i] % across * BLOCK, y = held[i] / across * BLOCK;
+            const std::size_t columns = std::min<std::size_t>(BLOCK, frame.width - x);
+            for (const ChannelPlane& plane : target.planes)
+                for (std::size_t line = y; line < std::min<std::size_t>(y + BLOCK, frame.height); ++line)
+                    std::fill_n(plane.pixels + line * frame.width + x, columns, plane.background);
+            target.drawn[held[i]] = 0;
+        }
+    });
+}
+
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
               const RenderTarget& target) {
+    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const kernel::pixel_position at = kernel::pixel_of(numbers[i], frame.width, frame.height);
+        const kernel::pixel_position at = kernel::pixel_of(numbers[i], frame.window);
         if (!at.inside) continue;
-        target.drawn[numbers[i] / (BLOCK * BLOCK)] = 1;
+        target.drawn[at.y / BLOCK * across + at.x / BLOCK] = 1;
         for (std::size_t p = 0; p < target.planes.size(); ++p)
             target.planes[p].pixels[std::size_t{at.y} * frame.width + at.x] = values[p * numbers.size() + i];
     }

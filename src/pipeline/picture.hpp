@@ -25,10 +25,13 @@ struct RenderTarget {
     const KnownPicture* known = nullptr;  ///< the planes' memory, as devices know it
 };
 
-/// Fills the pixels of the blocks from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for
+/// Fills the pixels of the window's blocks from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for
 /// each plane the floats of their rays, block by block. The others get the background, where the target does not hold it.
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                 const float* values, const RenderTarget& target);
+
+/// Fills the blocks outside of the frame's window that hold anything with the background.
+void clear_around(const kernel::Frame& frame, const RenderTarget& target);
 
 /// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.
 struct Rectangle {

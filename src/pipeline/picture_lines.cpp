@@ -35,7 +35,7 @@ void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<c
     const std::size_t planes = target.planes.size();
     if (planes == 0) return;
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, shown, target);
-    std::ranges::copy(shown, target.drawn.begin() + first);
+    hold_shown(frame, first, end, shown, target);
     if (rectangles.empty()) return;
     const Rectangle all = lines_of(frame, first, end);
     std::vector<CopyFeed::Copy> copies;
@@ -44,7 +44,7 @@ void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<c
         r.begin = floats;
         floats += r.size() * planes;
         copies.push_back({.columns = r.columns(), .lines = r.lines(), .planes = planes,
-                          .begin = (r.top - all.top) * frame.width + r.left, .pitch = frame.width, .slice = all.size()});
+                          .begin = (r.top - all.top) * all.columns() + r.left - all.left, .pitch = all.columns(), .slice = all.size()});
     }
     const std::size_t pixels = std::size_t{frame.width} * frame.height;
     const bool are_many = pixels > 2 * std::size_t{tile.rays};  // tiles: others may have more to copy

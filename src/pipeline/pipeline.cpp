@@ -12,13 +12,14 @@ namespace {
 
 constexpr std::uint64_t most_rays = 1u << 24;   // of one tile: launches stay short
 constexpr std::uint64_t most_drawn = 1u << 22;  // of a picture: the pixels of one tile are put while the next is drawn
+constexpr std::uint64_t most_woven = 1u << 21;  // of a picture, with every partition
 
 // Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it gets half of a
 // picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
 std::uint64_t most_rays_woven(const Device& device, std::uint64_t rays) {
     constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 18;
     if (device.info().type == "cpu") return of_processor;
-    return std::clamp((rays + 1) / 2, of_gpu, most_drawn);
+    return std::clamp((rays + 1) / 2, of_gpu, most_woven);
 }
 
 }  // namespace
@@ -120,6 +121,14 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     const bool every = prepared.frame.every_partition;
     if (!by_lines_ || !by_lines_->ahead) upload_lights(prepared);  // else the frame's are there
     prepare(every);
+    if (by_lines_ && std::exchange(drew_every_partition_, every) != every) {  // there is memory for one way at a time
+        by_lines_->release();
+        if (first_hits_) first_hits_->cull().release();
+        if (exact_) {
+            exact_->cull().release();
+            exact_->release();
+        }
+    }
     const std::uint64_t bytes = bytes_a_ray(prepared.frame, target);
     const std::uint64_t most = every ? most_rays_woven(device_, prepared.rays) : most_drawn;
     const auto begin_of = [](RayRange r, std::uint64_t size) {

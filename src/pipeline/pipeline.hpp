@@ -48,6 +48,8 @@ public:
     void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
                PipelineCounts& counts);
 
+    /// Does its device draw a tile while it copies another's pixels?
+    bool copies_beside() const { return by_lines_.has_value(); }
     double build_ms() const { return build_ms_; }  ///< spent on compiling kernels so far
 
 private:
@@ -84,6 +86,7 @@ private:
     std::optional<Exact> exact_;
     std::optional<FirstHits> first_hits_;
     std::optional<ByLines> by_lines_;
+    bool drew_every_partition_ = false;  ///< of the last frame
     double build_ms_ = 0;
 };
 

@@ -12,29 +12,36 @@
 namespace csgrt {
 namespace {
 
-// Parts of a device's share of the rays, near the end more, so that one that is slower, or has more to see, keeps the others
-// waiting little. Of first hits, launches soon cost as much as rays (bench/NOTES.md).
-constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 12;
+// Parts of a device's share of the rays. Near the end they become smaller, so that one that is slower, or has more to see, keeps the
+// others waiting little; and of first hits the first ones are, so that their pixels are soon on their way while others are drawn. Of
+// those, launches soon cost as much as rays; of every partition, what the host waits for in each (bench/NOTES.md).
+constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 6;
 
 // Each device takes one after another.
 class Parts {
 public:
-    Parts(std::uint64_t rays, std::size_t devices, std::uint64_t parts) : rays_(rays), devices_(devices), parts_(parts) {}
+    Parts(std::uint64_t rays, std::size_t devices, std::uint64_t parts, bool begin_small)
+        : rays_(rays), devices_(devices), parts_(parts), begin_small_(begin_small) {}
 
     /// The next one; empty if there is none.
     RayRange take() {
-        constexpr std::uint64_t least = 1 << 16;  // rays that are worth launches of their own
-        const std::uint64_t share = rays_ / devices_, most = share / parts_;
-        const std::uint64_t size = std::clamp((rays_ - next_) / devices_ / 2, std::max(most / 4, std::min(most, least)), most);
+        const std::uint64_t least = devices_ > 1 ? 1 << 16 : 1 << 20;  // rays that are worth launches of their own
+        const std::uint64_t share = rays_ / devices_;
+        const std::uint64_t most = devices_ > 1 ? share / parts_ : std::max(std::min(share, least), share / parts_);
+        const std::uint64_t begin = begin_small_ ? most >> (taken_ < devices_ ? 2 : taken_ < 2 * devices_ ? 1 : 0) : most;
+        const std::uint64_t end = (rays_ - next_) / devices_ / 2;
+        const std::uint64_t size = std::clamp(std::min(begin, end), std::max(most / 4, std::min(most, least)), most);
         const std::uint64_t blocks = std::max<std::uint64_t>(1, (size + block_rays - 1) / block_rays);
         const RayRange part{next_, std::min(rays_, next_ + blocks * block_rays)};
         next_ = part.end;
+        ++taken_;
         return part;
     }
     void stop() { next_ = rays_; }
 
 private:
-    std::uint64_t rays_, devices_, parts_, next_ = 0;
+    std::uint64_t rays_, devices_, parts_, next_ = 0, taken_ = 0;
+    bool begin_small_;
 };
 
 constexpr const char* known_name = "picture of the host's";
@@ -51,11 +58,17 @@ Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, con
     }
 }
 
+// One device alone takes all rays as tiles of its own, unless it copies the first ones' pixels while it draws others.
+std::uint64_t Pipelines::parts_of(bool every_partition) const {
+    const bool is_alone = pipelines_.size() == 1 && (every_partition || !pipelines_.front()->copies_beside());
+    return is_alone ? 1 : every_partition ? parts_of_partitions : parts_of_first_hits;
+}
+
 // A thread for each device. What the foremost part threw is thrown, once all threads have stopped.
 void Pipelines::share(std::uint64_t rays, std::uint64_t parts_each, const Progress& progress, PipelineCounts& counts,
                       const Work& work) {
-    Parts parts(rays, pipelines_.size(), parts_each);
-    if (pipelines_.size() == 1 || rays <= block_rays) {
+    Parts parts(rays, pipelines_.size(), parts_each, parts_each == parts_of_first_hits);
+    if (parts_each == 1 || rays <= block_rays) {
         work(*pipelines_.front(), {0, rays}, [] { return RayRange{}; }, progress, counts);
         return;
     }
@@ -147,10 +160,11 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(prepared.rays, prepared.frame.every_partition ? parts_of_partitions : parts_of_first_hits, progress, counts,
+    share(prepared.rays, parts_of(prepared.frame.every_partition), progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next& next, const Progress& told, PipelineCounts& own) {
               pipeline.render(prepared, part, next, shared, told, own);
           });
+    clear_around(prepared.frame, target);  // while the last tiles' pixels are on their way
     for (const auto& pipeline : pipelines_) pipeline->finish();
 }
 
@@ -158,7 +172,7 @@ std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const
                                             const Progress& progress, PipelineCounts& counts) {
     forget();
     std::vector<RayPartitions> answers(rays.size());
-    share(rays.size(), parts_of_partitions, progress, counts,
+    share(rays.size(), parts_of(true), progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next&, const Progress& told, PipelineCounts& own) {
               pipeline.shoot(prepared, std::span(rays).subspan(part.first, part.end - part.first), answers.data() + part.first, told,
                              own);

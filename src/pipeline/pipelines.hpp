@@ -34,6 +34,7 @@ public:
 private:
     using Next = std::function<RayRange()>;
     using Work = std::function<void(Pipeline&, RayRange, const Next&, const Progress&, PipelineCounts&)>;
+    std::uint64_t parts_of(bool every_partition) const;
     void share(std::uint64_t rays, std::uint64_t parts_each, const Progress& progress, PipelineCounts& counts, const Work& work);
 
     void forget();

@@ -9,12 +9,16 @@
 
 namespace csgrt {
 
-/// Rectangles of the blocks from number `first` to `end` that hold all that is shown, and what the target holds from before and
+/// Rectangles of the window's blocks from number `first` to `end` that hold all that is shown, and what the target holds from before and
 /// is background now. `shown`: of each of these blocks, not 0 if it shows something.
 std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                                        std::span<const std::uint8_t> shown, const RenderTarget& target);
 
-/// Lines of the picture that these blocks have: whole ones, of which the tile has some, maybe, in part.
+/// Tells the target that of these blocks it holds only what is shown.
+void hold_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
+                const RenderTarget& target);
+
+/// Lines of the window that these blocks have: whole ones, of which the tile has some, maybe, in part.
 Rectangle lines_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end);
 
 }  // namespace csgrt

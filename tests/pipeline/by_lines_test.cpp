@@ -62,6 +62,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
         PipelineCounts counts;
         const RenderTarget target{.planes = planes, .drawn = drawn, .known = &known};
         pipeline.render(prepared, {0, prepared.rays}, [] { return RayRange{}; }, target, nullptr, counts);
+        clear_around(prepared.frame, target);
         pipeline.finish();
         most_tiles = std::max(most_tiles, counts.tiles);
         Image packed = image;
@@ -117,6 +118,7 @@ struct Lined {
         try {
             for (RayRange range = range_at(0); range.first < range.end; range = range_at(range.end))
                 pipeline.render(prepared, range, [&] { return range_at(range.end); }, target, progress, counts);
+            clear_around(prepared.frame, target);
             pipeline.finish();
         } catch (...) {
             pipeline.abandon();

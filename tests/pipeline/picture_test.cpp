@@ -14,13 +14,15 @@ namespace {
 constexpr std::uint32_t block_pixels = BLOCK * BLOCK;
 
 // Planes that all lie in one place count as so many bytes; the last one is what is seen there. `left`: some blocks of
-// background are said to be it before.
-void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_count, bool left) {
-    INFO(width << " x " << height << ", planes " << plane_count << ", some blocks left: " << left);
+// background are said to be it before. `window`: what is not all of the picture is cleared around it.
+void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_count, bool left, kernel::Window window) {
+    INFO(width << " x " << height << ", planes " << plane_count << ", some blocks left: " << left << ", window " << window.left << " to "
+               << window.right << ", " << window.top << " to " << window.bottom);
     kernel::Frame frame{};
     frame.width = width;
     frame.height = height;
-    const std::uint32_t across = (width + BLOCK - 1) / BLOCK, blocks = across * ((height + BLOCK - 1) / BLOCK);
+    frame.window = window;
+    const std::uint32_t across = kernel::blocks_across(window), blocks = across * ((window.bottom - window.top + BLOCK - 1) / BLOCK);
     const std::vector<std::uint32_t> drawn{0, 1, 3, across - 1, across, 2 * across + 5, blocks - across, blocks - 1};
     const auto count = static_cast<std::uint32_t>(drawn.size());
     const std::vector<std::uint32_t> in_any_order(drawn.rbegin(), drawn.rend());
@@ -31,27 +33,27 @@ void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_co
     std::vector<ChannelPlane> planes;
     for (std::size_t p = 0; p < plane_count; ++p) planes.push_back({pixels.data(), -2 - static_cast<float>(p)});
     // Blocks that hold something else, some of them drawn anew; the others are left as they are.
-    std::vector<std::uint8_t> holds(blocks);
-    for (std::uint32_t i = 0; i < blocks; ++i) holds[i] = !left || i % 5 < 3;
+    const std::uint32_t all_across = (width + BLOCK - 1) / BLOCK;
+    std::vector<std::uint8_t> holds(all_across * ((height + BLOCK - 1) / BLOCK));
+    for (std::uint32_t i = 0; i < holds.size(); ++i) holds[i] = !left || i % 5 < 3;
     const std::vector<std::uint8_t> before = holds;
     put_blocks(frame, 0, blocks, in_any_order, values.data(), {planes, holds});
+    clear_around(frame, {planes, holds});
 
     std::vector<float> expected(pixels.size(), planes.back().background);
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x)
+            if (!before[y / BLOCK * all_across + x / BLOCK]) expected[std::size_t{y} * width + x] = -1;
     const float* last = values.data() + (plane_count - 1) * count * block_pixels;
+    std::vector<std::uint8_t> expected_holds(holds.size());
     for (std::uint32_t i = 0; i < count; ++i)
         for (std::uint32_t k = 0; k < block_pixels; ++k) {
-            const kernel::pixel_position at = kernel::pixel_of(drawn[i] * block_pixels + k, width, height);
-            if (at.inside) expected[std::size_t{at.y} * width + at.x] = last[(count - 1 - i) * block_pixels + k];
+            const kernel::pixel_position at = kernel::pixel_of(drawn[i] * block_pixels + k, window);
+            if (!at.inside) continue;
+            expected[std::size_t{at.y} * width + at.x] = last[(count - 1 - i) * block_pixels + k];
+            expected_holds[at.y / BLOCK * all_across + at.x / BLOCK] = 1;
         }
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-        const bool is_drawn = std::find(drawn.begin(), drawn.end(), block) != drawn.end();
-        if (holds[block] != is_drawn) FAIL("block " << block << " is drawn or not: told wrongly");
-        if (is_drawn || before[block]) continue;
-        for (std::uint32_t k = 0; k < block_pixels; ++k) {
-            const kernel::pixel_position at = kernel::pixel_of(block * block_pixels + k, width, height);
-            if (at.inside) expected[std::size_t{at.y} * width + at.x] = -1;
-        }
-    }
+    CHECK(holds == expected_holds);
     CHECK((pixels == expected));  // not written out: a million numbers
 }
 
@@ -59,10 +61,28 @@ void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_co
 
 TEST_CASE("blocks come to their pixels, and the rest is background") {
     for (const std::uint32_t width : {128u, 124u, 121u})
-        for (const bool left : {false, true}) require_put(width, 83, 3, left);
+        for (const bool left : {false, true}) {
+            require_put(width, 83, 3, left, {0, 0, width, 83});
+            require_put(width, 83, 3, left, {16, 8, 96, 72});
+            require_put(width, 83, 3, left, {40, 0, width, 83});
+        }
 }
 
 TEST_CASE("blocks come to their pixels past the caches, too, where lines can be written so") {
-    for (const std::uint32_t width : {1024u, 1020u, 1021u}) require_put(width, 1027, 65, false);  // a little more than 2^28 bytes
-    require_put(1024, 1027, 65, true);
+    for (const std::uint32_t width : {1024u, 1020u, 1021u})
+        require_put(width, 1027, 65, false, {0, 0, width, 1027});  // a little more than 2^28 bytes
+    require_put(1024, 1027, 65, true, {0, 0, 1024, 1027});
+    require_put(1024, 1027, 65, true, {8, 8, 1000, 1027});
+}
+
+TEST_CASE("a frame that sees nothing clears all of the picture") {
+    kernel::Frame frame{};
+    frame.width = 50;
+    frame.height = 21;
+    std::vector<float> pixels(50 * 21, 4);
+    const std::vector<ChannelPlane> planes{{pixels.data(), 7}};
+    std::vector<std::uint8_t> holds(7 * 3, 1);
+    clear_around(frame, {planes, holds});
+    CHECK(pixels == std::vector<float>(50 * 21, 7));
+    CHECK(holds == std::vector<std::uint8_t>(7 * 3, 0));
 }

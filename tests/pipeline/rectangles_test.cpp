@@ -16,6 +16,7 @@ struct Picture {
         frame.width = width;
         frame.height = height;
         pixels.resize(std::size_t{width} * height + 16);
+        frame.window = {0, 0, width, height};
         drawn.assign(std::size_t{across} * down, 0);
         auto* const begin = pixels.data();
         // As large memory begins: 16 bytes into a line of the cache.
@@ -57,37 +58,49 @@ TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no o
     for (int round = 0; round < 300; ++round) {
         const std::uint32_t width = 1 + below(400), height = 1 + below(300);
         Picture picture(width, height);
-        const std::uint32_t blocks = picture.across * picture.down;
+        kernel::Window& window = picture.frame.window;
+        if (round % 2) {  // whole blocks, cut off at the picture's edges
+            const std::uint32_t left = below(picture.across), top = below(picture.down);
+            window = {left * BLOCK, top * BLOCK, std::min(width, (left + 1 + below(picture.across - left)) * BLOCK),
+                      std::min(height, (top + 1 + below(picture.down - top)) * BLOCK)};
+        }
+        const std::uint32_t across = kernel::blocks_across(window),
+                            blocks = across * ((window.bottom - window.top + BLOCK - 1) / BLOCK);
         const std::uint32_t first = below(blocks), end = first + 1 + below(blocks - first);
-        INFO("round " << round << ": " << picture.frame.width << " x " << picture.frame.height << ", blocks " << first << " to " << end);
+        INFO("round " << round << ": " << width << " x " << height << ", of it " << window.left << " to " << window.right << ", "
+                      << window.top << " to " << window.bottom << ", blocks " << first << " to " << end);
         std::vector<std::uint8_t> shown(blocks);
         const std::uint32_t one_of = 1 + below(40);
-        for (std::uint32_t i = 0; i < blocks; ++i) {
-            shown[i] = below(one_of) == 0;
-            picture.drawn[i] = below(one_of) == 0;
-        }
+        for (std::uint8_t& block : shown) block = below(one_of) == 0;
+        for (std::uint8_t& block : picture.drawn) block = below(one_of) == 0;
         const std::vector<std::uint8_t> before = picture.drawn;
         const auto times =
             covered_by(picture, find_rectangles(picture.frame, first, end, of_tile(shown, first, end), picture.target()));
         CHECK(picture.drawn == before);
+        hold_shown(picture.frame, first, end, of_tile(shown, first, end), picture.target());
         const Rectangle lines = lines_of(picture.frame, first, end);
-        CHECK(lines.left == 0);
-        CHECK(lines.right == width);
-        CHECK(lines.top == first / picture.across * BLOCK);
-        CHECK(lines.bottom == std::min(height, (end - 1) / picture.across * BLOCK + BLOCK));
-        bool all = true, once = true, own = true;
-        for (std::uint32_t y = 0; y < picture.frame.height; ++y)
-            for (std::uint32_t x = 0; x < picture.frame.width; ++x) {
-                const std::uint32_t block = y / BLOCK * picture.across + x / BLOCK;
-                const int covered = times[std::size_t{y} * picture.frame.width + x];
+        CHECK(lines.left == window.left);
+        CHECK(lines.right == window.right);
+        CHECK(lines.top == window.top + first / across * BLOCK);
+        CHECK(lines.bottom == std::min(window.bottom, window.top + (end - 1) / across * BLOCK + BLOCK));
+        bool all = true, once = true, own = true, told = true;
+        for (std::uint32_t y = 0; y < height; ++y)
+            for (std::uint32_t x = 0; x < width; ++x) {
+                const std::uint32_t held = y / BLOCK * picture.across + x / BLOCK;
+                const bool is_within = x >= window.left && x < window.right && y >= window.top && y < window.bottom;
+                const std::uint32_t block =
+                    is_within ? (y - window.top) / BLOCK * across + (x - window.left) / BLOCK : UINT32_MAX;
+                const int covered = times[std::size_t{y} * width + x];
                 const bool is_own = block >= first && block < end;
-                all &= !is_own || !(shown[block] || before[block]) || covered > 0;
+                all &= !is_own || !(shown[block] || before[held]) || covered > 0;
                 once &= covered <= 1;
                 own &= is_own || covered == 0;
+                told &= picture.drawn[held] == (is_own ? shown[block] : before[held]);
             }
         CHECK(all);
         CHECK(once);
         CHECK(own);
+        CHECK(told);
     }
 }
 

@@ -138,6 +138,7 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.every_partition = f.every_partition;
     frame.picked = f.picked;
     frame.channels = f.channels;
+    frame.window = {f.window.left, f.window.top, f.window.right, f.window.bottom};
     frame.lines = f.lines;
     return frame;
 }

@@ -1,0 +1,107 @@
+// The window of a picture: no ray outside of it meets anything, by the reference, which shoots them all; and it spares most of the rest.
+#include "compile/window.hpp"
+
+#include <random>
+
+#include "bench/parts.hpp"
+#include "catch.hpp"
+#include "compile/model.hpp"
+#include "reference/reference.hpp"
+#include "stress/rewrite.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+/// Pixels outside of the window that a segment is seen at, and how much of the picture the window is.
+struct Outcome {
+    std::size_t missed = 0;
+    double part = 0;
+};
+
+Outcome look(const CompiledScene& compiled, const ReferenceKernels& kernels, const View& view) {
+    const PreparedFrame prepared = prepare_frame(compiled, view);
+    const kernel::Window& w = prepared.frame.window;
+    CHECK(w.left % BLOCK == 0);
+    CHECK(w.top % BLOCK == 0);
+    CHECK(w.right <= prepared.frame.width);
+    CHECK(w.bottom <= prepared.frame.height);
+    ReferenceCounts counts;
+    const std::vector<kernel::Pixel> pixels = Reference(compiled, kernels, 0).render(prepared, nullptr, counts);
+    Outcome outcome;
+    for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
+        for (std::uint32_t x = 0; x < prepared.frame.width; ++x) {
+            const bool is_within = x >= w.left && x < w.right && y >= w.top && y < w.bottom;
+            outcome.missed += !is_within && pixels[std::size_t{y} * prepared.frame.width + x].depth > 0;
+        }
+    outcome.part = double(w.right - w.left) * (w.bottom - w.top) / (double(prepared.frame.width) * prepared.frame.height);
+    return outcome;
+}
+
+Scene moved_by(const Scene& scene, double away) { return stress::moved(scene, scene.top, test::moved(away, -away, away)); }
+
+View random_view(std::mt19937& random, const Vec3& center, double size) {
+    const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+    View view;
+    view.width = 96;
+    view.height = 71;
+    view.camera.azimuth = between(0, 360);
+    view.camera.elevation = between(-90, 90);
+    if (random() % 2) view.camera.perspective = between(5, 120);
+    view.camera.view_size = size * std::exp(between(-2, 2));
+    view.camera.center = Vec3{center.x + between(-0.7, 0.7) * size, center.y + between(-0.7, 0.7) * size, center.z + between(-0.7, 0.7) * size};
+    return view;
+}
+
+}  // namespace
+
+TEST_CASE("no ray outside of the window meets anything") {
+    const Precision precision = GENERATE(Precision::double_, Precision::single, Precision::single_world);
+    const double away = GENERATE(0.0, 3e6);  // millimetres
+    const Scene scene = moved_by(bench::scene_of_parts(30), away);
+    const CompiledScene compiled = compile(scene, {});
+    const double size = 2 * compiled.radius;
+    const auto kernels = make_kernels(compiled, precision, Quartic::bracketed);
+    std::mt19937 random(7);
+    std::size_t missed = 0, small = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Outcome outcome = look(compiled, *kernels, random_view(random, compiled.center, size));
+        missed += outcome.missed;
+        small += outcome.part < 0.5;
+    }
+    CHECK(missed == 0);
+    CHECK(small > 15);
+}
+
+TEST_CASE("the window is all of the picture if something is unbounded or around the eye, and none of it if there is nothing") {
+    View view;
+    view.width = 50;
+    view.height = 30;
+    const auto window_of = [&](const Scene& scene) {
+        const CompiledScene compiled = compile(scene, {});
+        const PreparedFrame prepared = prepare_frame(compiled, view);
+        const kernel::Window w = prepared.frame.window;
+        CHECK(prepared.rays == (w.right - w.left + 7) / 8 * ((w.bottom - w.top + 7) / 8) * 64);
+        return std::vector<std::uint32_t>{w.left, w.top, w.right, w.bottom};
+    };
+    const std::vector<std::uint32_t> all{0, 0, 50, 30}, none{0, 0, 0, 0};
+    Scene scene;
+    scene.objects.push_back(Solid{"ball", Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}});
+    scene.objects.push_back(Solid{"ground", Half{{{0, 0, 1}, -3}}, {}});
+    scene.top = {"ball"};
+    view.camera.view_size = 30.0;
+    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // 2 pixels across, in the middle, and a margin of 2
+    view.camera.center = Vec3{100, 0, 0};
+    view.camera.azimuth = view.camera.elevation = 0;
+    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // behind the eye, which stands back by 42, but rays begin nowhere
+    view.camera.center = Vec3{0, 100, 0};
+    CHECK(window_of(scene) == none);
+    view.camera.center.reset();
+    view.camera.perspective = 60;
+    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});
+    view.camera.view_size = 1.0;
+    CHECK(window_of(scene) == all);
+    view.camera.view_size = 30.0;
+    scene.top = {"ball", "ground"};
+    CHECK(window_of(scene) == all);
+}
