@@ -1,11 +1,12 @@
 // csgrt_bench: warm frames of every workload; tables on standard output, JSON on demand.
 //
-//   csgrt_bench [--device CHOICE|all]... [--size N] [--frames N] [--first-hit | --both] [--orbit N] [--only NAME,...]
-//               [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
+//   csgrt_bench [--device CHOICE|all]... [--size N] [--frames N] [--first-hit | --both] [--color] [--orbit N]
+//               [--only NAME,...] [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
 //   csgrt_bench --compare A.json B.json
 //
 // --floors: also what a frame of every partition must do at least, counted, beside what was measured of it (nothing is
 // measured with --frames 0).
+// --color: pictures of colours alone, as a viewer shows them, in place of all channels.
 // --orbit N: a frame at each of N azimuths around the model, as a viewer draws them, in place of --frames from one
 // side.
 // --only: workloads whose names begin so. `first` is the time from a loaded scene to the first picture.
@@ -33,7 +34,7 @@ struct Options {
     std::vector<std::string> devices, only, compare;
     std::string models = "../shared/brlcad", scenes = "scenes", json;
     int size = 1024, frames = 20, orbit = 0;
-    bool every_partition = true, first_hits = false, floors = false;
+    bool every_partition = true, first_hits = false, floors = false, color = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -51,6 +52,7 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     View view;
     view.width = view.height = options.size;
     view.every_partition = every_partition;
+    if (options.color) view.channels = channel::color;
     const double setup = renderer.statistics().ms.build;
     const auto start = Clock::now();
     Framebuffer framebuffer;
@@ -70,6 +72,7 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     f.workload = workload.name;
     f.device = s.device;
     f.mode = every_partition ? "every partition" : "first hits";
+    if (options.color) f.mode += ", colors alone";
     f.size = options.size;
     f.frames = count;
     f.orbit = options.orbit;
@@ -116,6 +119,10 @@ Options parse(int argc, char** argv) {
         if (name == "--first-hit" || name == "--both") {
             options.first_hits = true;
             options.every_partition = name == "--both";
+            continue;
+        }
+        if (name == "--color") {
+            options.color = true;
             continue;
         }
         if (name == "--floors") {

@@ -38,6 +38,14 @@ struct ByLines {
     std::array<QueuedTile, 2> tiles;
     std::size_t next = 0;        ///< of them, the one that comes next
     std::optional<Tile> ahead;   ///< what that was given already
+
+    /// A tile that is drawn, and whose answers are on their way to the host, but not its pixels.
+    struct Drawn {
+        QueuedTile* tile = nullptr;
+        RenderTarget target{};
+        bool is_last = false;
+        PipelineCounts* counts = nullptr;
+    } drawn;
     PictureLines lines;
 
     std::uint64_t held() const { return tiles[0].buffers.held() + tiles[1].buffers.held() + lines.held(); }

@@ -51,7 +51,7 @@ bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>&
 
 // What the last tiles' pixels took comes before a smaller tile.
 bool Pipeline::weave(const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
-    if (exact().weave(buffers_, tile, rays, kind, counts)) return true;
+    if (exact().weave(buffers_, tile, rays, kind, counts, [&] { put_drawn(); })) return true;
     if (!by_lines_ || by_lines_->held() == 0) return false;
     const auto own = std::find_if(by_lines_->tiles.begin(), by_lines_->tiles.end(),
                                   [&](const QueuedTile& queued) { return &queued.buffers == &tile; });
@@ -77,6 +77,8 @@ bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const Render
         if (!weave(tile_, frame.ray_count, Rays::blocks, counts)) return false;
         exact().shade(buffers_, tile_, picture_, frame.ray_count);
         exact().tally(frame.ray_count);
+        device_.finish();
+        exact().fetch();
         exact().add_tallies(counts);
         exact().add_times(counts);
     } else if (sees) {
@@ -132,6 +134,7 @@ bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, Pipe
         queued.upload.start<std::byte>(queued.buffers.frame, kernels_.frame(queued.frame));
         if (!weave(queued.buffers, rays, Rays::blocks, counts)) return false;
     }
+    put_drawn();
     PictureLines::wait(*queued.lines);
     by_lines_->list.put_background(queued.frame, queued.tile, exact().cull().costs(), background_of(target),
                                    static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer);
@@ -145,16 +148,20 @@ bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, Pipe
 }
 
 // False: the tile does not fit the memory. A device, and the bus, stand still whenever the host waits for an answer before it says what
-// comes next: therefore the next tile is queued before the host looks at what has become of this one.
+// comes next: therefore the next tile is queued before the host looks at what has become of this one, and of every partition that waits
+// until some of the next one's kernels run.
 bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
                              PipelineCounts& counts) {
     ByLines& by = *by_lines_;
     QueuedTile& own = by.tiles[by.next];
     const bool every = frame.every_partition;
-    if (std::exchange(by.ahead, {}) != tile && !queue(own, frame, tile, target, nullptr)) {
-        by.release();
-        if (exact_) exact_->release();
-        if (!queue(own, frame, tile, target, nullptr)) return false;
+    if (std::exchange(by.ahead, {}) != tile) {
+        put_drawn();
+        if (!queue(own, frame, tile, target, nullptr)) {
+            by.release();
+            if (exact_) exact_->release();
+            if (!queue(own, frame, tile, target, nullptr)) return false;
+        }
     }
     if (every && !weave_queued(own, target, counts)) return false;
     by.next = (by.next + 1) % by.tiles.size();
@@ -163,29 +170,42 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
 
     every ? device_.finish() : wait_for(own.drawn);
     own.answer.fetch();
-    if (every) {
-        exact().fetch();
-        if (by.ahead) other.answer.fetch();
-    }
-    counts.cull_blocks += milliseconds(own.culled);
+    if (every) exact().fetch();
+    if (every && by.ahead) other.answer.fetch();
+    by.drawn = {&own, target, next.rays == 0, &counts};
+    if (!every || !by.ahead) put_drawn();  // else while the next one's kernels run
+    return true;
+}
+
+void Pipeline::put_drawn() {
+    if (!by_lines_ || !by_lines_->drawn.tile) return;
+    const ByLines::Drawn drawn = std::exchange(by_lines_->drawn, {});
+    QueuedTile& tile = *drawn.tile;
+    PipelineCounts& counts = *drawn.counts;
+    const bool every = tile.frame.every_partition;
+    counts.cull_blocks += milliseconds(tile.culled);
     std::vector<std::uint32_t> overflown;
     if (!every) {
-        counts.first_hits += milliseconds(own.drawn);
-        if (own.tally().overflows > 0) overflown = own.buffers.overflown.read<std::uint32_t>(own.tally().overflows);
-    } else if (own.tally().seen > 0) {
+        counts.first_hits += milliseconds(tile.drawn);
+        if (tile.tally().overflows > 0) overflown = tile.buffers.overflown.read<std::uint32_t>(tile.tally().overflows);
+    } else if (tile.tally().seen > 0) {
         exact().add_tallies(counts);
         exact().add_times(counts);
     }
-    by.lines.put(own.frame, tile, own.shown(), *own.lines, next.rays == 0, target);
-    draw_exactly(frame, overflown, target, counts);
-    return true;
+    by_lines_->lines.put(tile.frame, tile.tile, tile.shown(), *tile.lines, drawn.is_last, drawn.target);
+    kernel::Frame frame = tile.frame;
+    frame.lines = 0;
+    draw_exactly(frame, overflown, drawn.target, counts);
 }
 
 // Rays of a picture the exact way, one by one.
 void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                             PipelineCounts& counts) {
     const std::uint64_t pixel_bytes = pixel_bytes_of(target), bytes = pixel_bytes + sizeof(std::uint32_t) + Exact::ray_bytes;
-    if (!numbers.empty() && by_lines_) by_lines_->lines.finish();  // what comes in whole blocks comes before
+    if (!numbers.empty() && by_lines_) {  // what comes in whole blocks comes before
+        put_drawn();
+        by_lines_->lines.finish();
+    }
     for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
         const auto begin = numbers.begin() + tile.first;
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
@@ -194,10 +214,10 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         exact().shade(buffers_, tile_, picture_, frame.ray_count);
         const Buffer::Mapping picture = picture_.map(picked.size() * pixel_bytes);
         put_rays(frame, picked, static_cast<const float*>(picture.data()), target);
-        if (frame.every_partition) {
-            exact().tally(tile.rays);
-            exact().add_tallies(counts);
-        }
+        if (frame.every_partition) exact().tally(tile.rays);
+        device_.finish();
+        exact().fetch();
+        if (frame.every_partition) exact().add_tallies(counts);
         exact().add_times(counts);
         return true;
     });

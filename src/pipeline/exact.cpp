@@ -41,6 +41,7 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       found_(device, "candidates' segments, then partitions"),
       ends_(device, "segments"),
       bits_(device, "partitions' bits"),
+      tally_sums_(device, "sums of tallies"),
       read_(device, "sums of tallies") {}
 
 std::uint64_t Exact::held() const {
@@ -59,22 +60,26 @@ void Exact::release_counted() {
     for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_}) buffer->release();
 }
 
-void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level) {
-    while (sums_.size() <= level) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
-    sums_[level]->reserve(blocks_of(size) * sizeof(kernel::RayCount));
-    timed_.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries,
-                                                                   *sums_[level], size));
+void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums) {
+    sums.reserve(blocks_of(size) * sizeof(kernel::RayCount));
+    timed_.emplace_back(&PipelineCounts::scan,
+                        scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries, sums, size));
 }
 
-kernel::RayCount Exact::scan(Buffer& counts, std::uint32_t rays) {
+void Exact::queue_scan(Buffer& counts, std::uint32_t rays) {
     counts.queue_fill(0, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
     std::vector<std::uint32_t> sizes{rays + 1};
     while (sizes.back() > 1) sizes.push_back(blocks_of(sizes.back()));
+    while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
     const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) sum_blocks(level(i), sizes[i], i + 1);
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) sum_blocks(level(i), sizes[i], level(i + 1));
     for (std::size_t i = sizes.size() - 1; i-- > 1;)
         timed_.emplace_back(&PipelineCounts::scan,
                             scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
+    device_.flush();
+}
+
+kernel::RayCount Exact::sum_of(const Buffer& counts, std::uint32_t rays) const {
     kernel::RayCount total;
     counts.read(&total, sizeof total, rays * sizeof total);
     return total;
@@ -103,13 +108,15 @@ bool Exact::reserve_counted(const kernel::RayCount& total) {
     return true;
 }
 
-bool Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
-    if (try_weave(scene, tile, rays, kind, counts)) return true;
+bool Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
+                  const std::function<void()>& beside) {
+    if (try_weave(scene, tile, rays, kind, counts, beside)) return true;
     release_counted();  // a smaller tile is not to be kept from its own
     return false;
 }
 
-bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts) {
+bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
+                      const std::function<void()>& beside) {
     const SceneBuffers& s = scene;
     const std::size_t entries = std::size_t{rays} + 1;
     if (entries * ray_bytes > device_.available()) release_counted();
@@ -117,13 +124,14 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     counts_.reserve(entries * sizeof(kernel::RayCount));
     firsts_.reserve(rays * sizeof(cl_uint));
 
-    timed_.clear();
     const auto run = [&](double PipelineCounts::*time, Event event) { timed_.emplace_back(time, std::move(event)); };
     const Buffer none(device_, "nothing");
     const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
     const std::size_t group = uneven_group(device_);
     run(&PipelineCounts::count_hits, find_candidates_.launch(rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
-    const cl_uint candidates = scan(places_, rays).segments;
+    queue_scan(places_, rays);
+    if (beside) beside();
+    const cl_uint candidates = sum_of(places_, rays).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
     const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
     if (candidates == COUNT_MAX || found_bytes > device_.max_buffer()) return false;
@@ -139,7 +147,8 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     run(&PipelineCounts::count_hits, count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                                         s.inner_nodes, tile.rays, candidates, candidates_, found_));
     run(&PipelineCounts::count_hits, sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_));
-    total_ = scan(counts_, rays);
+    queue_scan(counts_, rays);
+    total_ = sum_of(counts_, rays);
     if (!reserve_counted(total_)) return false;
 
     const cl_uint nodes = 2 * total_.segments;
@@ -172,9 +181,15 @@ void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& 
 
 // The first step of a scan leaves the sums of blocks, so that not every ray's tally has to come to the host.
 void Exact::tally(std::uint32_t rays) {
-    sum_blocks(places_, rays, 1);
+    sum_blocks(places_, rays, tally_sums_);
     tallies_ = blocks_of(rays);
-    read_.start(*sums_[1], tallies_ * sizeof(kernel::RayTally));
+    read_.start(tally_sums_, tallies_ * sizeof(kernel::RayTally));
+}
+
+void Exact::fetch() {
+    read_.fetch();
+    for (auto& kernel : timed_) done_.push_back(std::move(kernel));
+    timed_.clear();
 }
 
 void Exact::add_tallies(PipelineCounts& counts) {
@@ -185,8 +200,8 @@ void Exact::add_tallies(PipelineCounts& counts) {
 }
 
 void Exact::add_times(PipelineCounts& counts) {
-    for (const auto& [time, kernel] : timed_) counts.*time += milliseconds(kernel);
-    timed_.clear();
+    for (const auto& [time, kernel] : done_) counts.*time += milliseconds(kernel);
+    done_.clear();
 }
 
 std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {

@@ -5,6 +5,7 @@
 // Memory is counted, then allocated, never guessed.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -23,17 +24,18 @@ public:
     Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     /// Runs the kernels on the tile's rays, but the last one; waits for counts only. False: the rays' segments do not fit the
-    /// memory; nothing is lost then, the caller takes a smaller tile.
-    bool weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
+    /// memory; nothing is lost then, the caller takes a smaller tile. `beside` is called while the first of them run.
+    bool weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
+               const std::function<void()>& beside = nullptr);
     /// Runs the last one on the last run's rays, if they are a picture's. Does not wait.
     void shade(const SceneBuffers& scene, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
     /// Has the last run's partitions and overlaps summed, once it is shaded. Does not wait.
     void tally(std::uint32_t rays);
-    /// Has the sums copied; see QueuedRead.
-    void fetch() { read_.fetch(); }
-    /// Adds them up. Waits.
+    /// Has the sums copied; see QueuedRead. When the last run's kernels are done, and before those of the next one.
+    void fetch();
+    /// Adds them up, once fetch() was called. Waits.
     void add_tallies(PipelineCounts& counts);
-    /// Adds up how long the last run's kernels took. Waits for them. Once a run.
+    /// Adds up how long kernels took, until fetch() was called.
     void add_times(PipelineCounts& counts);
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
@@ -46,11 +48,13 @@ public:
     void release();  ///< gives all but the culling's back: another use of the budget wants it
 
 private:
-    bool try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
-    /// A step of the scan: of each block of entries the sum, in sums_[level]; the entries become sums within their block.
-    void sum_blocks(const Buffer& entries, std::uint32_t size, std::size_t level);
-    /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set; returns the last sum.
-    kernel::RayCount scan(Buffer& counts, std::uint32_t rays);
+    bool try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
+                   const std::function<void()>& beside);
+    /// A step of the scan: of each block of entries the sum; the entries become sums within their block.
+    void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums);
+    /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set.
+    void queue_scan(Buffer& counts, std::uint32_t rays);
+    kernel::RayCount sum_of(const Buffer& counts, std::uint32_t rays) const;  // the last one of them; waits
     void release_counted();  // what holds segments and partitions
     bool reserve_counted(const kernel::RayCount& total);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends,
@@ -74,8 +78,9 @@ private:
     Buffer ends_, bits_;
     std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
     kernel::RayCount total_{};                              // of the last run
-    std::vector<std::pair<double PipelineCounts::*, Event>> timed_;  // the last run's kernels
-    std::size_t tallies_ = 0;  // sums, that the host reads
+    std::vector<std::pair<double PipelineCounts::*, Event>> timed_, done_;  // kernels that run, and those that have
+    std::size_t tallies_ = 0;  // how many of them
+    Buffer tally_sums_;        // read while the next run's kernels run
     QueuedRead read_;
 };
 

@@ -153,12 +153,14 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
 
 void Pipeline::finish() {
     if (!by_lines_) return;
+    put_drawn();
     by_lines_->ahead.reset();
     by_lines_->lines.finish();
 }
 
 void Pipeline::abandon() noexcept {
     if (!by_lines_) return;
+    by_lines_->drawn = {};
     by_lines_->ahead.reset();
     by_lines_->lines.abandon();
 }
@@ -178,6 +180,8 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, R
         upload(frame);
         if (!exact().weave(buffers_, tile_, tile.rays, Rays::listed, counts)) return false;
         exact().tally(tile.rays);
+        device_.finish();
+        exact().fetch();
         exact().add_tallies(counts);
         exact().add_times(counts);
         const auto claims = exact().claims(tile.rays);

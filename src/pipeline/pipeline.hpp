@@ -72,6 +72,7 @@ private:
                        PipelineCounts& counts);
     bool queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but);
     bool weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts);
+    void put_drawn();
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
 

@@ -48,33 +48,50 @@ bool hold(const BlockRows& rows, const Rectangle& r) {
     return fits(r.top) && fits(r.bottom - 1);
 }
 
+/// The rectangles around strips that follow each other for which pixels and copies take least time in all.
+std::vector<Rectangle> join(const BlockRows& rows, std::span<const Rectangle> strips) {
+    constexpr std::size_t copy_cost = 1 << 15;  // pixels that a copy's begin takes as long as (bench/NOTES.md)
+    constexpr std::size_t most = 256;           // strips of a rectangle: as many are looked at from each
+    struct Best {
+        std::size_t cost = 0, begin = 0;  ///< of all strips before, and where the last rectangle of them begins
+        Rectangle last;
+    };
+    std::vector<Best> best(strips.size() + 1);
+    for (std::size_t end = 1; end <= strips.size(); ++end) {
+        best[end].cost = SIZE_MAX;
+        Rectangle joined = strips[end - 1];
+        for (std::size_t begin = end; begin-- > 0 && end - begin <= most;) {
+            joined = around(joined, strips[begin]);
+            if (!hold(rows, joined)) break;
+            const std::size_t cost = best[begin].cost + joined.size() + copy_cost;
+            if (cost < best[end].cost) best[end] = {cost, begin, joined};
+        }
+    }
+    std::vector<Rectangle> found;
+    for (std::size_t end = strips.size(); end > 0; end = best[end].begin) found.push_back(best[end].last);
+    std::ranges::reverse(found);
+    return found;
+}
+
 }  // namespace
 
 std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                                        std::span<const std::uint8_t> shown_blocks, const RenderTarget& target) {
-    constexpr std::size_t copy_cost = 1 << 14;  // pixels; of what is copied the bus, not the begin of copies, is what takes time
     const BlockRows rows(frame, first, end);
     const std::size_t behind = reinterpret_cast<std::uintptr_t>(target.planes.front().pixels) % 64 / sizeof(float);
-    std::vector<Rectangle> found;
+    std::vector<Rectangle> strips;  // of each row that has any
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const BlockRows::Extent all = rows.whole(row);
         const auto of_row = shown_blocks.subspan(rows.place(row, all.begin), all.end - all.begin);
         const BlockRows::Extent shown = extent_of(of_row, all.begin), held = extent_of(rows.held(row, target), all.begin);
         if (shown.is_empty() && held.is_empty()) continue;
         const BlockRows::Extent both = shown.is_empty()  ? held
-                            : held.is_empty() ? shown
-                                              : BlockRows::Extent{std::min(shown.begin, held.begin), std::max(shown.end, held.end)};
-        const Rectangle next = pixels_of(rows, row, both, (16 - behind) % 16);
-        if (!found.empty()) {
-            const Rectangle joined = around(found.back(), next);
-            if (hold(rows, joined) && joined.size() <= found.back().size() + next.size() + copy_cost) {
-                found.back() = joined;
-                continue;
-            }
-        }
-        found.push_back(next);
+                                       : held.is_empty() ? shown
+                                                         : BlockRows::Extent{std::min(shown.begin, held.begin),
+                                                                             std::max(shown.end, held.end)};
+        strips.push_back(pixels_of(rows, row, both, (16 - behind) % 16));
     }
-    return found;
+    return join(rows, strips);
 }
 
 void hold_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
