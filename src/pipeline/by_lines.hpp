@@ -49,6 +49,12 @@ struct ByLines {
     PictureLines lines;
 
     std::uint64_t held() const { return tiles[0].buffers.held() + tiles[1].buffers.held() + lines.held(); }
+    /// The next frame's first tile is the next that comes: one of a single tile always takes the same memory.
+    void begin() {
+        next = 0;
+        ahead.reset();
+        drawn = {};
+    }
     /// Gives that back but for what a tile has, once the other tiles' pixels are in the picture.
     void release(const QueuedTile* but = nullptr) {
         ahead.reset();

@@ -18,13 +18,14 @@ kernel::PlaneValues background_of(const RenderTarget& target) {
     return background;
 }
 
-// Of memory for lines. First hits' next tile is drawn while two others' are on their way; of every partition, kernels take so long
-// that one is. Where a tile is much of the picture, memory for several would be much of what a pixel may take.
+// How many memories for lines there are. First hits' next tile is drawn while two others' pixels are on their way; of every partition,
+// kernels take so long that one other's are. Where a tile is much of the picture, so is memory for several of what a pixel may take.
 std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile) {
-    const std::uint64_t pixels = std::uint64_t{frame.width} * frame.height;  // what memory is compared with
-    const bool is_small = pixels >= 8 * std::uint64_t{tile.rays};
+    const kernel::Window& w = frame.window;
+    const bool is_small = std::uint64_t{frame.width} * frame.height >= 8 * std::uint64_t{tile.rays};
+    const bool is_all = std::uint64_t{kernel::width_of(w)} * (w.bottom - w.top) <= tile.rays;
     if (frame.every_partition) return is_small ? 2 : 1;
-    return is_small ? 3 : pixels > tile.rays ? 2 : 1;
+    return is_small ? 3 : is_all ? 1 : 2;
 }
 
 }  // namespace

