@@ -272,6 +272,7 @@ typedef struct {
 
 FN u32 width_of(Window w) { return w.right - w.left; }
 FN u32 blocks_across(Window w) { return (width_of(w) + BLOCK - 1u) / BLOCK; }
+FN u32 blocks_down(Window w) { return (w.bottom - w.top + BLOCK - 1u) / BLOCK; }
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }

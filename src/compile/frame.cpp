@@ -114,9 +114,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     frame.light_count = static_cast<std::uint32_t>(result.lights.size());
 
     frame.window = window_of(scene, frame);
-    const std::uint64_t across = kernel::blocks_across(frame.window),
-                        down = (frame.window.bottom - frame.window.top + BLOCK - 1) / BLOCK;
-    result.rays = across * down * BLOCK * BLOCK;
+    result.rays = std::uint64_t{kernel::blocks_across(frame.window)} * kernel::blocks_down(frame.window) * BLOCK * BLOCK;
     result.right = from_glm(right);
     result.up = from_glm(up);
     result.back = from_glm(back);

@@ -61,13 +61,16 @@ kernel::Window window_of(const CompiledScene& scene, const kernel::Frame& f) {
     const kernel::Window all{0, 0, f.width, f.height};
     if (scene.unbounded_count > 0) return all;
     if (scene.nodes.empty()) return {};
-    // Rays may be single: what their coordinates are rounded by, with much to spare. The same for every precision.
-    double largest = f.radius;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(f.eye[k]), std::abs(f.center[k])});
-    const double rounding = largest * 0x1p-18;
+    // By as much boxes grow for single rays (kernels/shared/slab.h), and coordinates are rounded. The same for every precision.
+    double to_center = 0, center = 0;
+    for (int k = 0; k < 3; ++k) {
+        to_center = std::hypot(to_center, f.eye[k] - f.center[k]);
+        center = std::hypot(center, f.center[k]);
+    }
+    const double more = (f.radius + to_center + center) * 0x1p-16;
     Extent extent;
     for (const kernel::BvhNode& box : upper_boxes(scene.nodes))
-        if (!take_in(f, box, rounding, extent)) return all;
+        if (!take_in(f, box, more, extent)) return all;
 
     constexpr double margin = 2;  // pixels
     const auto within = [](double at, std::uint32_t size) { return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0 * size)); };

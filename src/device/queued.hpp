@@ -53,8 +53,8 @@ public:
         bytes_ = bytes;
     }
     void forget() { buffer_ = nullptr; }
-    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that is queued; until wait() the
-    /// buffer must stay as it is. If this was asked of several before one waits, their bytes come together.
+    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that writes the buffer; until wait()
+    /// it must stay as it is. If this was asked of several before one waits, their bytes come together.
     void fetch() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {

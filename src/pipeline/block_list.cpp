@@ -9,20 +9,20 @@ void BlockList::build() {
     list_.emplace(program_->kernel("list_blocks"));
 }
 
-void BlockList::list(const Tile& tile, const Buffer& costs, TileBuffers& buffers) {
+Event BlockList::list(const Tile& tile, const Buffer& costs, TileBuffers& buffers) {
     const cl_uint blocks = tile.blocks();
     buffers.rays.reserve(blocks * sizeof(cl_uint));
     buffers.tally.reserve(tally_bytes(tile));
     buffers.tally.queue_fill(0, tally_bytes(tile));
     count_->launch(blocks, work_group, costs, blocks, buffers.tally);
-    list_->launch(blocks, work_group, costs, cl_uint{tile.first_block()}, blocks, buffers.tally, buffers.rays);
+    return list_->launch(blocks, work_group, costs, cl_uint{tile.first_block()}, blocks, buffers.tally, buffers.rays);
 }
 
-void BlockList::put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs,
-                               const kernel::PlaneValues& background, std::uint32_t planes, const Buffer& picture) {
-    if (planes == 0) return;
-    put_background_->launch(tile.rays, block_rays, costs, frame.window, cl_uint{tile.first},
-                            cl_uint{frame.lines}, cl_uint{planes}, background, picture);
+Event BlockList::put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs,
+                                const kernel::PlaneValues& background, std::uint32_t planes, const Buffer& picture) {
+    if (planes == 0) return {};
+    return put_background_->launch(tile.rays, block_rays, costs, frame.window, cl_uint{tile.first},
+                                   cl_uint{frame.lines}, cl_uint{planes}, background, picture);
 }
 
 }  // namespace csgrt

@@ -18,10 +18,10 @@ public:
 
     /// Lists the tile's blocks in buffers.rays, those that cost most first, and counts them in buffers.tally, whose other values and
     /// bytes become 0. Does not wait.
-    void list(const Tile& tile, const Buffer& costs, TileBuffers& buffers);
+    Event list(const Tile& tile, const Buffer& costs, TileBuffers& buffers);
     /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
-    void put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
-                        std::uint32_t planes, const Buffer& picture);
+    Event put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
+                         std::uint32_t planes, const Buffer& picture);
 
     /// Of the tile's buffers: what list() reserves.
     static std::uint64_t tally_bytes(const Tile& tile) { return sizeof(kernel::TileTally) + (tile.blocks() + 3) / 4 * 4; }

@@ -22,6 +22,7 @@ struct QueuedTile {
     QueuedUpload upload;                   ///< of its frame
     QueuedRead answer;                     ///< its tally, and its blocks' bytes if they are drawn
     Event culled, drawn;
+    std::vector<Event> others;             ///< kernels whose time is not told
 
     const kernel::TileTally& tally() { return answer.wait<kernel::TileTally>(1).front(); }
     /// Of each block, not 0 if it shows something.

@@ -32,14 +32,14 @@ bool Cull::is_listed(const kernel::Frame& frame) const {
     return !frame.every_partition || device_.info().type == "cpu";
 }
 
-Event Cull::launch(const SceneBuffers& scene, const Buffer& on_device, const kernel::Frame& frame) {
+Event Cull::launch(const SceneBuffers& scene, const Buffer& frame_buffer, const kernel::Frame& frame) {
     const std::uint32_t blocks = frame.ray_count / block_rays;
     costs_.reserve(blocks);
     if (is_listed(frame))
         lists_.reserve(std::size_t{blocks} * LISTED_NODES * sizeof(kernel::BlockNode));
     else
         lists_.release();
-    return cull_blocks_.launch(blocks, uneven_group(device_), on_device, scene.nodes, costs_, lists_);
+    return cull_blocks_.launch(blocks, uneven_group(device_), frame_buffer, scene.nodes, costs_, lists_);
 }
 
 std::vector<std::uint32_t> Cull::seen(const Tile& tile) const {

@@ -10,9 +10,9 @@ public:
     /// `program` holds the kernel.
     Cull(Device& device, const Program& program);
 
-    /// Looks what the frame's tile's blocks may see; does not wait. `on_device`: the frame's buffer. Lists every block's nodes, too: by
+    /// Looks what the frame's tile's blocks may see; does not wait. Lists every block's nodes, too: by
     /// distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).
-    Event launch(const SceneBuffers& scene, const Buffer& on_device, const kernel::Frame& frame);
+    Event launch(const SceneBuffers& scene, const Buffer& frame_buffer, const kernel::Frame& frame);
     /// The numbers of those of the frame's tile's blocks that may see a solid, those that cost most first. Waits.
     std::vector<std::uint32_t> seen(const Tile& tile) const;
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernel_geometry.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace csgrt {
@@ -18,8 +17,9 @@ kernel::PlaneValues background_of(const RenderTarget& target) {
     return background;
 }
 
-// How many memories for lines there are. First hits' next tile is drawn while two others' pixels are on their way; of every partition,
-// kernels take so long that one other's are. Where a tile is much of the picture, so is memory for several of what a pixel may take.
+// How many tiles have memory for their lines at a time: of first hits one that is drawn and two whose pixels are copied, of every
+// partition, whose kernels take longer, one that is copied. Fewer where a tile is so large a part of the picture that this would be
+// much for each of its pixels.
 std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile) {
     const kernel::Window& w = frame.window;
     const bool is_small = std::uint64_t{frame.width} * frame.height >= 8 * std::uint64_t{tile.rays};
@@ -77,11 +77,7 @@ bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const Render
     if (sees && frame.every_partition) {
         if (!weave(tile_, frame.ray_count, Rays::blocks, counts)) return false;
         exact().shade(buffers_, tile_, picture_, frame.ray_count);
-        exact().tally(frame.ray_count);
-        device_.finish();
-        exact().fetch();
-        exact().add_tallies(counts);
-        exact().add_times(counts);
+        exact().settle(frame.ray_count, true, counts);
     } else if (sees) {
         tile_.tally.reserve(sizeof(kernel::TileTally));
         tile_.tally.queue_fill(0, sizeof(kernel::TileTally));
@@ -98,6 +94,11 @@ bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const Render
     return true;
 }
 
+void Pipeline::put_background(QueuedTile& queued, const RenderTarget& target) {
+    queued.others.push_back(by_lines_->list.put_background(queued.frame, queued.tile, cull(queued.frame).costs(), background_of(target),
+                                                           static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer));
+}
+
 // Has a tile's first kernels run: of first hits all. `but`: the tile before it, which is not put yet. False: there is no room.
 bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but) {
     const bool every = frame.every_partition;
@@ -107,20 +108,22 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     frame.lines = static_cast<std::uint32_t>(all.lines());
     queued.frame = frame;
     queued.tile = tile;
-    queued.lines = by_lines_->lines.next(all.size() * pixel_bytes_of(target), lines_in_turn(frame, tile), but ? but->lines : nullptr, every);
+    queued.lines = by_lines_->lines.next(all.size() * pixel_bytes_of(target), lines_in_turn(frame, tile),
+                                         but ? but->lines : nullptr, every);
     if (!queued.lines) return false;
+    const std::vector<std::byte> uploaded = kernels_.frame(frame);
     const std::uint64_t listed = tile.blocks() * sizeof(std::uint32_t) + BlockList::tally_bytes(tile),
-                        bytes = listed + cull_bytes(tile) + (every ? 0 : tile.rays * FirstHits::ray_bytes);
+                        bytes = uploaded.size() + listed + cull_bytes(tile) + (every ? 0 : tile.rays * FirstHits::ray_bytes);
     if (bytes > device_.available() + queued.buffers.held() + cull(frame).held()) return false;
 
-    queued.upload.start<std::byte>(queued.buffers.frame, kernels_.frame(frame));
+    queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
     queued.culled = cull(frame).launch(buffers_, queued.buffers.frame, frame);
-    by_lines_->list.list(tile, cull(frame).costs(), queued.buffers);
+    queued.others.clear();
+    queued.others.push_back(by_lines_->list.list(tile, cull(frame).costs(), queued.buffers));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : BlockList::tally_bytes(tile));
     if (!every) {
         PictureLines::wait(*queued.lines);
-        by_lines_->list.put_background(frame, tile, cull(frame).costs(), background_of(target),
-                                       static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer);
+        put_background(queued, target);
         queued.drawn = first_hits().launch(buffers_, queued.buffers, queued.lines->buffer, tile.rays);
     }
     device_.flush();
@@ -137,8 +140,7 @@ bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, Pipe
     }
     put_drawn();
     PictureLines::wait(*queued.lines);
-    by_lines_->list.put_background(queued.frame, queued.tile, exact().cull().costs(), background_of(target),
-                                   static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer);
+    put_background(queued, target);
     if (rays > 0) {
         exact().shade(buffers_, queued.buffers, queued.lines->buffer, rays);
         exact().tally(rays);
@@ -185,6 +187,7 @@ void Pipeline::put_drawn() {
     PipelineCounts& counts = *drawn.counts;
     const bool every = tile.frame.every_partition;
     counts.cull_blocks += milliseconds(tile.culled);
+    for (const Event& event : tile.others) wait_for(event);  // only they tell if they failed
     std::vector<std::uint32_t> overflown;
     if (!every) {
         counts.first_hits += milliseconds(tile.drawn);
@@ -215,11 +218,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         exact().shade(buffers_, tile_, picture_, frame.ray_count);
         const Buffer::Mapping picture = picture_.map(picked.size() * pixel_bytes);
         put_rays(frame, picked, static_cast<const float*>(picture.data()), target);
-        if (frame.every_partition) exact().tally(tile.rays);
-        device_.finish();
-        exact().fetch();
-        if (frame.every_partition) exact().add_tallies(counts);
-        exact().add_times(counts);
+        exact().settle(tile.rays, frame.every_partition, counts);
         return true;
     });
 }

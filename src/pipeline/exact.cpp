@@ -1,6 +1,7 @@
 #include "pipeline/exact.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernel_geometry.hpp"
 
@@ -46,13 +47,13 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = cull_.held();
-    for (const Buffer* buffer : {&places_, &counts_, &firsts_, &candidates_, &found_, &ends_, &bits_})
+    for (const Buffer* buffer : {&places_, &counts_, &firsts_, &tally_sums_, &candidates_, &found_, &ends_, &bits_})
         sum += buffer->size();
     return sum;
 }
 
 void Exact::release() {
-    for (Buffer* buffer : {&places_, &counts_, &firsts_}) buffer->release();
+    for (Buffer* buffer : {&places_, &counts_, &firsts_, &tally_sums_}) buffer->release();
     release_counted();
 }
 
@@ -111,6 +112,7 @@ bool Exact::reserve_counted(const kernel::RayCount& total) {
 bool Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
                   const std::function<void()>& beside) {
     if (try_weave(scene, tile, rays, kind, counts, beside)) return true;
+    for (const auto& [time, kernel] : timed_) wait_for(kernel);  // a fault is not a lack of memory
     release_counted();  // a smaller tile is not to be kept from its own
     return false;
 }
@@ -119,11 +121,15 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
                       const std::function<void()>& beside) {
     const SceneBuffers& s = scene;
     const std::size_t entries = std::size_t{rays} + 1;
-    if (entries * ray_bytes > device_.available()) release_counted();
-    places_.reserve(entries * sizeof(kernel::RayCount));
-    counts_.reserve(entries * sizeof(kernel::RayCount));
-    firsts_.reserve(rays * sizeof(cl_uint));
-
+    const std::pair<Buffer*, std::uint64_t> wanted[] = {{&places_, entries * sizeof(kernel::RayCount)},
+                                                        {&counts_, entries * sizeof(kernel::RayCount)},
+                                                        {&firsts_, rays * sizeof(cl_uint)},
+                                                        {&tally_sums_, blocks_of(rays) * sizeof(kernel::RayTally)}};
+    std::uint64_t more = 0;
+    for (const auto& [buffer, bytes] : wanted) more += bytes > buffer->size() ? bytes : 0;
+    if (more > device_.available()) release_counted();
+    if (more > device_.available()) return false;
+    for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
     const auto run = [&](double PipelineCounts::*time, Event event) { timed_.emplace_back(time, std::move(event)); };
     const Buffer none(device_, "nothing");
     const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
@@ -192,6 +198,20 @@ void Exact::fetch() {
     timed_.clear();
 }
 
+void Exact::settle(std::uint32_t rays, bool tallied, PipelineCounts& counts) {
+    if (tallied) tally(rays);
+    device_.finish();
+    fetch();
+    if (tallied) add_tallies(counts);
+    add_times(counts);
+}
+
+void Exact::forget() noexcept {
+    timed_.clear();
+    done_.clear();
+    read_.forget();
+}
+
 void Exact::add_tallies(PipelineCounts& counts) {
     for (const kernel::RayTally& tally : read_.wait<kernel::RayTally>(tallies_)) {
         counts.partitions_used += tally.partitions;
@@ -200,8 +220,7 @@ void Exact::add_tallies(PipelineCounts& counts) {
 }
 
 void Exact::add_times(PipelineCounts& counts) {
-    for (const auto& [time, kernel] : done_) counts.*time += milliseconds(kernel);
-    done_.clear();
+    for (const auto& [time, kernel] : std::exchange(done_, {})) counts.*time += milliseconds(kernel);
 }
 
 std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {

@@ -35,15 +35,19 @@ public:
     void fetch();
     /// Adds them up, once fetch() was called. Waits.
     void add_tallies(PipelineCounts& counts);
-    /// Adds up how long kernels took, until fetch() was called.
+    /// Adds up how long kernels took, those up to the last fetch().
     void add_times(PipelineCounts& counts);
+    /// All that at once, the sums only if they are `tallied`. Waits.
+    void settle(std::uint32_t rays, bool tallied, PipelineCounts& counts);
+    /// Leaves aside what the last runs have yet to tell.
+    void forget() noexcept;
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
     std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays) const;
 
     Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes =
-        2 * sizeof(kernel::RayCount) + sizeof(std::uint32_t) + 4;  ///< whatever a ray hits
+        2 * sizeof(kernel::RayCount) + sizeof(std::uint32_t) + 4;  ///< whatever a ray hits, and its part of the sums
     std::uint64_t held() const;
     void release();  ///< gives all but the culling's back: another use of the budget wants it
 
@@ -79,8 +83,8 @@ private:
     std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
     kernel::RayCount total_{};                              // of the last run
     std::vector<std::pair<double PipelineCounts::*, Event>> timed_, done_;  // kernels that run, and those that have
-    std::size_t tallies_ = 0;  // how many of them
     Buffer tally_sums_;        // read while the next run's kernels run
+    std::size_t tallies_ = 0;  // how many sums
     QueuedRead read_;
 };
 

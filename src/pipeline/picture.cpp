@@ -71,7 +71,8 @@ class Blocks {
 public:
     Blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
            const float* values, const RenderTarget& target)
-        : rows_(frame, first, end), width_(frame.width), drawn_(drawn.size()), values_(values), places_(end - first, none), target_(target) {
+        : rows_(frame, first, end), width_(frame.width), drawn_(drawn.size()), values_(values), places_(end - first, none),
+          target_(target) {
         for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
         std::size_t held = 0;
         for (std::size_t row = 0; row < rows_.count(); ++row) {
@@ -200,7 +201,8 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
 
 void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
     const kernel::Window& window = frame.window;
-    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK, down = (frame.height + BLOCK - 1) / BLOCK;
+    const kernel::Window all{0, 0, frame.width, frame.height};
+    const std::size_t across = kernel::blocks_across(all), down = kernel::blocks_down(all);
     const std::size_t left = window.left / BLOCK, right = (window.right + BLOCK - 1) / BLOCK;
     std::vector<std::size_t> held;
     const auto find = [&](std::size_t begin, std::size_t end) {

@@ -4,7 +4,6 @@
 #include <system_error>
 #include <utility>
 
-#include "kernel_geometry.hpp"
 #include "pipeline/known_picture.hpp"
 
 namespace csgrt {
@@ -14,12 +13,12 @@ PictureLines::PictureLines(Device& device)
       lines_{Lines{Buffer(device, "lines"), {}}, Lines{Buffer(device, "lines"), {}}, Lines{Buffer(device, "lines"), {}}},
       copies_(device) {}
 
-PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t most, const Lines* held, bool later) {
+PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t most, const Lines* held, bool is_drawn_later) {
     most = std::min(most, lines_.size());
     if (most > 1 && &lines_[next_lines_ % most] == held) ++next_lines_;
     Lines& lines = lines_[next_lines_ % most];
     const bool grows = bytes > lines.buffer.size();
-    if (&lines == held && (grows || !later)) return nullptr;
+    if (&lines == held && (grows || !is_drawn_later)) return nullptr;
     if (grows) {
         wait(lines);
         if (bytes > std::min(device_.available() + lines.buffer.size(), device_.max_buffer())) return nullptr;

@@ -26,16 +26,17 @@ public:
 
     explicit PictureLines(Device& device);
 
-    /// Memory for lines, one of `most` that are taken in turn. `held`: one whose lines are not put yet; it is taken again only if `later`
-    /// says that nothing is drawn into it before they are. Null: there is no room on the device.
-    Lines* next(std::size_t bytes, std::size_t most, const Lines* held, bool later);
+    /// Memory for lines, one of `most` that are taken in turn. `held`: one whose lines are not put yet; it is taken again only if
+    /// nothing is drawn into it before they are. Null: there is no room on the device.
+    Lines* next(std::size_t bytes, std::size_t most, const Lines* held, bool is_drawn_later);
     /// Returns when the lines that were there are in the picture.
     static void wait(Lines& lines) {
         if (lines.copied.valid()) std::exchange(lines.copied, {}).get();
     }
 
-    /// Puts the tile's blocks, which are drawn, into the target: what is `shown` (a byte a block) and background. Unless this is the last of the device's in a frame, and the picture's memory not
-    /// known to it, it may return before it is done: until then the target must last.
+    /// Puts the tile's blocks, which are drawn, into the target: what is `shown` (a byte a block) and background. Unless this is the
+    /// last of the device's in a frame, and the picture's memory not known to it, it may return before it is done: until then the
+    /// target must last.
     void put(const kernel::Frame& frame, const Tile& tile, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
              const RenderTarget& target);
     /// Returns when all is done. Throws what kept it from being done.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "clock.hpp"
-#include "kernel_geometry.hpp"
 
 namespace csgrt {
 namespace {
@@ -159,6 +158,7 @@ void Pipeline::finish() {
 }
 
 void Pipeline::abandon() noexcept {
+    if (exact_) exact_->forget();
     if (!by_lines_) return;
     by_lines_->begin();
     by_lines_->lines.abandon();
@@ -168,6 +168,7 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, R
                      const Progress& progress, PipelineCounts& counts) {
     const std::vector<std::byte> list = kernels_.rays(rays);
     const std::size_t bytes = kernels_.ray_bytes();
+    if (exact_) exact_->forget();  // what a call that threw has left
     picture_.release();
     exact();
     for_each_tile({0, rays.size()}, fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
@@ -177,12 +178,8 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, R
         kernel::Frame frame = prepared.frame;
         frame.ray_count = tile.rays;
         upload(frame);
-        if (!exact().weave(buffers_, tile_, tile.rays, Rays::listed, counts)) return false;
-        exact().tally(tile.rays);
-        device_.finish();
-        exact().fetch();
-        exact().add_tallies(counts);
-        exact().add_times(counts);
+        if (!weave(tile_, tile.rays, Rays::listed, counts)) return false;
+        exact().settle(tile.rays, true, counts);
         const auto claims = exact().claims(tile.rays);
         for (std::uint32_t i = 0; i < tile.rays; ++i) {
             answers[tile.first + i] = to_partitions(kernels_, prepared.frame, rays[tile.first + i], claims[i]);

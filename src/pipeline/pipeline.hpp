@@ -71,6 +71,7 @@ private:
     bool draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
                        PipelineCounts& counts);
     bool queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but);
+    void put_background(QueuedTile& queued, const RenderTarget& target);
     bool weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts);
     void put_drawn();
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,

@@ -50,11 +50,11 @@ constexpr std::uint64_t most_bytes_a_pixel = 64;
 
 }  // namespace
 
-Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings) {
+Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, Readback readback) {
     const std::vector<FoundDevice> found = find_devices();
     for (const std::size_t number : choose_devices(infos_of(found), settings.device)) {
         devices_.push_back(std::make_unique<Device>(found[number], settings.max_memory));
-        pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings));
+        pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings, readback));
     }
 }
 
@@ -65,11 +65,13 @@ std::uint64_t Pipelines::parts_of(bool every_partition) const {
 }
 
 // A thread for each device. What the foremost part threw is thrown, once all threads have stopped.
-void Pipelines::share(std::uint64_t rays, std::uint64_t parts_each, const Progress& progress, PipelineCounts& counts,
+void Pipelines::share(std::uint64_t rays, bool every_partition, const Progress& progress, PipelineCounts& counts,
                       const Work& work) {
-    Parts parts(rays, pipelines_.size(), parts_each, parts_each == parts_of_first_hits);
+    const std::uint64_t parts_each = parts_of(every_partition);
+    Parts parts(rays, pipelines_.size(), parts_each, !every_partition);
     if (parts_each == 1 || rays <= block_rays) {
         work(*pipelines_.front(), {0, rays}, [] { return RayRange{}; }, progress, counts);
+        if (rays == 0 && progress && !progress(1)) throw Error(Status::interrupted, "interrupted");  // no tile has asked
         return;
     }
     std::atomic<std::size_t> joined{0};
@@ -160,7 +162,7 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(prepared.rays, parts_of(prepared.frame.every_partition), progress, counts,
+    share(prepared.rays, prepared.frame.every_partition, progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next& next, const Progress& told, PipelineCounts& own) {
               pipeline.render(prepared, part, next, shared, told, own);
           });
@@ -172,7 +174,7 @@ std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const
                                             const Progress& progress, PipelineCounts& counts) {
     forget();
     std::vector<RayPartitions> answers(rays.size());
-    share(rays.size(), parts_of(true), progress, counts,
+    share(rays.size(), true, progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next&, const Progress& told, PipelineCounts& own) {
               pipeline.shoot(prepared, std::span(rays).subspan(part.first, part.end - part.first), answers.data() + part.first, told,
                              own);

@@ -15,7 +15,8 @@ namespace csgrt {
 class Pipelines {
 public:
     /// `settings.device` says which. The scene and the kernels must outlive this.
-    Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+    Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+              Readback readback = Readback::by_device);
 
     void prepare(bool every_partition);
     /// Makes the memory of a picture that will be drawn into again known to the GPUs that have room: `pixels` floats of each
@@ -35,7 +36,7 @@ private:
     using Next = std::function<RayRange()>;
     using Work = std::function<void(Pipeline&, RayRange, const Next&, const Progress&, PipelineCounts&)>;
     std::uint64_t parts_of(bool every_partition) const;
-    void share(std::uint64_t rays, std::uint64_t parts_each, const Progress& progress, PipelineCounts& counts, const Work& work);
+    void share(std::uint64_t rays, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work);
 
     void forget();
 

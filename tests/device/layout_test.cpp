@@ -28,11 +28,12 @@ using namespace csgrt;
     FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient) FIELD(Frame, background) FIELD(Frame, width) \
     FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
-    FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) FIELD(Frame, window) FIELD(Frame, lines) RECORD(Window) FIELD(Window, left) FIELD(Window, top) \
-    FIELD(Window, right) FIELD(Window, bottom) \
+    FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
+    FIELD(Frame, window) FIELD(Frame, lines) RECORD(Window) FIELD(Window, left) FIELD(Window, top) FIELD(Window, right) FIELD(Window, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
-    FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) RECORD(TileTally) FIELD(TileTally, blocks) FIELD(TileTally, listed) \
+    FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) \
+    RECORD(TileTally) FIELD(TileTally, blocks) FIELD(TileTally, listed) \
     FIELD(TileTally, seen) FIELD(TileTally, overflows) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \

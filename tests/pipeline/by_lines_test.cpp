@@ -8,8 +8,12 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "pipeline/known_picture.hpp"
+#include "pipeline/pipelines.hpp"
 #include "pipeline/same_answers.hpp"
+#include "pipeline/scenes.hpp"
 #include "reference/reference.hpp"
+#include "sanitized.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 
@@ -91,13 +95,20 @@ namespace {
 
 /// A pipeline that brings pixels by lines, and the memory of a picture that it draws into.
 struct Lined {
-    explicit Lined(const Scene& scene)
+    /// `room`: bytes of device memory beside the scene's; 0: all that there is.
+    explicit Lined(const Scene& scene, std::uint64_t room = 0)
         : renderer(scene, {}, settings), compiled(compile(scene, {})),
-          kernels(make_kernels(compiled, settings.precision, settings.quartic)), device(settings.device),
-          pipeline(device, compiled, *kernels, settings, Readback::lines) {}
+          kernels(make_kernels(compiled, settings.precision, settings.quartic)),
+          device(settings.device, room ? bytes_of_scene() + room : 0), pipeline(device, compiled, *kernels, settings, Readback::lines) {}
+
+    std::uint64_t bytes_of_scene() const {
+        Device alone(settings.device);
+        const Pipeline scene(alone, compiled, *kernels, settings);
+        return alone.allocated();
+    }
 
     /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress` interrupts it.
-    void draw(int width, int height, bool every_partition, std::uint64_t rays, const Progress& progress = nullptr) {
+    PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays, const Progress& progress = nullptr) {
         View view;
         view.width = width;
         view.height = height;
@@ -127,6 +138,12 @@ struct Lined {
         Image packed = image;
         packed.channels = pixels;
         test::require_same(packed, image);
+        if (every_partition) {
+            CHECK(counts.segments == renderer.statistics().segments);
+            CHECK(counts.partitions_used == renderer.statistics().partitions_used);
+            CHECK(counts.overlaps == renderer.statistics().overlaps);
+        }
+        return counts;
     }
 
     Settings settings = test::on_device();
@@ -159,4 +176,76 @@ TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
     lined.draw(300, 250, every_partition, 200 * block_rays);
     CHECK_THROWS_AS(lined.draw(300, 250, every_partition, 200 * block_rays, [](double) { return false; }), Error);
     lined.draw(40, 50, every_partition, 10 * block_rays);
+}
+
+TEST_CASE("pixels by lines: rays that have no room") {
+    Scene scene;
+    std::vector<Tree> shells;
+    for (int i = 0; i < 70; ++i) {  // more than a ray has room for while none is claimed
+        const double r = 20 - 0.1 * i;
+        const std::string name = "shell" + std::to_string(i);
+        scene.objects.push_back(Solid{name, Ell{{0, 0, 0}, {r, 0, 0}, {0, r, 0}, {0, 0, r}}, {}});
+        shells.push_back(stress::leaf(name));
+    }
+    Combination core;
+    core.name = "core";
+    core.tree = stress::operate(Operator::intersection, shells);
+    core.region = true;
+    scene.objects.push_back(core);
+    scene.objects.push_back(Solid{"ball", Ell{{0, 30, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {}});
+    scene.top = {"core", "ball"};
+    Lined lined(scene);
+    for (const std::uint64_t blocks : {9, 60, 1000})
+        CHECK(lined.draw(203, 161, false, blocks * block_rays).segments > 0);  // which the exact way alone counts
+}
+
+TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
+    const Scene scene = bench::scene_of_parts(20);
+    const bool every_partition = GENERATE(false, true);
+    for (std::uint64_t room = 30'000; room < 6'000'000; room += room / (test::sanitized ? 1 : 4)) {
+        INFO("every partition: " << every_partition << ", room " << room);
+        Lined lined(scene, room);
+        lined.draw(1000, 24, every_partition, 1 << 20);
+        const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 300);
+        const PreparedFrame prepared = prepare_rays(lined.compiled, 300, lined.renderer.statistics().tolerance);
+        std::vector<RayPartitions> answers(rays.size());
+        PipelineCounts counts;
+        lined.pipeline.shoot(prepared, rays, answers.data(), nullptr, counts);
+        test::require_same(answers, lined.renderer.shoot(rays));
+    }
+}
+
+TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last one, and one that sees nothing") {
+    Lined lined(bench::scene_of_parts(20));
+    Pipelines pipelines(lined.compiled, *lined.kernels, lined.settings, Readback::lines);
+    View view;
+    view.width = 1200;
+    view.height = 1000;
+    view.camera.view_size = lined.compiled.radius;  // from edge to edge
+    view.channels = channel::color | channel::ids;
+    std::vector<std::vector<float>> pixels(6, std::vector<float>(1200 * 1000, 0.0f));
+    std::vector<ChannelPlane> planes;
+    for (auto& plane : pixels) planes.push_back({plane.data(), 0});
+    std::vector<std::uint8_t> drawn(150 * 125);
+    for (const bool every_partition : {false, true})
+        for (const bool sees : {true, false, true}) {
+            INFO("every partition: " << every_partition << ", sees: " << sees);
+            view.every_partition = every_partition;
+            view.camera.center = sees ? std::optional<Vec3>() : Vec3{0, 1e9, 0};
+            Image image = lined.renderer.render(view);
+            const PreparedFrame prepared = prepare_frame(lined.compiled, view, lined.renderer.statistics().tolerance);
+            CHECK((prepared.rays > 0) == sees);
+            double told = 0;
+            PipelineCounts counts;
+            pipelines.render(prepared, {.planes = planes, .drawn = drawn}, [&](double part) { told = part; return true; }, counts);
+            CHECK(told == 1);
+            if (sees && !every_partition) CHECK(counts.tiles > 1);
+            Image packed = image;
+            packed.channels = pixels;
+            test::require_same(packed, image);
+            CHECK((std::count(drawn.begin(), drawn.end(), 0) < std::ptrdiff_t(drawn.size())) == sees);
+        }
+    CHECK_THROWS_AS(pipelines.render(prepare_frame(lined.compiled, view), {.planes = planes, .drawn = drawn},
+                                     [](double) { return false; }, *std::make_unique<PipelineCounts>()),
+                    Error);
 }

@@ -6,8 +6,10 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "pipeline/pipelines.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
+#include "reference/reference.hpp"
 
 using namespace csgrt;
 
@@ -59,4 +61,36 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
     go_on = true;
     renderer.render(view);
     CHECK(last == 1);
+}
+
+TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
+    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    Settings settings;
+    settings.device = "0";
+    Renderer one(scene, {}, settings);
+    settings.device = "0,1";
+    const CompiledScene compiled = compile(scene, {});
+    const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    Pipelines two(compiled, *kernels, settings, Readback::lines);
+    View view;
+    view.width = 301;
+    view.height = 257;
+    view.channels = channel::color | channel::ids;
+    std::vector<std::vector<float>> pixels(6, std::vector<float>(301 * 257));
+    std::vector<ChannelPlane> planes;
+    const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);
+    for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 3 ? any.frame.background[p] : 0});
+    std::vector<std::uint8_t> drawn(38 * 33, 1);
+    for (const bool every : {false, true, false})
+        for (const double azimuth : {35.0, 100.0}) {
+            view.every_partition = every;
+            view.camera.azimuth = azimuth;
+            PipelineCounts counts;
+            two.render(prepare_frame(compiled, view, one.statistics().tolerance), {.planes = planes, .drawn = drawn}, nullptr, counts);
+            CHECK(counts.tiles > 2);
+            const Image image = one.render(view);
+            Image packed = image;
+            packed.channels = pixels;
+            test::require_same(packed, image);
+        }
 }

@@ -48,9 +48,10 @@ View random_view(std::mt19937& random, const Vec3& center, double size) {
     view.height = 71;
     view.camera.azimuth = between(0, 360);
     view.camera.elevation = between(-90, 90);
-    if (random() % 2) view.camera.perspective = between(5, 120);
-    view.camera.view_size = size * std::exp(between(-2, 2));
-    view.camera.center = Vec3{center.x + between(-0.7, 0.7) * size, center.y + between(-0.7, 0.7) * size, center.z + between(-0.7, 0.7) * size};
+    if (random() % 2) view.camera.perspective = random() % 4 ? between(5, 120) : 0.1;
+    view.camera.view_size = size * std::exp(random() % 4 ? between(-2, 2) : between(-7, -2));
+    const auto beside = [&](double at) { return at + between(-0.7, 0.7) * size; };
+    view.camera.center = Vec3{beside(center.x), beside(center.y), beside(center.z)};
     return view;
 }
 
@@ -71,7 +72,7 @@ TEST_CASE("no ray outside of the window meets anything") {
         small += outcome.part < 0.5;
     }
     CHECK(missed == 0);
-    CHECK(small > test::tries(60) / 8);
+    if (away == 0) CHECK(small > test::tries(60) / 8);
 }
 
 TEST_CASE("the window is all of the picture if something is unbounded or around the eye, and none of it if there is nothing") {
@@ -94,7 +95,7 @@ TEST_CASE("the window is all of the picture if something is unbounded or around 
     CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // 2 pixels across, in the middle, and a margin of 2
     view.camera.center = Vec3{100, 0, 0};
     view.camera.azimuth = view.camera.elevation = 0;
-    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // behind the eye, which stands back by 42, but rays begin nowhere
+    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // behind the eye
     view.camera.center = Vec3{0, 100, 0};
     CHECK(window_of(scene) == none);
     view.camera.center.reset();
