@@ -171,6 +171,7 @@ bool wanted(const Workload& workload, const Options& options) {
 /// By workload, so that a scene is generated or read but once.
 std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
     std::vector<Figures> all;
+    prepare_devices();  // as the command does, and viewers should
     for (const Workload& workload : workloads()) {
         if (!wanted(workload, options)) continue;
         const bool ours = workload.file.ends_with(".json");
