@@ -16,7 +16,7 @@
 
 #ifdef __OPTIMIZE__
 #undef WHOLE_FN
-#define WHOLE_FN __attribute__((flatten)) FN
+#define WHOLE_FN [[gnu::flatten]] FN
 #endif
 
 namespace csgrt::fused {
