@@ -2,6 +2,7 @@
 // (kernels/picture_blocks.cl).
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "pipeline/cull.hpp"
@@ -17,8 +18,8 @@ public:
     bool is_built() const { return list_.has_value(); }
 
     /// Lists the tile's blocks in buffers.rays, those that cost most first, and counts them in buffers.tally, whose other values and
-    /// bytes become 0. Does not wait.
-    Event list(const Tile& tile, const Buffer& costs, TileBuffers& buffers);
+    /// bytes become 0. Does not wait. Returns what the two kernels tell.
+    std::array<Event, 2> list(const Tile& tile, const Buffer& costs, TileBuffers& buffers);
     /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
     Event put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
                          std::uint32_t planes, const Buffer& picture);

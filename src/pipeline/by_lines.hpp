@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "device/queued.hpp"
 #include "pipeline/block_list.hpp"
@@ -22,7 +23,7 @@ struct QueuedTile {
     QueuedUpload upload;                   ///< of its frame
     QueuedRead answer;                     ///< its tally, and its blocks' bytes if they are drawn
     Event culled, drawn;
-    std::vector<Event> others;             ///< kernels whose time is not told
+    std::vector<Event> others;             ///< of the blocks' list, and of the background
 
     const kernel::TileTally& tally() { return answer.wait<kernel::TileTally>(1).front(); }
     /// Of each block, not 0 if it shows something.

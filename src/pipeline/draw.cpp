@@ -119,7 +119,7 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
     queued.culled = cull(frame).launch(buffers_, queued.buffers.frame, frame);
     queued.others.clear();
-    queued.others.push_back(by_lines_->list.list(tile, cull(frame).costs(), queued.buffers));
+    for (Event& event : by_lines_->list.list(tile, cull(frame).costs(), queued.buffers)) queued.others.push_back(std::move(event));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : BlockList::tally_bytes(tile));
     if (!every) {
         PictureLines::wait(*queued.lines);
@@ -187,7 +187,7 @@ void Pipeline::put_drawn() {
     PipelineCounts& counts = *drawn.counts;
     const bool every = tile.frame.every_partition;
     counts.cull_blocks += milliseconds(tile.culled);
-    for (const Event& event : tile.others) wait_for(event);  // only they tell if they failed
+    for (const Event& event : tile.others) counts.cull_blocks += milliseconds(event);
     std::vector<std::uint32_t> overflown;
     if (!every) {
         counts.first_hits += milliseconds(tile.drawn);
