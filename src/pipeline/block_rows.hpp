@@ -3,11 +3,23 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "pipeline/picture.hpp"
 
 namespace csgrt {
+
+/// The first byte from `begin` on that is not 0, or `end`: eight are looked at at once.
+inline std::size_t next_held(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
+    for (; begin + 8 <= end; begin += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, bytes.data() + begin, sizeof eight);
+        if (eight != 0) break;
+    }
+    while (begin < end && bytes[begin] == 0) ++begin;
+    return begin;
+}
 
 class BlockRows {
 public:

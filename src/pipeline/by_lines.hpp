@@ -19,11 +19,11 @@ struct QueuedTile {
     kernel::Frame frame{};
     Tile tile;
     TileBuffers buffers;
-    PictureLines::Lines* lines = nullptr;  ///< where it is drawn; of every partition chosen late
+    PictureLines::Lines* lines = nullptr;  ///< where it is drawn; of every partition only when it is shaded
     QueuedUpload upload;                   ///< of its frame
     QueuedRead answer;                     ///< its tally, and its blocks' bytes if they are drawn
-    Event culled, drawn;
-    std::vector<Event> others;             ///< of the blocks' list, and of the background
+    std::vector<Event> culled;             ///< kernel 0, the blocks' list, the background
+    Event drawn;                           ///< of first hits
 
     const kernel::TileTally& tally() { return answer.wait<kernel::TileTally>(1).front(); }
     /// Of each block, not 0 if it shows something.

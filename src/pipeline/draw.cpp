@@ -56,7 +56,7 @@ bool Pipeline::weave(const TileBuffers& tile, std::uint32_t rays, Rays kind, Pip
     if (!by_lines_ || by_lines_->held() == 0) return false;
     const auto own = std::find_if(by_lines_->tiles.begin(), by_lines_->tiles.end(),
                                   [&](const QueuedTile& queued) { return &queued.buffers == &tile; });
-    by_lines_->release(own == by_lines_->tiles.end() ? nullptr : &*own);
+    release_lines(own == by_lines_->tiles.end() ? nullptr : &*own);
     return exact().weave(buffers_, tile, rays, kind, counts);
 }
 
@@ -95,7 +95,7 @@ bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const Render
 }
 
 void Pipeline::put_background(QueuedTile& queued, const RenderTarget& target) {
-    queued.others.push_back(by_lines_->list.put_background(queued.frame, queued.tile, cull(queued.frame).costs(), background_of(target),
+    queued.culled.push_back(by_lines_->list.put_background(queued.frame, queued.tile, cull(queued.frame).costs(), background_of(target),
                                                            static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer));
 }
 
@@ -117,9 +117,9 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     if (bytes > device_.available() + queued.buffers.held() + cull(frame).held()) return false;
 
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
-    queued.culled = cull(frame).launch(buffers_, queued.buffers.frame, frame);
-    queued.others.clear();
-    for (Event& event : by_lines_->list.list(tile, cull(frame).costs(), queued.buffers)) queued.others.push_back(std::move(event));
+    queued.culled.clear();
+    queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers.frame, frame));
+    for (Event& event : by_lines_->list.list(tile, cull(frame).costs(), queued.buffers)) queued.culled.push_back(std::move(event));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : BlockList::tally_bytes(tile));
     if (!every) {
         PictureLines::wait(*queued.lines);
@@ -161,7 +161,7 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
     if (std::exchange(by.ahead, {}) != tile) {
         put_drawn();
         if (!queue(own, frame, tile, target, nullptr)) {
-            by.release();
+            release_lines();
             if (exact_) exact_->release();
             if (!queue(own, frame, tile, target, nullptr)) return false;
         }
@@ -180,14 +180,20 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
     return true;
 }
 
+// Gives back what tiles by lines take, but for `but`, once what is drawn is in the picture.
+void Pipeline::release_lines(const QueuedTile* but) {
+    put_drawn();
+    by_lines_->release(but);
+}
+
+// Takes the answers of a tile that is drawn, and has its pixels copied, if one waits for that.
 void Pipeline::put_drawn() {
     if (!by_lines_ || !by_lines_->drawn.tile) return;
     const ByLines::Drawn drawn = std::exchange(by_lines_->drawn, {});
     QueuedTile& tile = *drawn.tile;
     PipelineCounts& counts = *drawn.counts;
     const bool every = tile.frame.every_partition;
-    counts.cull_blocks += milliseconds(tile.culled);
-    for (const Event& event : tile.others) counts.cull_blocks += milliseconds(event);
+    for (const Event& event : tile.culled) counts.cull_blocks += milliseconds(event);
     std::vector<std::uint32_t> overflown;
     if (!every) {
         counts.first_hits += milliseconds(tile.drawn);

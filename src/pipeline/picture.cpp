@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
@@ -143,17 +142,6 @@ private:
     const RenderTarget& target_;
     std::size_t pixels_;  ///< that are written, at most
 };
-
-/// The first byte from `begin` on that is not 0, or `end`: eight are looked at at once.
-std::size_t next_held(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
-    for (; begin + 8 <= end; begin += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, bytes.data() + begin, sizeof eight);
-        if (eight != 0) break;
-    }
-    while (begin < end && bytes[begin] == 0) ++begin;
-    return begin;
-}
 
 }  // namespace
 

@@ -77,7 +77,7 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
 void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= device_.available() + reused) return;
     tile_.release();
-    if (by_lines_) by_lines_->release();
+    if (by_lines_) release_lines();
     if (exact_) exact_->release();
 }
 
@@ -121,7 +121,7 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     if (!by_lines_ || !by_lines_->ahead) upload_lights(prepared);  // else the frame's are there
     prepare(every);
     if (by_lines_ && std::exchange(drew_every_partition_, every) != every) {  // there is memory for one way at a time
-        by_lines_->release();
+        release_lines();
         if (first_hits_) first_hits_->cull().release();
         if (exact_) {
             exact_->cull().release();

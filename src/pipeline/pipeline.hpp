@@ -74,6 +74,7 @@ private:
     void put_background(QueuedTile& queued, const RenderTarget& target);
     bool weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts);
     void put_drawn();
+    void release_lines(const QueuedTile* but = nullptr);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
 

@@ -19,9 +19,8 @@ BlockRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t lef
         std::memcpy(&eight, bytes.data() + at, sizeof eight);
         return eight == 0;
     };
-    std::size_t begin = 0, end = bytes.size();
-    while (begin + 8 <= end && are_zero(begin)) begin += 8;
-    while (begin < end && bytes[begin] == 0) ++begin;
+    std::size_t end = bytes.size();
+    const std::size_t begin = next_held(bytes, 0, end);
     while (end >= begin + 8 && are_zero(end - 8)) end -= 8;
     while (end > begin && bytes[end - 1] == 0) --end;
     return begin == end ? BlockRows::Extent{} : BlockRows::Extent{left + begin, left + end};
