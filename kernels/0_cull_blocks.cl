@@ -81,13 +81,22 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
     return 0;
 }
 
+// Of a tile whose pixels come by lines: nothing is counted yet, and no block shows anything.
+static void clear_tally(__global TileTally* tally, u32 blocks, u32 id) {
+    u32 k;
+    for (k = id; k < sizeof(TileTally) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)tally)[k] = 0;
+    if (id < blocks) ((__global unsigned char*)(tally + 1))[id] = 0;
+}
+
 // A work-item is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES.
 // `lists` 0: they are not wanted.
 __kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global BlockNode* lists) {
-    u32 id = (u32)get_global_id(0), cost = 0;
+                          __global BlockNode* lists, __global TileTally* tally) {
+    const u32 id = (u32)get_global_id(0), blocks = frame->ray_count / (BLOCK * BLOCK);
+    u32 cost = 0;
     beam b;
-    if (id >= frame->ray_count / (BLOCK * BLOCK)) return;
+    if (frame->lines) clear_tally(tally, blocks, id);
+    if (id >= blocks) return;
     b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + id);
     if (lists) {
         BlockNode list[LISTED_NODES - 1];

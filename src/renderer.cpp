@@ -242,6 +242,8 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
             framebuffer.known_ = nullptr;
         else if (!framebuffer.known_)
             framebuffer.known_ = impl.pipelines->make_known(planes, pixels);
+        else
+            impl.pipelines->keep_small(*framebuffer.known_, pixels);
         try {
             impl.pipelines->render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
                                    impl.settings.progress, counts);

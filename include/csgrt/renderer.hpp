@@ -95,7 +95,8 @@ struct SolidInfo {
     std::uint32_t piece = 0;  ///< a pipe is several solids: 0 is the first
 };
 
-/// Figures of the last call. Times in milliseconds; those of the kernels are the device's own, of several devices their sum.
+/// Figures of the last call. Times in milliseconds; those of the kernels are the device's own, of several devices their sum. Of first
+/// hits in several tiles a kernel's time is from its begin to its end, though another tile's may run beside it.
 /// Segments and partitions are not counted where only first hits were wanted, but for rays that needed the exact way.
 struct Statistics {
     std::string device, precision, method;
@@ -121,9 +122,9 @@ class KnownPicture;
 
 /// A picture that is drawn again and again, as a viewer does. Of a frame like the last one (size, channels, background) only
 /// the blocks of pixels are written that show something, or did before: what no solid is near costs nothing. From the second
-/// such frame of one Renderer on its GPUs copy into the picture's memory, if each has room for as much of its own and then
-/// holds no more than 64 bytes a pixel: it is made known to their drivers, which takes a tenth of a second a gigabyte. A copy of
-/// a Framebuffer is not known to them.
+/// such frame of one Renderer on its GPUs copy into the picture's memory, of as many of its channels as each has room for beside its
+/// own, with no more than 64 bytes a pixel in all: it is made known to their drivers, which takes a tenth of a second a gigabyte. A
+/// copy of a Framebuffer is not known to them.
 class CSGRT_API Framebuffer {
 public:
     Framebuffer();

@@ -8,6 +8,7 @@
 #define PURE __attribute__((overloadable, const))
 
 PURE size_t get_global_id(uint dimension);
+PURE size_t get_global_size(uint dimension);
 PURE size_t get_group_id(uint dimension);
 PURE size_t get_local_id(uint dimension);
 OVERLOADED __attribute__((convergent)) void barrier(cl_mem_fence_flags flags);

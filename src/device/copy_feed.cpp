@@ -133,7 +133,7 @@ void CopyFeed::retire() {
     bytes_ -= first.bytes;
     if (!first.is_end) {
         try {
-            wait_for(first.event);
+            wait_patiently(first.event);
         } catch (...) {
             if (!first.job->failure) first.job->failure = std::current_exception();
         }

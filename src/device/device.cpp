@@ -32,9 +32,11 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory) : info_(devi
     cl_int code = CL_SUCCESS;
     context_ = Handle<cl_context, clReleaseContext>(clCreateContext(nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");
-    queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(
-        clCreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
-    check(code, "clCreateCommandQueue (" + info_.name + ")");
+    for (auto& queue : queues_) {
+        queue = Handle<cl_command_queue, clReleaseCommandQueue>(
+            clCreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
+        check(code, "clCreateCommandQueue (" + info_.name + ")");
+    }
     copy_queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(clCreateCommandQueue(context(), id_, 0, &code));
     check(code, "clCreateCommandQueue (copies, " + info_.name + ")");
 
@@ -53,7 +55,7 @@ void Device::flush_copies() const {
 }
 
 void Device::finish() const {
-    check(clFinish(queue()), "clFinish");
+    for (const auto& queue : queues_) check(clFinish(queue.get()), "clFinish");
 }
 
 void Device::claim(const std::string& name, std::uint64_t bytes) {

@@ -1,6 +1,7 @@
-// One OpenCL device in use: its context, its in-order queue of kernels, and the count of its memory.
+// One OpenCL device in use: its context, its queues, each in order, and the count of its memory.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -14,8 +15,8 @@ namespace csgrt {
 
 struct FoundDevice;
 
-/// A context and a profiling queue on one device. Buffers, programs and kernels refer to it and must not outlive it.
-/// Commands run in the order in which they are queued, but those of the copy queue; several may be queued before one wait.
+/// A context and profiling queues on one device. Buffers, programs and kernels refer to it and must not outlive it.
+/// Commands run in the order in which they are queued, but those of the copy queue and of lanes; several may be queued before one wait.
 class Device {
 public:
     /// Picks by `choice`: "" (a GPU if there is one, else the first), "cpu", "gpu", "accelerator", a number as in
@@ -30,14 +31,19 @@ public:
     const DeviceInfo& info() const noexcept { return info_; }
     cl_device_id id() const noexcept { return id_; }
     cl_context context() const noexcept { return context_.get(); }
-    cl_command_queue queue() const noexcept { return queue_.get(); }
-    /// A second one, for what comes to the host beside kernels.
+    /// Takes what is queued from now on.
+    cl_command_queue queue() const noexcept { return queues_[lane_].get(); }
+    /// Another one, for what comes to the host beside kernels.
     cl_command_queue copy_queue() const noexcept { return copy_queue_.get(); }
 
-    /// Hands what is queued, but for copies, to the device without waiting.
+    /// Until it is gone another queue takes what is queued: those of different lanes may run side by side.
+    class Lane;
+    static constexpr std::size_t lanes = 3;
+
+    /// Hands what is queued, but for copies and other lanes, to the device without waiting.
     void flush() const;
     void flush_copies() const;  ///< the same of copies
-    /// Waits until all that is done. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
+    /// Waits until all that is done, of every lane. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
     void finish() const;
 
     /// Bytes that all buffers together may take, and that one buffer may take. Devices misreport both, and change their
@@ -57,9 +63,22 @@ private:
     DeviceInfo info_;
     cl_device_id id_ = nullptr;
     Handle<cl_context, clReleaseContext> context_;
-    Handle<cl_command_queue, clReleaseCommandQueue> queue_, copy_queue_;
+    std::array<Handle<cl_command_queue, clReleaseCommandQueue>, lanes> queues_;
+    Handle<cl_command_queue, clReleaseCommandQueue> copy_queue_;
+    std::size_t lane_ = 0;
     std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
     std::map<std::string, std::uint64_t> allocations_;
+};
+
+class Device::Lane {
+public:
+    Lane(Device& device, std::size_t lane) noexcept : device_(device) { device_.lane_ = lane; }
+    Lane(const Lane&) = delete;
+    Lane& operator=(const Lane&) = delete;
+    ~Lane() { device_.lane_ = 0; }
+
+private:
+    Device& device_;
 };
 
 }  // namespace csgrt

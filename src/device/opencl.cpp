@@ -1,5 +1,11 @@
 #include "device/opencl.hpp"
 
+#include <chrono>
+#include <thread>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
 #include <csgrt/error.hpp>
 
 namespace csgrt {
@@ -77,6 +83,23 @@ void wait_for(const Event& event) {
     if (!event) return;
     const cl_event one = event.get();
     check(clWaitForEvents(1, &one), "clWaitForEvents");
+}
+
+void wait_patiently(const Event& event) {
+    if (!event) return;
+#ifdef __linux__
+    struct Slack {  // else a sleep takes 50 microseconds more
+        const int before = prctl(PR_GET_TIMERSLACK);
+        Slack() { prctl(PR_SET_TIMERSLACK, 1000ul); }
+        ~Slack() { prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(before)); }
+    } slack;
+#endif
+    for (;;) {
+        cl_int status = CL_COMPLETE;
+        check(clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr), "clGetEventInfo");
+        if (status <= CL_COMPLETE) return wait_for(event);
+        std::this_thread::sleep_for(std::chrono::microseconds(10));
+    }
 }
 
 void wait_until_done(const Event& event) noexcept {

@@ -43,6 +43,9 @@ using Event = Handle<cl_event, clReleaseEvent>;
 
 /// Waits until it is done; an empty event is. Throws Error (device_fault, out_of_memory) if the command failed.
 void wait_for(const Event& event);
+/// The same by looking at it now and then: a thread that waits within NVIDIA's driver slows others that queue commands (measured:
+/// bench/NOTES.md). May return some ten microseconds late.
+void wait_patiently(const Event& event);
 /// The same, whether it failed or not: the memory that it needs may go.
 void wait_until_done(const Event& event) noexcept;
 

@@ -1,6 +1,7 @@
 // Transfers that the host does not wait for: it queues more work first. The memory that they need stands here.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -47,10 +48,11 @@ public:
     QueuedRead& operator=(const QueuedRead&) = delete;
     ~QueuedRead() { wait_until_done(event_); }
 
-    /// Asks for the first `bytes` of the buffer as they are when what is queued is done.
-    void start(const Buffer& buffer, std::size_t bytes) {
+    /// Asks for `bytes` of the buffer from `offset` on as they are when what is queued is done.
+    void start(const Buffer& buffer, std::size_t bytes, std::size_t offset = 0) {
         buffer_ = &buffer;
         bytes_ = bytes;
+        offset_ = offset;
     }
     void forget() { buffer_ = nullptr; }
     /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that writes the buffer; until wait()
@@ -60,9 +62,9 @@ public:
         if (!memory_ || memory_->size() < bytes_) {
             wait_until_done(event_);  // if nobody waited for it
             memory_.reset();
-            memory_.emplace(*device_, name_, bytes_);
+            memory_.emplace(*device_, name_, std::bit_ceil(bytes_));  // new memory takes half a millisecond
         }
-        event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_);
+        event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_, offset_);
     }
     /// The first `count` values of what start() has asked for, once they are there; they stay until the next fetch().
     /// Throws Error (device_fault, out_of_memory) if the copy failed; of the command that wrote them only its event tells.
@@ -79,7 +81,7 @@ private:
     Device* device_;
     std::string name_;
     const Buffer* buffer_ = nullptr;  ///< to be read from
-    std::size_t bytes_ = 0;
+    std::size_t bytes_ = 0, offset_ = 0;
     std::optional<PinnedMemory> memory_;  ///< other memory a GPU's driver would copy to before the call returns
     Event event_;
 };

@@ -11,14 +11,12 @@ void BlockList::build() {
     list_.emplace(program_->kernel("list_blocks"));
 }
 
-std::array<Event, 2> BlockList::list(const Tile& tile, const Buffer& costs, TileBuffers& buffers) {
+std::array<Event, 2> BlockList::list(const Tile& tile, TileBuffers& buffers) {
     const cl_uint blocks = tile.blocks();
     buffers.rays.reserve(blocks * sizeof(cl_uint));
-    buffers.tally.reserve(tally_bytes(tile));
-    buffers.tally.queue_fill(0, tally_bytes(tile));
-    Event counted = count_->launch(blocks, work_group, costs, blocks, buffers.tally);
+    Event counted = count_->launch(blocks, work_group, buffers.costs, blocks, buffers.tally);
     return {std::move(counted),
-            list_->launch(blocks, work_group, costs, cl_uint{tile.first_block()}, blocks, buffers.tally, buffers.rays)};
+            list_->launch(blocks, work_group, buffers.costs, cl_uint{tile.first_block()}, blocks, buffers.tally, buffers.rays)};
 }
 
 Event BlockList::put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs,

@@ -17,15 +17,12 @@ public:
     void build();
     bool is_built() const { return list_.has_value(); }
 
-    /// Lists the tile's blocks in buffers.rays, those that cost most first, and counts them in buffers.tally, whose other values and
-    /// bytes become 0. Does not wait. Returns what the two kernels tell.
-    std::array<Event, 2> list(const Tile& tile, const Buffer& costs, TileBuffers& buffers);
+    /// Lists the tile's blocks, whose costs are known, in buffers.rays, those that cost most first, and counts them in buffers.tally,
+    /// which is 0. Does not wait. Returns what the two kernels tell.
+    std::array<Event, 2> list(const Tile& tile, TileBuffers& buffers);
     /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
     Event put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
                          std::uint32_t planes, const Buffer& picture);
-
-    /// Of the tile's buffers: what list() reserves.
-    static std::uint64_t tally_bytes(const Tile& tile) { return sizeof(kernel::TileTally) + (tile.blocks() + 3) / 4 * 4; }
 
 private:
     Device& device_;

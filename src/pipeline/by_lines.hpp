@@ -1,5 +1,5 @@
-// A picture's tiles on a GPU: while one's pixels are copied, another's kernels run and a third's are queued. Each has memory of its own
-// for what the host reads of it.
+// A picture's tiles on a GPU: while one's pixels are copied, another's kernels run and a third's are queued, or run beside them. Each
+// has memory of its own for all but pixels.
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@ namespace csgrt {
 
 /// A tile that a GPU was given.
 struct QueuedTile {
-    explicit QueuedTile(Device& device) : buffers(device), answer(device, "tally") {}
+    QueuedTile(Device& device, std::size_t own_lane) : lane(own_lane), buffers(device), answer(device, "tally") {}
 
+    /// The device's, of first hits: while a tile's longest rays are drawn the next one's kernels begin.
+    std::size_t lane;
     kernel::Frame frame{};
     Tile tile;
     TileBuffers buffers;
@@ -34,10 +36,10 @@ struct QueuedTile {
 
 /// What a pipeline has for them.
 struct ByLines {
-    explicit ByLines(Device& device) : list(device), tiles{QueuedTile(device), QueuedTile(device)}, lines(device) {}
+    explicit ByLines(Device& device) : list(device), tiles{QueuedTile(device, 0), QueuedTile(device, 1), QueuedTile(device, 2)}, lines(device) {}
 
     BlockList list;
-    std::array<QueuedTile, 2> tiles;
+    std::array<QueuedTile, Device::lanes> tiles;
     std::size_t next = 0;        ///< of them, the one that comes next
     std::optional<Tile> ahead;   ///< what that was given already
 
@@ -48,14 +50,20 @@ struct ByLines {
         bool is_last = false;
         PipelineCounts* counts = nullptr;
     } drawn;
+    std::vector<std::uint32_t> overflown;  ///< of first hits: rays without room of tiles that are put
     PictureLines lines;
 
-    std::uint64_t held() const { return tiles[0].buffers.held() + tiles[1].buffers.held() + lines.held(); }
+    std::uint64_t held() const {
+        std::uint64_t sum = lines.held();
+        for (const QueuedTile& tile : tiles) sum += tile.buffers.held();
+        return sum;
+    }
     /// The next frame's first tile is the next that comes: one of a single tile always takes the same memory.
     void begin() {
         next = 0;
         ahead.reset();
         drawn = {};
+        overflown.clear();
     }
     /// Gives that back but for what a tile has, once the other tiles' pixels are in the picture.
     void release(const QueuedTile* but = nullptr) {

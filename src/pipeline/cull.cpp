@@ -25,25 +25,31 @@ void for_each_seen(std::span<const unsigned char> costs, const Work& work) {
 }  // namespace
 
 Cull::Cull(Device& device, const Program& program)
-    : device_(device), cull_blocks_(program.kernel("cull_blocks")), costs_(device, "blocks"), lists_(device, "blocks' nodes") {}
+    : device_(device), cull_blocks_(program.kernel("cull_blocks")) {}
 
 // Measured (bench/NOTES.md): a GPU finds a ray's candidates as soon without.
 bool Cull::is_listed(const kernel::Frame& frame) const {
     return !frame.every_partition || device_.info().type == "cpu";
 }
 
-Event Cull::launch(const SceneBuffers& scene, const Buffer& frame_buffer, const kernel::Frame& frame) {
-    const std::uint32_t blocks = frame.ray_count / block_rays;
-    costs_.reserve(blocks);
+void Cull::reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64_t rays) {
+    const std::uint64_t blocks = rays / block_rays;
+    buffers.costs.reserve(blocks);
     if (is_listed(frame))
-        lists_.reserve(std::size_t{blocks} * LISTED_NODES * sizeof(kernel::BlockNode));
+        buffers.lists.reserve(blocks * LISTED_NODES * sizeof(kernel::BlockNode));
     else
-        lists_.release();
-    return cull_blocks_.launch(blocks, uneven_group(device_), frame_buffer, scene.nodes, costs_, lists_);
+        buffers.lists.release();
 }
 
-std::vector<std::uint32_t> Cull::seen(const Tile& tile) const {
-    const Buffer::Mapping mapping = costs_.map(tile.blocks());
+Event Cull::launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame) {
+    reserve(buffers, frame, frame.ray_count);
+    if (frame.lines) buffers.tally.reserve(Tile{0, frame.ray_count}.tally_bytes());
+    return cull_blocks_.launch(frame.ray_count / block_rays, uneven_group(device_), buffers.frame, scene.nodes, buffers.costs,
+                               buffers.lists, buffers.tally);
+}
+
+std::vector<std::uint32_t> Cull::seen(const Tile& tile, const TileBuffers& buffers) {
+    const Buffer::Mapping mapping = buffers.costs.map(tile.blocks());
     const std::span costs(static_cast<const unsigned char*>(mapping.data()), tile.blocks());
 
     // A device that ends with the longest waits for it.

@@ -1,5 +1,6 @@
 // A tile of a picture, each of the ways: in place, by lines, ray by ray.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "pipeline/pipeline.hpp"
@@ -17,15 +18,18 @@ kernel::PlaneValues background_of(const RenderTarget& target) {
     return background;
 }
 
-// How many tiles have memory for their lines at a time: of first hits one that is drawn and two whose pixels are copied, of every
-// partition, whose kernels take longer, one that is copied. Fewer where a tile is so large a part of the picture that this would be
-// much for each of its pixels.
-std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile) {
+// A tile of so many rays is so small a part of the picture that memory for several is little for each of its pixels.
+bool is_small(const kernel::Frame& frame, std::uint64_t rays) { return std::uint64_t{frame.width} * frame.height >= 8 * rays; }
+
+// How many tiles have memory for their lines at a time: of first hits one that is drawn and those whose pixels are copied, for which
+// kernels wait the less the more there are; of every partition, whose kernels take longer, one that is copied.
+std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile, std::uint64_t largest_tile) {
     const kernel::Window& w = frame.window;
-    const bool is_small = std::uint64_t{frame.width} * frame.height >= 8 * std::uint64_t{tile.rays};
+    const std::uint64_t pixels = std::uint64_t{frame.width} * frame.height;
     const bool is_all = std::uint64_t{kernel::width_of(w)} * (w.bottom - w.top) <= tile.rays;
-    if (frame.every_partition) return is_small ? 2 : 1;
-    return is_small ? 3 : is_all ? 1 : 2;
+    if (frame.every_partition) return is_small(frame, tile.rays) ? 2 : 1;
+    if (is_small(frame, largest_tile)) return std::clamp<std::uint64_t>(pixels / largest_tile / 4, 3, PictureLines::most_lines);
+    return is_small(frame, tile.rays) ? 3 : is_all ? 1 : 2;
 }
 
 }  // namespace
@@ -43,7 +47,8 @@ bool Pipeline::list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>&
     frame.picked = rays_each == 1;
     if (numbers.empty()) return false;
     const std::uint64_t picture = frame.ray_count * pixel_bytes, list = numbers.size() * sizeof(std::uint32_t);
-    make_room(picture + list + frame.ray_count * ray_bytes, picture_.size() + tile_.rays.size());
+    make_room(picture + list + frame.ray_count * ray_bytes,
+              std::min<std::uint64_t>(picture, picture_.size()) + std::min<std::uint64_t>(list, tile_.rays.size()));
     picture_.reserve(picture);
     list_upload_.start<std::uint32_t>(tile_.rays, numbers);
     upload(frame);
@@ -64,10 +69,10 @@ bool Pipeline::weave(const TileBuffers& tile, std::uint32_t rays, Rays kind, Pip
 bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts) {
     frame.first_ray = tile.first;
     frame.ray_count = tile.rays;
-    make_room(cull_bytes(tile), cull(frame).held());
+    make_room(cull_bytes(tile), tile_.costs.size() + tile_.lists.size());
     upload(frame);
-    const Event culled = cull(frame).launch(buffers_, tile_.frame, frame);
-    const std::vector<std::uint32_t> seen = cull(frame).seen(tile);
+    const Event culled = cull(frame).launch(buffers_, tile_, frame);
+    const std::vector<std::uint32_t> seen = Cull::seen(tile, tile_);
     counts.cull_blocks += milliseconds(culled);
 
     const std::uint64_t pixel_bytes = pixel_bytes_of(target);
@@ -95,12 +100,13 @@ bool Pipeline::draw_in_place(kernel::Frame frame, const Tile& tile, const Render
 }
 
 void Pipeline::put_background(QueuedTile& queued, const RenderTarget& target) {
-    queued.culled.push_back(by_lines_->list.put_background(queued.frame, queued.tile, cull(queued.frame).costs(), background_of(target),
+    queued.culled.push_back(by_lines_->list.put_background(queued.frame, queued.tile, queued.buffers.costs, background_of(target),
                                                            static_cast<std::uint32_t>(target.planes.size()), queued.lines->buffer));
 }
 
-// Has a tile's first kernels run: of first hits all. `but`: the tile before it, which is not put yet. False: there is no room.
-bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but) {
+// Has a tile's first kernels run: of first hits all. `before`: the tile that runs, if one does. False: there is no room.
+bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target,
+                     const QueuedTile* before) {
     const bool every = frame.every_partition;
     const Rectangle all = lines_of(frame, tile.first_block(), tile.end_block());
     frame.first_ray = tile.first;
@@ -108,19 +114,36 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     frame.lines = static_cast<std::uint32_t>(all.lines());
     queued.frame = frame;
     queued.tile = tile;
-    queued.lines = by_lines_->lines.next(all.size() * pixel_bytes_of(target), lines_in_turn(frame, tile),
-                                         but ? but->lines : nullptr, every);
-    if (!queued.lines) return false;
     const std::vector<std::byte> uploaded = kernels_.frame(frame);
-    const std::uint64_t listed = tile.blocks() * sizeof(std::uint32_t) + BlockList::tally_bytes(tile),
-                        bytes = uploaded.size() + listed + cull_bytes(tile) + (every ? 0 : tile.rays * FirstHits::ray_bytes);
-    if (bytes > device_.available() + queued.buffers.held() + cull(frame).held()) return false;
+    const auto needed = [&](const Tile& t) {
+        const std::uint64_t listed = t.blocks() * sizeof(std::uint32_t) + t.tally_bytes();
+        return uploaded.size() + listed + cull_bytes(t) + (every ? 0 : t.rays * FirstHits::ray_bytes);
+    };
+    // Of first hits in many tiles, where there is plenty, room for the largest: they differ from frame to frame, and new memory takes
+    // longer than a tile.
+    const Tile largest{0, static_cast<std::uint32_t>(std::max<std::uint64_t>(tile.rays, largest_tile(frame)))};
+    const std::size_t count = lines_in_turn(frame, tile, largest.rays), across = kernel::blocks_across(frame.window);
+    const std::size_t end = std::min<std::size_t>(largest.blocks() + across, across * kernel::blocks_down(frame.window));
+    const std::uint64_t most_lines = lines_of(frame, 0, static_cast<std::uint32_t>(end)).size() * pixel_bytes_of(target);
+    const std::uint64_t of_all = count * most_lines + by_lines_->tiles.size() * needed(largest);
+    const bool is_plenty = !every && is_small(frame, largest.rays) && most_lines <= device_.max_buffer() &&
+                           2 * of_all <= device_.available() + by_lines_->held();
+    const QueuedTile* const drawn = by_lines_->drawn.tile;
+    const std::array<const PictureLines::Lines*, 2> held = {before ? before->lines : nullptr, drawn ? drawn->lines : nullptr};
+    queued.lines = by_lines_->lines.next(is_plenty ? most_lines : all.size() * pixel_bytes_of(target), count, held, every);
+    if (!queued.lines) return false;
+    if (needed(tile) > device_.available() + queued.buffers.held()) return false;
+    if (is_plenty && needed(largest) <= device_.available() + queued.buffers.held()) {
+        queued.buffers.reserve(largest, FirstHits::ray_bytes);
+        cull(frame).reserve(queued.buffers, frame, largest.rays);
+    }
 
+    const Device::Lane lane(device_, every ? 0 : queued.lane);
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
     queued.culled.clear();
-    queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers.frame, frame));
-    for (Event& event : by_lines_->list.list(tile, cull(frame).costs(), queued.buffers)) queued.culled.push_back(std::move(event));
-    queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : BlockList::tally_bytes(tile));
+    queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers, frame));
+    for (Event& event : by_lines_->list.list(tile, queued.buffers)) queued.culled.push_back(std::move(event));
+    queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : tile.tally_bytes());
     if (!every) {
         PictureLines::wait(*queued.lines);
         put_background(queued, target);
@@ -145,21 +168,24 @@ bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, Pipe
         exact().shade(buffers_, queued.buffers, queued.lines->buffer, rays);
         exact().tally(rays);
     }
-    queued.answer.start(queued.buffers.tally, BlockList::tally_bytes(queued.tile));
+    queued.answer.start(queued.buffers.tally, queued.tile.tally_bytes());
     device_.flush();
     return true;
 }
 
 // False: the tile does not fit the memory. A device, and the bus, stand still whenever the host waits for an answer before it says what
-// comes next: therefore the next tile is queued before the host looks at what has become of this one, and of every partition that waits
-// until some of the next one's kernels run.
+// comes next: therefore the next tile is queued before the host looks at what has become of the one before this one, if there is
+// memory for the lines of three, and of every partition that waits until most of this one's kernels run.
 bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
                              PipelineCounts& counts) {
     ByLines& by = *by_lines_;
     QueuedTile& own = by.tiles[by.next];
     const bool every = frame.every_partition;
-    if (std::exchange(by.ahead, {}) != tile) {
+    const std::optional<Tile> ahead = std::exchange(by.ahead, {});
+    if (ahead != tile) {
+        if (ahead) device_.finish();  // what was queued in vain holds lines of its own
         put_drawn();
+        draw_overflown(frame, target, counts);
         if (!queue(own, frame, tile, target, nullptr)) {
             release_lines();
             if (exact_) exact_->release();
@@ -169,14 +195,22 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
     if (every && !weave_queued(own, target, counts)) return false;
     by.next = (by.next + 1) % by.tiles.size();
     QueuedTile& other = by.tiles[by.next];
+    if (!every && next.rays > 0 && lines_in_turn(frame, next, largest_tile(frame)) < by.tiles.size()) put_drawn();  // its lines come next
     if (next.rays > 0 && next.rays % block_rays == 0 && queue(other, frame, next, target, &own)) by.ahead = next;
+    if (!every) put_drawn();
 
-    every ? device_.finish() : wait_for(own.drawn);
+    if (every) {
+        device_.finish();
+    } else {
+        by.ahead ? wait_patiently(own.drawn) : wait_for(own.drawn);
+    }
     own.answer.fetch();
     if (every) exact().fetch();
     if (every && by.ahead) other.answer.fetch();
     by.drawn = {&own, target, next.rays == 0, &counts};
-    if (!every || !by.ahead) put_drawn();  // else while the next one's kernels run
+    if (by.ahead) return true;  // the rest while the next one's kernels run
+    put_drawn();
+    draw_overflown(frame, target, counts);
     return true;
 }
 
@@ -184,6 +218,13 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
 void Pipeline::release_lines(const QueuedTile* but) {
     put_drawn();
     by_lines_->release(but);
+}
+
+// By the queue of the copies: a read that stands behind kernels would keep all copies waiting for them.
+void Pipeline::read_overflown(QueuedTile& tile) {
+    std::vector<std::uint32_t> numbers(tile.tally().overflows);
+    wait_for(tile.buffers.overflown.copy_read(numbers.data(), numbers.size() * sizeof(std::uint32_t)));
+    by_lines_->overflown.insert(by_lines_->overflown.end(), numbers.begin(), numbers.end());
 }
 
 // Takes the answers of a tile that is drawn, and has its pixels copied, if one waits for that.
@@ -194,18 +235,19 @@ void Pipeline::put_drawn() {
     PipelineCounts& counts = *drawn.counts;
     const bool every = tile.frame.every_partition;
     for (const Event& event : tile.culled) counts.cull_blocks += milliseconds(event);
-    std::vector<std::uint32_t> overflown;
     if (!every) {
         counts.first_hits += milliseconds(tile.drawn);
-        if (tile.tally().overflows > 0) overflown = tile.buffers.overflown.read<std::uint32_t>(tile.tally().overflows);
+        read_overflown(tile);
     } else if (tile.tally().seen > 0) {
         exact().add_tallies(counts);
         exact().add_times(counts);
     }
     by_lines_->lines.put(tile.frame, tile.tile, tile.shown(), *tile.lines, drawn.is_last, drawn.target);
-    kernel::Frame frame = tile.frame;
-    frame.lines = 0;
-    draw_exactly(frame, overflown, drawn.target, counts);
+}
+
+// The rays without room of tiles that are put, when no other tile runs, whose memory they may want.
+void Pipeline::draw_overflown(const kernel::Frame& frame, const RenderTarget& target, PipelineCounts& counts) {
+    draw_exactly(frame, std::exchange(by_lines_->overflown, {}), target, counts);
 }
 
 // Rays of a picture the exact way, one by one.
@@ -216,7 +258,7 @@ void Pipeline::draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t
         put_drawn();
         by_lines_->lines.finish();
     }
-    for_each_tile({0, numbers.size()}, fitting(bytes), 1, nullptr, [&](const Tile& tile) {
+    for_each_tile({0, numbers.size()}, fitting(bytes), first_rays, nullptr, [&](const Tile& tile, const Tile&) {
         const auto begin = numbers.begin() + tile.first;
         const std::vector<std::uint32_t> picked(begin, begin + tile.rays);
         list_rays(frame, picked, 1, pixel_bytes, Exact::ray_bytes);

@@ -43,10 +43,11 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       ends_(device, "segments"),
       bits_(device, "partitions' bits"),
       tally_sums_(device, "sums of tallies"),
-      read_(device, "sums of tallies") {}
+      read_(device, "sums of tallies"),
+      sum_(device, "sum of counts") {}
 
 std::uint64_t Exact::held() const {
-    std::uint64_t sum = cull_.held();
+    std::uint64_t sum = 0;
     for (const Buffer* buffer : {&places_, &counts_, &firsts_, &tally_sums_, &candidates_, &found_, &ends_, &bits_})
         sum += buffer->size();
     return sum;
@@ -80,10 +81,13 @@ void Exact::queue_scan(Buffer& counts, std::uint32_t rays) {
     device_.flush();
 }
 
-kernel::RayCount Exact::sum_of(const Buffer& counts, std::uint32_t rays) const {
-    kernel::RayCount total;
-    counts.read(&total, sizeof total, rays * sizeof total);
-    return total;
+// A read that stands behind kernels keeps all copies waiting for them, those of other queues, too: NVIDIA's GPUs make copies to the
+// host one after another. So it is asked for only when they are done.
+kernel::RayCount Exact::sum_of(const Buffer& counts, std::uint32_t rays) {
+    wait_for(timed_.back().second);
+    sum_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
+    sum_.fetch();
+    return sum_.wait<kernel::RayCount>(1).front();
 }
 
 // Makes room for the segments and, beside the candidates' or in place of them, the partitions. Buffers only grow, unless that
@@ -132,11 +136,10 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
     const auto run = [&](double PipelineCounts::*time, Event event) { timed_.emplace_back(time, std::move(event)); };
     const Buffer none(device_, "nothing");
-    const Buffer& lists = kind == Rays::blocks ? cull_.lists() : none;
+    const Buffer& lists = kind == Rays::blocks ? tile.lists : none;
     const std::size_t group = uneven_group(device_);
     run(&PipelineCounts::count_hits, find_candidates_.launch(rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
     queue_scan(places_, rays);
-    if (beside) beside();
     const cl_uint candidates = sum_of(places_, rays).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
     const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
@@ -150,10 +153,12 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     }
     run(&PipelineCounts::count_hits,
         find_candidates_.launch(candidates ? rays : 0, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
+    device_.flush();
     run(&PipelineCounts::count_hits, count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                                         s.inner_nodes, tile.rays, candidates, candidates_, found_));
     run(&PipelineCounts::count_hits, sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_));
     queue_scan(counts_, rays);
+    if (beside) beside();
     total_ = sum_of(counts_, rays);
     if (!reserve_counted(total_)) return false;
 
@@ -161,6 +166,7 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     run(&PipelineCounts::store_segments,
         store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                s.inner_nodes, tile.rays, candidates, candidates_, found_, counts_, ends_, bits_));
+    device_.flush();
     Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
     run(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, counts_, ends_, bits_, nodes, partitions));

@@ -24,7 +24,7 @@ public:
     Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     /// Runs the kernels on the tile's rays, but the last one; waits for counts only. False: the rays' segments do not fit the
-    /// memory; nothing is lost then, the caller takes a smaller tile. `beside` is called while the first of them run.
+    /// memory; nothing is lost then, the caller takes a smaller tile. `beside` is called while most of them run.
     bool weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
                const std::function<void()>& beside = nullptr);
     /// Runs the last one on the last run's rays, if they are a picture's. Does not wait.
@@ -49,7 +49,7 @@ public:
     static constexpr std::uint64_t ray_bytes =
         2 * sizeof(kernel::RayCount) + sizeof(std::uint32_t) + 4;  ///< whatever a ray hits, and its part of the sums
     std::uint64_t held() const;
-    void release();  ///< gives all but the culling's back: another use of the budget wants it
+    void release();  ///< gives that back: another use of the budget wants it
 
 private:
     bool try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
@@ -58,7 +58,7 @@ private:
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums);
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set.
     void queue_scan(Buffer& counts, std::uint32_t rays);
-    kernel::RayCount sum_of(const Buffer& counts, std::uint32_t rays) const;  // the last one of them; waits
+    kernel::RayCount sum_of(const Buffer& counts, std::uint32_t rays);  // the last one of them, once queue_scan() was called; waits
     void release_counted();  // what holds segments and partitions
     bool reserve_counted(const kernel::RayCount& total);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends,
@@ -85,7 +85,7 @@ private:
     std::vector<std::pair<double PipelineCounts::*, Event>> timed_, done_;  // kernels that run, and those that have
     Buffer tally_sums_;        // read while the next run's kernels run
     std::size_t tallies_ = 0;  // how many sums
-    QueuedRead read_;
+    QueuedRead read_, sum_;
 };
 
 }  // namespace csgrt

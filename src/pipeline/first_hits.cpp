@@ -37,7 +37,7 @@ Event FirstHits::launch(const SceneBuffers& s, TileBuffers& tile, const Buffer& 
     tile.overflown.reserve(rays * ray_bytes);
     return first_hits_.launch(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
                               s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials, s.lights,
-                              cull_.lists(), tile.rays, tile.tally, tile.overflown, picture);
+                              tile.lists, tile.rays, tile.tally, tile.overflown, picture);
 }
 
 }  // namespace csgrt

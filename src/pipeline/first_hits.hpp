@@ -14,7 +14,6 @@ public:
 
     Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes = 4;  ///< of the tile's buffers that it needs itself, at most
-    std::uint64_t held() const { return cull_.held(); }
 
 private:
     Device& device_;

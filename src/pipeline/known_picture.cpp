@@ -15,8 +15,17 @@ bool KnownPicture::add(const Device& device, std::span<const ChannelPlane> plane
     return true;
 }
 
-bool KnownPicture::is_known_to(const Device& device) const {
-    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.context == device.context(); });
+std::vector<KnownPicture::Entry>::const_iterator KnownPicture::find(const Device& device) const {
+    return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.context == device.context(); });
+}
+
+std::size_t KnownPicture::planes_known_to(const Device& device) const {
+    const auto found = find(device);
+    return found == entries_.end() ? 0 : found->planes.size();
+}
+
+void KnownPicture::drop(const Device& device) {
+    entries_[static_cast<std::size_t>(find(device) - entries_.begin())].planes.pop_back();
 }
 
 }  // namespace csgrt

@@ -12,16 +12,21 @@ namespace csgrt {
 
 class KnownPicture {
 public:
-    /// Makes `pixels` floats of each plane known to the device. False: its driver refuses.
+    /// Makes `pixels` floats of each of these planes, the picture's first ones, known to the device. False: its driver refuses.
     bool add(const Device& device, std::span<const ChannelPlane> planes, std::size_t pixels);
 
-    bool is_known_to(const Device& device) const;
+    /// How many of the planes are known to it.
+    std::size_t planes_known_to(const Device& device) const;
+    /// The last of them is not any more. There must be one.
+    void drop(const Device& device);
 
 private:
     struct Entry {
         cl_context context;  ///< the memory holds on to it: no other comes to stand there
         std::vector<KnownMemory> planes;
     };
+    std::vector<Entry>::const_iterator find(const Device& device) const;
+
     std::vector<Entry> entries_;
 };
 

@@ -8,17 +8,17 @@
 
 namespace csgrt {
 
-PictureLines::PictureLines(Device& device)
-    : device_(device),
-      lines_{Lines{Buffer(device, "lines"), {}}, Lines{Buffer(device, "lines"), {}}, Lines{Buffer(device, "lines"), {}}},
-      copies_(device) {}
+PictureLines::PictureLines(Device& device) : device_(device), copies_(device) {
+    for (std::size_t i = 0; i < most_lines; ++i) lines_.push_back({Buffer(device, "lines"), {}});
+}
 
-PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t most, const Lines* held, bool is_drawn_later) {
-    most = std::min(most, lines_.size());
-    if (most > 1 && &lines_[next_lines_ % most] == held) ++next_lines_;
-    Lines& lines = lines_[next_lines_ % most];
+PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t count, std::span<const Lines* const> held,
+                                        bool is_drawn_later) {
+    const auto is_held = [&](std::size_t i) { return std::ranges::find(held, &lines_[i % count]) != held.end(); };
+    for (std::size_t tried = 0; tried < count && is_held(next_lines_); ++tried) ++next_lines_;
+    Lines& lines = lines_[next_lines_ % count];
     const bool grows = bytes > lines.buffer.size();
-    if (&lines == held && (grows || !is_drawn_later)) return nullptr;
+    if (is_held(next_lines_) && (grows || !is_drawn_later)) return nullptr;
     if (grows) {
         wait(lines);
         if (bytes > std::min(device_.available() + lines.buffer.size(), device_.max_buffer())) return nullptr;
@@ -31,60 +31,59 @@ PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t most, con
 void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
                        const RenderTarget& target) {
     const std::uint32_t first = tile.first_block(), end = tile.end_block();
-    const std::size_t planes = target.planes.size();
-    if (planes == 0) return;
+    if (target.planes.empty()) return;
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, shown, target);
     hold_shown(frame, first, end, shown, target);
     if (rectangles.empty()) return;
     const Rectangle all = lines_of(frame, first, end);
-    std::vector<CopyFeed::Copy> copies;
+    const std::size_t known = target.known ? std::min(target.known->planes_known_to(device_), target.planes.size()) : 0;
+    RenderTarget others = target;
+    others.planes = target.planes.subspan(known);
+    std::vector<CopyFeed::Copy> known_copies, copies;
     std::size_t floats = 0;
     for (Rectangle& r : rectangles) {
         r.begin = floats;
-        floats += r.size() * planes;
-        copies.push_back({.columns = r.columns(), .lines = r.lines(), .planes = planes,
-                          .begin = (r.top - all.top) * all.columns() + r.left - all.left, .pitch = all.columns(), .slice = all.size()});
+        floats += r.size() * others.planes.size();
+        CopyFeed::Copy copy{.columns = r.columns(), .lines = r.lines(), .begin = (r.top - all.top) * all.columns() + r.left - all.left,
+                            .pitch = all.columns(), .slice = all.size(), .target_pitch = frame.width};
+        for (std::size_t p = 0; p < known; ++p, copy.begin += copy.slice) {
+            copy.target = target.planes[p].pixels + r.top * frame.width + r.left;
+            known_copies.push_back(copy);
+        }
+        copy.planes = others.planes.size();
+        copies.push_back(copy);
+    }
+    if (others.planes.empty()) {
+        lines.copied = copies_.add(lines.buffer, std::move(known_copies));
+        return;
     }
     const std::size_t pixels = std::size_t{frame.width} * frame.height;
     const bool are_many = pixels > 2 * std::size_t{tile.rays};  // tiles: others may have more to copy
-    const std::size_t most = are_many ? tile.rays * planes * sizeof(float) : 0;
-    if (!target.known || !target.known->is_known_to(device_))
-        return copy_by_host(frame, std::move(rectangles), std::move(copies), most, is_last, target, lines);
-    std::vector<CopyFeed::Copy> of_planes;
-    for (std::size_t i = 0; i < copies.size(); ++i)
-        for (std::size_t p = 0; p < planes; ++p) {
-            CopyFeed::Copy copy = copies[i];
-            copy.planes = 1;
-            copy.begin += p * copy.slice;
-            copy.target = target.planes[p].pixels + rectangles[i].top * frame.width + rectangles[i].left;
-            copy.target_pitch = frame.width;
-            of_planes.push_back(copy);
-        }
-    lines.copied = copies_.add(lines.buffer, std::move(of_planes));
+    Slot& slot = free_slot(std::max(floats, are_many ? tile.rays * others.planes.size() : 0) * sizeof(float));
+    for (std::size_t i = 0; i < copies.size(); ++i) {
+        copies[i].target = static_cast<float*>(slot.memory->data()) + rectangles[i].begin;
+        copies[i].target_pitch = rectangles[i].columns();
+        copies[i].target_slice = rectangles[i].size();
+    }
+    if (!is_last) copy_by_host(frame, rectangles, copies, others, slot, lines);
+    if (known > 0) lines.copied = copies_.add(lines.buffer, std::move(known_copies));  // when they are made, so are those before
+    if (is_last) copy_while_waiting(frame, rectangles, copies, others, slot, lines.buffer);
 }
 
 /// Memory that a GPU copies to at full speed takes half a millisecond a megabyte to get.
-PictureLines::Slot& PictureLines::free_slot(std::size_t bytes, std::size_t most) {
+PictureLines::Slot& PictureLines::free_slot(std::size_t bytes) {
     Slot& slot = slots_[next_];
     if (slot.done.valid()) slot.done.get();
     if (!slot.memory || slot.memory->size() < bytes) {
         slot.memory.reset();
-        slot.memory.emplace(device_, "picture", std::max(bytes, most));
+        slot.memory.emplace(device_, "picture", bytes);
     }
     return slot;
 }
 
 void PictureLines::copy_by_host(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::vector<CopyFeed::Copy> copies,
-                                std::size_t most, bool is_last, const RenderTarget& target, Lines& lines) {
-    const std::size_t floats = rectangles.back().begin + rectangles.back().size() * target.planes.size();
-    Slot& slot = free_slot(floats * sizeof(float), most);
-    auto* const values = static_cast<float*>(slot.memory->data());
-    for (std::size_t i = 0; i < copies.size(); ++i) {
-        copies[i].target = values + rectangles[i].begin;
-        copies[i].target_pitch = rectangles[i].columns();
-        copies[i].target_slice = rectangles[i].size();
-    }
-    if (is_last) return copy_while_waiting(frame, rectangles, copies, values, target, lines.buffer);
+                                const RenderTarget& target, Slot& slot, Lines& lines) {
+    const auto* const values = static_cast<const float*>(slot.memory->data());
     const auto copied = lines.copied = copies_.add(lines.buffer, std::move(copies));
     const auto put_all = [=, rectangles = std::move(rectangles)] {
         copied.get();
@@ -100,8 +99,9 @@ void PictureLines::copy_by_host(const kernel::Frame& frame, std::vector<Rectangl
 
 // Planes are put as soon as they are there.
 void PictureLines::copy_while_waiting(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
-                                      std::span<const CopyFeed::Copy> copies, const float* values, const RenderTarget& target,
+                                      std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Slot& slot,
                                       const Buffer& lines) {
+    const auto* const values = static_cast<const float*>(slot.memory->data());
     constexpr std::size_t piece = std::size_t{1} << 18;  // floats that are worth a copy of their own
     struct Pieces {
         std::vector<Event> events;

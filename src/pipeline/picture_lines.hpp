@@ -1,6 +1,6 @@
 // Pixels of a GPU's tile, whole lines of the picture -> rectangles of it, which the GPU copies while it is at the next tiles: into
-// the picture's memory, if that is known to it (the host has no part in it then, whose memory is what several GPUs wait for), else to
-// memory that is, from which the host copies them.
+// the memory of those planes of the picture that is known to it (the host has no part in it then, whose memory is what several GPUs
+// wait for), else to memory that is, from which the host copies them.
 #pragma once
 
 #include <array>
@@ -24,19 +24,21 @@ public:
         std::shared_future<void> copied;
     };
 
+    static constexpr std::size_t most_lines = 8;  ///< Lines
+
     explicit PictureLines(Device& device);
 
-    /// Memory for lines, one of `most` that are taken in turn. `held`: one whose lines are not put yet; it is taken again only if
-    /// nothing is drawn into it before they are. Null: there is no room on the device.
-    Lines* next(std::size_t bytes, std::size_t most, const Lines* held, bool is_drawn_later);
+    /// Memory for lines, one of `count` that are taken in turn. `held`: those whose lines are not put yet; one of them is taken again
+    /// only if nothing is drawn into it before they are. Null: there is no room on the device.
+    Lines* next(std::size_t bytes, std::size_t count, std::span<const Lines* const> held, bool is_drawn_later);
     /// Returns when the lines that were there are in the picture.
     static void wait(Lines& lines) {
         if (lines.copied.valid()) std::exchange(lines.copied, {}).get();
     }
 
-    /// Puts the tile's blocks, which are drawn, into the target: what is `shown` (a byte a block) and background. Unless this is the
-    /// last of the device's in a frame, and the picture's memory not known to it, it may return before it is done: until then the
-    /// target must last.
+    /// Puts the tile's blocks, which are drawn, into the target: what is `shown` (a byte a block) and background. It may
+    /// return before all that is done, which the target must outlast; of the last tile of the device's in a frame only what it copies
+    /// into memory that it knows may come later.
     void put(const kernel::Frame& frame, const Tile& tile, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
              const RenderTarget& target);
     /// Returns when all is done. Throws what kept it from being done.
@@ -53,15 +55,15 @@ private:
         std::optional<PinnedMemory> memory;
         std::future<void> done;  ///< when it is destroyed, nothing works on the memory
     };
-    Slot& free_slot(std::size_t bytes, std::size_t most);
+    Slot& free_slot(std::size_t bytes);
     void copy_by_host(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::vector<CopyFeed::Copy> copies,
-                      std::size_t most, bool is_last, const RenderTarget& target, Lines& lines);
+                      const RenderTarget& target, Slot& slot, Lines& lines);
     void copy_while_waiting(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
-                            std::span<const CopyFeed::Copy> copies, const float* values, const RenderTarget& target,
+                            std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Slot& slot,
                             const Buffer& lines);
 
     Device& device_;
-    std::array<Lines, 3> lines_;
+    std::vector<Lines> lines_;
     std::size_t next_lines_ = 0;
     CopyFeed copies_;  ///< to be gone before the lines
     std::array<Slot, 2> slots_;

@@ -9,26 +9,34 @@
 namespace csgrt {
 namespace {
 
-constexpr std::uint64_t most_rays = 1u << 24;   // of one tile: launches stay short
-constexpr std::uint64_t most_drawn = 1u << 22;  // of a picture: the pixels of one tile are put while the next is drawn
+constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
 
-// Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it gets half of a
-// picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
-std::uint64_t most_rays_woven(const Device& device, std::uint64_t rays) {
-    constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 17;
-    if (device.info().type == "cpu") return of_processor;
-    const std::uint64_t half = (rays / 2 + block_rays - 1) / block_rays * block_rays;  // or a few would be left for a third tile
-    return std::clamp(half, of_gpu, most_drawn);
+// Rays of a row of the window's blocks.
+std::uint64_t row_of(const kernel::Frame& frame) { return std::uint64_t{kernel::blocks_across(frame.window)} * block_rays; }
+
+// The range's first tile, of at most `most` rays: whole blocks, or parts of one; and whole rows of the window's blocks if they are
+// many, for what a GPU copies of them is in few pieces then.
+Tile first_tile(RayRange range, std::uint64_t most, std::uint64_t row) {
+    std::uint64_t end = std::min(range.first + most, range.end);
+    const std::uint64_t in_block = range.first % block_rays;
+    if (in_block != 0) {
+        end = std::min(end, range.first - in_block + block_rays);
+    } else if (end < range.end && most >= block_rays) {
+        const std::uint64_t unit = most >= 4 * row ? row : block_rays;
+        end = std::max(end / unit * unit, range.first + block_rays);
+    }
+    return {static_cast<std::uint32_t>(range.first), static_cast<std::uint32_t>(end - range.first)};
 }
 
 }  // namespace
 
 Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-                   Readback readback)
+                   Readback readback, std::uint64_t most_rays_of_picture)
     : device_(device),
       scene_(scene),
       kernels_(kernels),
       settings_(settings),
+      most_rays_(most_rays_of_picture),
       buffers_(device, scene, kernels.tables()),
       tile_(device),
       picture_(device, "picture") {
@@ -66,31 +74,37 @@ void Pipeline::prepare(bool every_partition) {
 
 // Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
 std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
-    const std::uint64_t held = picture_.size() + tile_.held() + (by_lines_ ? by_lines_->held() : 0) + (exact_ ? exact_->held() : 0) +
-                               (first_hits_ ? first_hits_->held() : 0);
+    const std::uint64_t held = picture_.size() + tile_.held() + (by_lines_ ? by_lines_->held() : 0) + (exact_ ? exact_->held() : 0);
     const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
     return std::clamp<std::uint64_t>(most, 1, most_rays);
+}
+
+// Of the frame's tiles. Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it
+// gets half of a picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
+std::uint64_t Pipeline::largest_tile(const kernel::Frame& frame) const {
+    constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 17;
+    const std::uint64_t row = row_of(frame), rows = kernel::blocks_down(frame.window);
+    const bool are_few = device_.info().type == "cpu" && frame.every_partition;
+    const std::uint64_t most = are_few ? of_processor : frame.every_partition ? std::max(of_gpu, (rows + 1) / 2 * row) : most_rays_;
+    return std::min({most, rows * row, most_rays_});
 }
 
 // For what a tile's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is
 // needed, this much is held already.
 void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= device_.available() + reused) return;
-    tile_.release();
+    tile_.release_rays();
     if (by_lines_) release_lines();
     if (exact_) exact_->release();
 }
 
-// `unit`: tiles are whole numbers of these, or parts of one.
-void Pipeline::for_each_tile(RayRange range, std::uint64_t size, std::uint64_t unit, const Progress& progress,
-                             const std::function<bool(const Tile&)>& work) {
+// `tile_of`: the first one of a range's, of at most so many rays. `work` is told the following one, too.
+void Pipeline::for_each_tile(RayRange range, std::uint64_t size, const FirstTile& tile_of, const Progress& progress,
+                             const std::function<bool(const Tile&, const Tile&)>& work) {
     std::uint64_t first = range.first;
     while (first < range.end) {
-        size = size >= unit ? size / unit * unit : size;
-        const std::uint64_t most = first % unit == 0 && size >= unit ? size : std::min(size, unit - first % unit);
-        const Tile tile{static_cast<std::uint32_t>(first),
-                        static_cast<std::uint32_t>(std::min(most, range.end - first))};
-        if (!work(tile)) {
+        const Tile tile = tile_of({first, range.end}, size);
+        if (!work(tile, tile_of({first + tile.rays, range.end}, size))) {
             if (tile.rays == 1)
                 throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
                                                        std::to_string(device_.budget() >> 20) +
@@ -122,21 +136,13 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
     prepare(every);
     if (by_lines_ && std::exchange(drew_every_partition_, every) != every) {  // there is memory for one way at a time
         release_lines();
-        if (first_hits_) first_hits_->cull().release();
-        if (exact_) {
-            exact_->cull().release();
-            exact_->release();
-        }
+        if (exact_) exact_->release();
     }
     const std::uint64_t bytes = bytes_a_ray(prepared.frame, target);
-    const std::uint64_t most = every ? most_rays_woven(device_, prepared.rays) : most_drawn;
-    const auto begin_of = [](RayRange r, std::uint64_t size) {
-        return Tile{static_cast<std::uint32_t>(r.first),
-                    static_cast<std::uint32_t>(std::min(size / block_rays * block_rays, r.end - r.first))};
-    };
-    for_each_tile(range, std::min(fitting(bytes), most), block_rays, progress, [&](const Tile& tile) {
+    const std::uint64_t row = row_of(prepared.frame), largest = largest_tile(prepared.frame);
+    const FirstTile tile_of = [&](RayRange r, std::uint64_t size) { return first_tile(r, size, row); };
+    for_each_tile(range, std::min(fitting(bytes), largest), tile_of, progress, [&](const Tile& tile, const Tile& following) {
         ++counts.tiles;
-        const std::uint64_t end = std::uint64_t{tile.first} + tile.rays;
         if (tile.rays % block_rays != 0) {
             std::vector<std::uint32_t> numbers(tile.rays);
             std::iota(numbers.begin(), numbers.end(), tile.first);
@@ -144,9 +150,8 @@ void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::
             return true;
         }
         if (!by_lines_) return draw_in_place(prepared.frame, tile, target, counts);
-        Tile following = begin_of({end, range.end}, tile.rays);
-        if (end == range.end) following = begin_of(next(), std::min(fitting(bytes), most));
-        return draw_by_lines(prepared.frame, tile, following, target, counts);
+        const Tile after = following.rays > 0 ? following : tile_of(next(), std::min(fitting(bytes), largest));
+        return draw_by_lines(prepared.frame, tile, after, target, counts);
     });
 }
 
@@ -160,6 +165,10 @@ void Pipeline::finish() {
 void Pipeline::abandon() noexcept {
     if (exact_) exact_->forget();
     if (!by_lines_) return;
+    try {
+        device_.finish();  // what was queued ahead draws into lines that a frame may take next
+    } catch (...) {
+    }
     by_lines_->begin();
     by_lines_->lines.abandon();
 }
@@ -171,7 +180,7 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, R
     if (exact_) exact_->forget();  // what a call that threw has left
     picture_.release();
     exact();
-    for_each_tile({0, rays.size()}, fitting(bytes + Exact::ray_bytes), 1, progress, [&](const Tile& tile) {
+    for_each_tile({0, rays.size()}, fitting(bytes + Exact::ray_bytes), first_rays, progress, [&](const Tile& tile, const Tile&) {
         make_room(tile.rays * (bytes + Exact::ray_bytes), tile_.rays.size());
         tile_.rays.reserve(tile.rays * bytes);
         tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);

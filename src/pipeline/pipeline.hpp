@@ -12,14 +12,10 @@
 #include "pipeline/by_lines.hpp"
 #include "pipeline/exact.hpp"
 #include "pipeline/first_hits.hpp"
+#include "pipeline/frame_parts.hpp"
 #include "pipeline/picture.hpp"
 
 namespace csgrt {
-
-/// Of a picture's rays, or of a list's.
-struct RayRange {
-    std::uint64_t first = 0, end = 0;
-};
 
 using Progress = std::function<bool(double)>;
 
@@ -28,10 +24,13 @@ enum class Readback { by_device, lines };
 
 class Pipeline {
 public:
+    /// Of a picture's tile: the pixels of one are put while the next is drawn.
+    static constexpr std::uint64_t most_rays_drawn = 1u << 22;
+
     /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same precision.
-    /// All three must outlive the pipeline.
+    /// `most_rays`: of a picture's tiles. All three objects must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-             Readback readback = Readback::by_device);
+             Readback readback = Readback::by_device, std::uint64_t most_rays = most_rays_drawn);
 
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition);
@@ -57,9 +56,15 @@ private:
     FirstHits& first_hits();
     Cull& cull(const kernel::Frame& frame);
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
+    std::uint64_t largest_tile(const kernel::Frame& frame) const;
     void make_room(std::uint64_t bytes, std::uint64_t reused);
-    void for_each_tile(RayRange range, std::uint64_t size, std::uint64_t unit, const Progress& progress,
-                       const std::function<bool(const Tile&)>& work);
+    using FirstTile = std::function<Tile(RayRange, std::uint64_t)>;
+    void for_each_tile(RayRange range, std::uint64_t size, const FirstTile& tile_of, const Progress& progress,
+                       const std::function<bool(const Tile&, const Tile&)>& work);
+    /// Of single rays.
+    static Tile first_rays(RayRange range, std::uint64_t most) {
+        return {static_cast<std::uint32_t>(range.first), static_cast<std::uint32_t>(std::min(most, range.end - range.first))};
+    }
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
@@ -70,10 +75,12 @@ private:
     bool draw_in_place(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts);
     bool draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
                        PipelineCounts& counts);
-    bool queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* but);
+    bool queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* before);
     void put_background(QueuedTile& queued, const RenderTarget& target);
     bool weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts);
     void put_drawn();
+    void read_overflown(QueuedTile& tile);
+    void draw_overflown(const kernel::Frame& frame, const RenderTarget& target, PipelineCounts& counts);
     void release_lines(const QueuedTile* but = nullptr);
     void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
                       PipelineCounts& counts);
@@ -82,6 +89,7 @@ private:
     const CompiledScene& scene_;
     const HostKernels& kernels_;
     Settings settings_;
+    std::uint64_t most_rays_;
     SceneBuffers buffers_;
     TileBuffers tile_;  ///< in place, single rays, and lists
     Buffer picture_;    ///< its pixels, ray by ray

@@ -12,41 +12,14 @@
 namespace csgrt {
 namespace {
 
-// Parts of a device's share of the rays. Near the end they become smaller, so that one that is slower, or has more to see, keeps the
-// others waiting little; and of first hits the first ones are, so that their pixels are soon on their way while others are drawn. Of
-// those, launches soon cost as much as rays; of every partition, what the host waits for in each (bench/NOTES.md).
-constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 6;
-
-// Each device takes one after another.
-class Parts {
-public:
-    Parts(std::uint64_t rays, std::size_t devices, std::uint64_t parts, bool begin_small)
-        : rays_(rays), devices_(devices), parts_(parts), begin_small_(begin_small) {}
-
-    /// The next one; empty if there is none.
-    RayRange take() {
-        const std::uint64_t least = devices_ > 1 ? 1 << 16 : 1 << 20;  // rays that are worth launches of their own
-        const std::uint64_t share = rays_ / devices_;
-        const std::uint64_t most = devices_ > 1 ? share / parts_ : std::max(std::min(share, least), share / parts_);
-        const std::uint64_t begin = begin_small_ ? most >> (taken_ < devices_ ? 2 : taken_ < 2 * devices_ ? 1 : 0) : most;
-        const std::uint64_t end = (rays_ - next_) / devices_ / 2;
-        const std::uint64_t size = std::clamp(std::min(begin, end), std::max(most / 4, std::min(most, least)), most);
-        const std::uint64_t blocks = std::max<std::uint64_t>(1, (size + block_rays - 1) / block_rays);
-        const RayRange part{next_, std::min(rays_, next_ + blocks * block_rays)};
-        next_ = part.end;
-        ++taken_;
-        return part;
-    }
-    void stop() { next_ = rays_; }
-
-private:
-    std::uint64_t rays_, devices_, parts_, next_ = 0, taken_ = 0;
-    bool begin_small_;
-};
+// Parts of a device's share of what the rays cost. Of first hits, launches soon cost as much as rays; of every partition, what the host
+// waits for in each (bench/NOTES.md).
+constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 5;
 
 constexpr const char* known_name = "picture of the host's";
-// Of device memory, the scene's and all else but other pictures: a small one is soon enough put by the host.
-constexpr std::uint64_t most_bytes_a_pixel = 64;
+// Of device memory, the scene's and all else but other pictures; and less of it where not all of a picture becomes known, for tiles
+// grow yet.
+constexpr std::uint64_t most_bytes_a_pixel = 64, bytes_a_pixel = 60;
 
 }  // namespace
 
@@ -58,17 +31,19 @@ Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, con
     }
 }
 
-// One device alone takes all rays as tiles of its own, unless it copies the first ones' pixels while it draws others.
-std::uint64_t Pipelines::parts_of(bool every_partition) const {
-    const bool is_alone = pipelines_.size() == 1 && (every_partition || !pipelines_.front()->copies_beside());
-    return is_alone ? 1 : every_partition ? parts_of_partitions : parts_of_first_hits;
+// One device alone takes all rays as tiles of its own, unless it copies the first ones' pixels while it draws others; of every
+// partition it has large ones.
+std::uint64_t Pipelines::parts_of(const RayCosts& costs, bool every_partition) const {
+    constexpr std::uint64_t large = RayCosts::of_shown << 22;
+    const bool is_alone = pipelines_.size() == 1;
+    if (is_alone && !pipelines_.front()->copies_beside()) return 1;
+    return !every_partition ? parts_of_first_hits : is_alone ? 1 + costs.total() / large : parts_of_partitions;
 }
 
-// A thread for each device. What the foremost part threw is thrown, once all threads have stopped.
-void Pipelines::share(std::uint64_t rays, bool every_partition, const Progress& progress, PipelineCounts& counts,
-                      const Work& work) {
-    const std::uint64_t parts_each = parts_of(every_partition);
-    Parts parts(rays, pipelines_.size(), parts_each, !every_partition);
+// A thread for each device. What the foremost part of those that were taken threw is thrown, once all threads have stopped.
+void Pipelines::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work) {
+    const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
+    Parts parts(costs, pipelines_.size(), parts_each, !every_partition);
     if (parts_each == 1 || rays <= block_rays) {
         work(*pipelines_.front(), {0, rays}, [] { return RayRange{}; }, progress, counts);
         if (rays == 0 && progress && !progress(1)) throw Error(Status::interrupted, "interrupted");  // no tile has asked
@@ -137,18 +112,40 @@ void Pipelines::forget() {
 std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane> planes, std::size_t pixels) {
     forget();
     const auto known = std::make_shared<KnownPicture>();
-    const std::uint64_t bytes = planes.size() * pixels * sizeof(float);
+    const std::uint64_t plane = pixels * sizeof(float);
     for (const auto& device : devices_) {  // in turn: drivers may touch what they are told of
-        std::uint64_t others = 0;  // what is claimed for other pictures
-        for (const Claim& claim : claims_) others += claim.device == device.get() ? claim.bytes : 0;
-        const std::uint64_t most = std::min(device->available() / 2, device->max_buffer());
-        const bool is_small = device->allocated() - others + bytes <= most_bytes_a_pixel * pixels;
-        if (device->info().type == "cpu" || bytes == 0 || bytes > most || !is_small) continue;
-        if (!known->add(*device, planes, pixels)) continue;
-        device->claim(known_name, bytes);
-        claims_.push_back({known, device.get(), bytes});
+        const std::uint64_t own = device->allocated() - claimed_of(*device);
+        const auto fitting = [&](std::uint64_t all) -> std::uint64_t {
+            const std::uint64_t most = std::min({device->available() / 2, device->max_buffer(), all - std::min(all, own)});
+            return most / std::max<std::uint64_t>(1, plane);
+        };
+        const bool is_all = fitting(most_bytes_a_pixel * pixels) >= planes.size();
+        const std::size_t count = is_all ? planes.size() : std::min<std::uint64_t>(planes.size(), fitting(bytes_a_pixel * pixels));
+        if (device->info().type == "cpu" || count == 0 || !known->add(*device, planes.first(count), pixels)) continue;
+        device->claim(known_name, count * plane);
+        claims_.push_back({known, device.get(), count * plane});
     }
     return known;
+}
+
+/// Bytes that the device's driver holds of pictures.
+std::uint64_t Pipelines::claimed_of(const Device& device) const {
+    std::uint64_t sum = 0;
+    for (const Claim& claim : claims_) sum += claim.device == &device ? claim.bytes : 0;
+    return sum;
+}
+
+void Pipelines::keep_small(KnownPicture& known, std::size_t pixels) {
+    const std::uint64_t plane = pixels * sizeof(float);
+    for (Claim& claim : claims_) {
+        if (claim.picture.lock().get() != &known) continue;
+        const std::uint64_t others = claimed_of(*claim.device) - claim.bytes;
+        while (claim.device->allocated() - others > most_bytes_a_pixel * pixels && known.planes_known_to(*claim.device) > 0) {
+            known.drop(*claim.device);
+            claim.device->release(known_name, plane);
+            claim.bytes -= plane;
+        }
+    }
 }
 
 void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
@@ -162,7 +159,7 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(prepared.rays, prepared.frame.every_partition, progress, counts,
+    share(RayCosts(prepared.frame, target.drawn), prepared.frame.every_partition, progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next& next, const Progress& told, PipelineCounts& own) {
               pipeline.render(prepared, part, next, shared, told, own);
           });
@@ -174,7 +171,7 @@ std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const
                                             const Progress& progress, PipelineCounts& counts) {
     forget();
     std::vector<RayPartitions> answers(rays.size());
-    share(rays.size(), true, progress, counts,
+    share(RayCosts(rays.size()), true, progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next&, const Progress& told, PipelineCounts& own) {
               pipeline.shoot(prepared, std::span(rays).subspan(part.first, part.end - part.first), answers.data() + part.first, told,
                              own);

@@ -19,9 +19,11 @@ public:
               Readback readback = Readback::by_device);
 
     void prepare(bool every_partition);
-    /// Makes the memory of a picture that will be drawn into again known to the GPUs that have room: `pixels` floats of each
-    /// plane. It must outlast what is returned, which this need not.
+    /// Makes the memory of a picture that will be drawn into again known to its GPUs: `pixels` floats of as many planes as each has
+    /// room for. It must outlast what is returned, which this need not.
     std::shared_ptr<KnownPicture> make_known(std::span<const ChannelPlane> planes, std::size_t pixels);
+    /// Before a frame: where devices hold more than they should, of all, fewer of its planes are known to them.
+    void keep_small(KnownPicture& known, std::size_t pixels);
     /// As Pipeline's. Progress is told by one thread at a time.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
@@ -35,10 +37,11 @@ public:
 private:
     using Next = std::function<RayRange()>;
     using Work = std::function<void(Pipeline&, RayRange, const Next&, const Progress&, PipelineCounts&)>;
-    std::uint64_t parts_of(bool every_partition) const;
-    void share(std::uint64_t rays, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work);
+    std::uint64_t parts_of(const RayCosts& costs, bool every_partition) const;
+    void share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work);
 
     void forget();
+    std::uint64_t claimed_of(const Device& device) const;
 
     /// What the drivers hold of a picture's, which counts as the devices' memory as long as there is the picture.
     struct Claim {

@@ -33,18 +33,32 @@ struct Tile {
     std::uint32_t first_block() const { return first / block_rays; }
     std::uint32_t end_block() const { return (first + rays) / block_rays; }
     std::uint32_t blocks() const { return rays / block_rays; }
+    /// A kernel::TileTally and a byte a block.
+    std::uint64_t tally_bytes() const { return sizeof(kernel::TileTally) + (blocks() + 3) / 4 * 4; }
 };
 
-/// One tile on the device: its frame; its rays, or their numbers, or those of their blocks; what the host wants to know of them
-/// (kernel::TileTally); and, of first hits, the numbers of the rays that had no room.
+/// One tile on the device: its frame; what its blocks see (cull.hpp); its rays, or their numbers, or those of their blocks; what the
+/// host wants to know of them (kernel::TileTally); and, of first hits, the numbers of the rays that had no room.
 struct TileBuffers {
     explicit TileBuffers(Device& device)
-        : frame(device, "frame"), rays(device, "rays"), tally(device, "tally"), overflown(device, "rays without room") {}
-    Buffer frame, rays, tally, overflown;
+        : frame(device, "frame"), costs(device, "blocks"), lists(device, "blocks' nodes"), rays(device, "rays"),
+          tally(device, "tally"), overflown(device, "rays without room") {}
+    Buffer frame, costs, lists, rays, tally, overflown;
 
-    std::uint64_t held() const { return rays.size() + tally.size() + overflown.size(); }
-    /// Gives that back.
+    std::uint64_t held() const { return costs.size() + lists.size() + rays.size() + tally.size() + overflown.size(); }
+    /// For a tile's blocks, its tally, and bytes for each ray that may have no room.
+    void reserve(const Tile& tile, std::uint64_t bytes_a_ray) {
+        rays.reserve(tile.blocks() * sizeof(std::uint32_t));
+        tally.reserve(tile.tally_bytes());
+        overflown.reserve(tile.rays * bytes_a_ray);
+    }
+    /// Gives that back; or but for what its blocks see.
     void release() {
+        costs.release();
+        lists.release();
+        release_rays();
+    }
+    void release_rays() {
         for (Buffer* buffer : {&rays, &tally, &overflown}) buffer->release();
     }
 };

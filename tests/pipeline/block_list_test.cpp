@@ -21,9 +21,11 @@ TEST_CASE("a tile's blocks are listed once each, those that cost most first") {
         INFO(blocks << " blocks");
         std::vector<unsigned char> costs(blocks);
         for (std::uint32_t i = 0; i < blocks; ++i) costs[i] = static_cast<unsigned char>(blocks == 1000 ? i % 256 : random() % 3 ? 0 : random() % 256);
-        const Buffer on_device(device, "costs", costs);
+        buffers.costs = Buffer(device, "costs", costs);
         const Tile tile{70 * block_rays, blocks * block_rays};
-        for (const Event& event : list.list(tile, on_device, buffers)) wait_for(event);
+        buffers.tally.reserve(tile.tally_bytes());
+        buffers.tally.queue_fill(0, tile.tally_bytes());
+        for (const Event& event : list.list(tile, buffers)) wait_for(event);
         const auto tally = buffers.tally.read<kernel::TileTally>(1).front();
         const auto numbers = buffers.rays.read<std::uint32_t>(blocks);
         const auto bytes = buffers.tally.read<std::uint8_t>(sizeof tally + blocks);

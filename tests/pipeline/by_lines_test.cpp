@@ -22,8 +22,8 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     scene.background = {0.2, 0, 0.4};
     const bool every_partition = GENERATE(false, true);
     const std::uint64_t room = GENERATE(std::uint64_t{0}, std::uint64_t{800'000}, std::uint64_t{5'000});  // beside the scene's
-    const bool is_known = GENERATE(false, true);  // the picture's memory, to the device
-    INFO("every partition: " << every_partition << ", room " << room << ", known: " << is_known);
+    const std::size_t known_planes = GENERATE(std::size_t{0}, std::size_t{3}, std::size_t{99});  // of the picture's, to the device
+    INFO("every partition: " << every_partition << ", room " << room << ", known: " << known_planes);
     const Settings settings = test::on_device();
     Renderer renderer(scene, {}, settings);
     const CompiledScene compiled = compile(scene, {});
@@ -57,10 +57,15 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
             background[4] = std::numeric_limits<float>::infinity();
         }
         for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), background[p]});
-        if (is_known && azimuth == 80) {  // what there is stays there
-            REQUIRE(known.add(device, planes, pixels[0].size()));
-            REQUIRE(known.is_known_to(device));
-            REQUIRE_FALSE(known.is_known_to(first));
+        if (known_planes > 0 && azimuth == 80) {  // what there is stays there
+            const auto first_planes = std::span<const ChannelPlane>(planes).first(std::min(known_planes, planes.size()));
+            REQUIRE(known.add(device, first_planes, pixels[0].size()));
+            REQUIRE(known.planes_known_to(device) == first_planes.size());
+            REQUIRE(known.planes_known_to(first) == 0);
+        } else if (known_planes > 0 && azimuth == 200) {
+            const std::size_t before = known.planes_known_to(device);
+            known.drop(device);
+            REQUIRE(known.planes_known_to(device) == before - 1);
         }
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
@@ -95,11 +100,13 @@ namespace {
 
 /// A pipeline that brings pixels by lines, and the memory of a picture that it draws into.
 struct Lined {
-    /// `room`: bytes of device memory beside the scene's; 0: all that there is.
-    explicit Lined(const Scene& scene, std::uint64_t room = 0)
+    /// `room`: bytes of device memory beside the scene's; 0: all that there is. `most_rays`: of a tile.
+    explicit Lined(const Scene& scene, std::uint64_t room = 0, std::uint64_t most_rays = Pipeline::most_rays_drawn,
+                   Readback readback = Readback::lines)
         : renderer(scene, {}, settings), compiled(compile(scene, {})),
           kernels(make_kernels(compiled, settings.precision, settings.quartic)),
-          device(settings.device, room ? bytes_of_scene() + room : 0), pipeline(device, compiled, *kernels, settings, Readback::lines) {}
+          device(settings.device, room ? bytes_of_scene() + room : 0),
+          pipeline(device, compiled, *kernels, settings, readback, most_rays) {}
 
     std::uint64_t bytes_of_scene() const {
         Device alone(settings.device);
@@ -110,6 +117,8 @@ struct Lined {
     /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress` interrupts it.
     PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays, const Progress& progress = nullptr) {
         View view;
+        view.channels = channels;
+        view.camera.azimuth = azimuth;
         view.width = width;
         view.height = height;
         view.every_partition = every_partition;
@@ -118,7 +127,7 @@ struct Lined {
         std::vector<std::vector<float>> pixels(image.channels.size(), std::vector<float>(size, -1));
         std::vector<ChannelPlane> planes;
         for (std::size_t p = 0; p < pixels.size(); ++p)
-            planes.push_back({pixels[p].data(), p == 4 ? std::numeric_limits<float>::infinity() : 0.0f});
+            planes.push_back({pixels[p].data(), image.names[p] == "Z" ? std::numeric_limits<float>::infinity() : 0.0f});
         std::vector<std::uint8_t> drawn((width + BLOCK - 1) / BLOCK * ((height + BLOCK - 1) / BLOCK), 1);
         const RenderTarget target{.planes = planes, .drawn = drawn};
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
@@ -146,6 +155,8 @@ struct Lined {
         return counts;
     }
 
+    std::uint32_t channels = channel::all;
+    double azimuth = 35;
     Settings settings = test::on_device();
     Renderer renderer;
     CompiledScene compiled;
@@ -156,7 +167,43 @@ struct Lined {
 
 }  // namespace
 
-TEST_CASE("pixels by lines: parts of a frame one after the other, each asked ahead for what the next one sees") {
+TEST_CASE("pixels by lines: tiles that run beside each other") {
+    const bool every_partition = GENERATE(false, true);
+    for (const std::uint64_t most_rays : {2048, 16'384}) {
+        Lined lined(bench::scene_of_parts(20), 0, most_rays);
+        for (const double azimuth : {35, 120}) {
+            lined.azimuth = azimuth;
+            CHECK(lined.draw(403, 361, every_partition, 1 << 20).tiles > 3);
+            lined.draw(250, 300, every_partition, 700 * block_rays);
+        }
+    }
+}
+
+TEST_CASE("pixels by lines: few channels, of tiles that run beside each other, in little memory") {
+    const Scene scene = bench::scene_of_parts(20);
+    for (std::uint64_t room = 200'000; room < 5'000'000; room += test::sanitized ? room : room / 5) {
+        INFO("room " << room);
+        Lined lined(scene, room, 4096);
+        lined.channels = channel::distance;
+        lined.draw(400, 400, false, 1 << 20);
+    }
+}
+
+TEST_CASE("a picture in place after a list of rays, in little memory") {
+    const Scene scene = bench::scene_of_parts(20);
+    for (std::uint64_t room = 60'000; room < 3'000'000; room += test::sanitized ? 2 * room : room / 4) {
+        INFO("room " << room);
+        Lined lined(scene, room, Pipeline::most_rays_drawn, Readback::by_device);
+        const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 20'000);
+        const PreparedFrame prepared = prepare_rays(lined.compiled, 20'000, lined.renderer.statistics().tolerance);
+        std::vector<RayPartitions> answers(rays.size());
+        PipelineCounts counts;
+        lined.pipeline.shoot(prepared, rays, answers.data(), nullptr, counts);
+        lined.draw(300, 300, false, 1 << 20);
+    }
+}
+
+TEST_CASE("pixels by lines: parts of a frame one after the other") {
     Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t blocks : {7, 40, 1000}) lined.draw(203, 161, every_partition, blocks * block_rays);
@@ -178,6 +225,17 @@ TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
     lined.draw(40, 50, every_partition, 10 * block_rays);
 }
 
+TEST_CASE("pixels by lines: frames that are interrupted while tiles are queued, and others at once") {
+    Lined lined(bench::scene_of_parts(20), 0, 16'384);
+    for (int i = 0; i < 12; ++i) {
+        lined.azimuth = 30 * i;
+        int told = 0;
+        CHECK_THROWS_AS(lined.draw(400, 250 + 8 * i, false, 1 << 20, [&](double) { return ++told < 1 + i % 3; }), Error);
+        lined.azimuth += 100;
+        lined.draw(400, 180 + 8 * i, false, 1 << 20);
+    }
+}
+
 TEST_CASE("pixels by lines: rays that have no room") {
     Scene scene;
     std::vector<Tree> shells;
@@ -197,6 +255,11 @@ TEST_CASE("pixels by lines: rays that have no room") {
     Lined lined(scene);
     for (const std::uint64_t blocks : {9, 60, 1000})
         CHECK(lined.draw(203, 161, false, blocks * block_rays).segments > 0);  // which the exact way alone counts
+    for (std::uint64_t room = 400'000; room < 40'000'000; room *= test::sanitized ? 8 : 2) {  // beside tiles that run
+        INFO("room " << room);
+        Lined beside(scene, room, 4096);
+        CHECK(beside.draw(203, 161, false, 1 << 20).segments > 0);
+    }
 }
 
 TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
@@ -219,14 +282,14 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
     Lined lined(bench::scene_of_parts(20));
     Pipelines pipelines(lined.compiled, *lined.kernels, lined.settings, Readback::lines);
     View view;
-    view.width = 1200;
+    view.width = 1600;
     view.height = 1000;
     view.camera.view_size = lined.compiled.radius;  // from edge to edge
     view.channels = channel::color | channel::ids;
-    std::vector<std::vector<float>> pixels(6, std::vector<float>(1200 * 1000, 0.0f));
+    std::vector<std::vector<float>> pixels(6, std::vector<float>(1600 * 1000, 0.0f));
     std::vector<ChannelPlane> planes;
     for (auto& plane : pixels) planes.push_back({plane.data(), 0});
-    std::vector<std::uint8_t> drawn(150 * 125);
+    std::vector<std::uint8_t> drawn(200 * 125);
     for (const bool every_partition : {false, true})
         for (const bool sees : {true, false, true}) {
             if (test::sanitized && every_partition) continue;

@@ -17,6 +17,7 @@ namespace csgrt::kernel {
 
 inline thread_local std::size_t global_id = 0;
 inline std::size_t get_global_id(int) { return global_id; }
+inline std::size_t get_global_size(int) { return 1; }
 using std::size_t;
 
 #define __kernel [[maybe_unused]] static inline
@@ -96,7 +97,7 @@ inline HostBlocks cull(const CompiledScene& scene, const kernel::Frame& frame) {
     blocks.costs.resize(frame.ray_count / (BLOCK * BLOCK));
     blocks.lists.resize(blocks.costs.size() * LISTED_NODES);
     for (global_id = 0; global_id < blocks.costs.size(); ++global_id)
-        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data());
+        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr);
     return blocks;
 }
 

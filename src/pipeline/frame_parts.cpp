@@ -1,0 +1,93 @@
+#include "pipeline/frame_parts.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace csgrt {
+namespace {
+
+constexpr std::uint64_t block_rays = BLOCK * BLOCK;
+
+/// How many bytes, each 0 or 1, are 1.
+std::uint64_t count_held(std::span<const std::uint8_t> bytes) {
+    std::uint64_t count = 0;
+    std::size_t i = 0;
+    for (; i + 8 <= bytes.size(); i += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, bytes.data() + i, sizeof eight);
+        count += static_cast<std::uint64_t>(std::popcount(eight));
+    }
+    for (; i < bytes.size(); ++i) count += bytes[i];
+    return count;
+}
+
+}  // namespace
+
+RayCosts::RayCosts(std::uint64_t rays) : rays_(rays), row_(1 << 16) {
+    for (std::uint64_t first = 0; first < rays; first += row_) sums_.push_back(first * of_shown);
+    sums_.push_back(rays * of_shown);
+}
+
+RayCosts::RayCosts(const kernel::Frame& frame, std::span<const std::uint8_t> drawn) {
+    const kernel::Window& window = frame.window;
+    const std::size_t across = kernel::blocks_across(window), down = kernel::blocks_down(window);
+    const std::size_t picture_across = (frame.width + BLOCK - 1) / BLOCK;
+    row_ = across * block_rays;
+    rays_ = down * row_;
+    std::vector<std::uint64_t> held;
+    std::uint64_t all = 0;
+    for (std::size_t row = 0; row < down; ++row) {
+        held.push_back(count_held(drawn.subspan((window.top / BLOCK + row) * picture_across + window.left / BLOCK, across)));
+        all += held.back();
+    }
+    sums_.push_back(0);
+    for (const std::uint64_t blocks : held)
+        sums_.push_back(sums_.back() + row_ + (of_shown - 1) * block_rays * (all == 0 ? across : blocks));
+}
+
+std::uint64_t RayCosts::before(std::uint64_t rays) const {
+    if (rays >= rays_) return total();
+    const std::size_t row = rays / row_;
+    return sums_[row] + (sums_[row + 1] - sums_[row]) * (rays % row_) / rays_of(row);
+}
+
+std::uint64_t RayCosts::end(std::uint64_t first, std::uint64_t cost) const {
+    constexpr std::uint64_t many = 4;
+    const std::uint64_t sum = before(first) + cost;
+    if (sum >= total()) return rays_;
+    const auto row = static_cast<std::size_t>(std::ranges::upper_bound(sums_, sum) - sums_.begin()) - 1;
+    std::uint64_t end = row * row_ + (sum - sums_[row]) * rays_of(row) / (sums_[row + 1] - sums_[row]);
+    const std::uint64_t unit = end >= first + many * row_ ? row_ : block_rays;
+    end = std::max((end + unit - 1) / unit * unit, first + block_rays);
+    return std::min(end, rays_);
+}
+
+Parts::Parts(RayCosts costs, std::size_t devices, std::uint64_t parts, bool begin_small)
+    : costs_(std::move(costs)), devices_(devices), begin_small_(begin_small) {
+    least_ = (devices > 1 ? 1 << 16 : 1 << 20) * RayCosts::of_shown;  // that is worth launches of its own
+    const std::uint64_t share = costs_.total() / devices;
+    most_ = devices > 1 ? share / parts : std::max(std::min(share, least_), share / parts);
+    waits_ = devices > 1 || begin_small;
+    const std::uint64_t first = waits_ ? costs_.total() / 2 : (parts + 1) / 2 * most_;
+    const std::uint64_t half = costs_.total() < 4 * most_ ? costs_.rays() : costs_.end(0, first);
+    left_ = {{0, half}, {half, costs_.rays()}};
+}
+
+RayRange Parts::take() {
+    std::erase_if(left_, [](const RayRange& half) { return half.first == half.end; });
+    if (left_.empty()) return {};
+    std::uint64_t rest = 0;
+    for (const RayRange& half : left_) rest += costs_.before(half.end) - costs_.before(half.first);
+    const std::uint64_t begin = begin_small_ ? most_ >> (taken_ < devices_ ? 2 : taken_ < 2 * devices_ ? 1 : 0) : most_;
+    const std::uint64_t end = waits_ ? rest / devices_ / 2 : most_;
+    const std::uint64_t smallest = begin_small_ ? most_ / 4 : most_ / 2;
+    const std::uint64_t size = std::clamp(std::min(begin, end), std::max(smallest, std::min(most_, least_)), most_);
+    RayRange& half = left_[taken_++ % left_.size()];
+    RayRange part{half.first, std::min(costs_.end(half.first, size), half.end)};
+    if (costs_.before(half.end) - costs_.before(part.end) < size / 4) part.end = half.end;  // which would be left for another
+    half.first = part.end;
+    return part;
+}
+
+}  // namespace csgrt
