@@ -195,13 +195,13 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
     if (every && !weave_queued(own, target, counts)) return false;
     by.next = (by.next + 1) % by.tiles.size();
     QueuedTile& other = by.tiles[by.next];
-    if (!every && next.rays > 0 && lines_in_turn(frame, next, largest_tile(frame)) < by.tiles.size()) put_drawn();  // its lines come next
-    if (next.rays > 0 && next.rays % block_rays == 0 && queue(other, frame, next, target, &own)) by.ahead = next;
-    if (!every) put_drawn();
-
+    const bool has_next = next.rays > 0 && next.rays % block_rays == 0;
+    if (has_next && !every && lines_in_turn(frame, next, largest_tile(frame)) < by.tiles.size()) put_drawn();  // its lines come next
+    if (has_next && queue(other, frame, next, target, &own)) by.ahead = next;
     if (every) {
         device_.finish();
     } else {
+        put_drawn();
         by.ahead ? wait_patiently(own.drawn) : wait_for(own.drawn);
     }
     own.answer.fetch();

@@ -68,8 +68,8 @@ Parts::Parts(RayCosts costs, std::size_t devices, std::uint64_t parts, bool begi
     least_ = (devices > 1 ? 1 << 16 : 1 << 20) * RayCosts::of_shown;  // that is worth launches of its own
     const std::uint64_t share = costs_.total() / devices;
     most_ = devices > 1 ? share / parts : std::max(std::min(share, least_), share / parts);
-    waits_ = devices > 1 || begin_small;
-    const std::uint64_t first = waits_ ? costs_.total() / 2 : (parts + 1) / 2 * most_;
+    shrinks_ = devices > 1 || begin_small;
+    const std::uint64_t first = shrinks_ ? costs_.total() / 2 : (parts + 1) / 2 * most_;
     const std::uint64_t half = costs_.total() < 4 * most_ ? costs_.rays() : costs_.end(0, first);
     left_ = {{0, half}, {half, costs_.rays()}};
 }
@@ -80,7 +80,7 @@ RayRange Parts::take() {
     std::uint64_t rest = 0;
     for (const RayRange& half : left_) rest += costs_.before(half.end) - costs_.before(half.first);
     const std::uint64_t begin = begin_small_ ? most_ >> (taken_ < devices_ ? 2 : taken_ < 2 * devices_ ? 1 : 0) : most_;
-    const std::uint64_t end = waits_ ? rest / devices_ / 2 : most_;
+    const std::uint64_t end = shrinks_ ? rest / devices_ / 2 : most_;
     const std::uint64_t smallest = begin_small_ ? most_ / 4 : most_ / 2;
     const std::uint64_t size = std::clamp(std::min(begin, end), std::max(smallest, std::min(most_, least_)), most_);
     RayRange& half = left_[taken_++ % left_.size()];

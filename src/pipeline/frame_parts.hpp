@@ -56,7 +56,7 @@ public:
 private:
     RayCosts costs_;
     std::uint64_t devices_, least_, most_, taken_ = 0;
-    bool begin_small_, waits_;
+    bool begin_small_, shrinks_;
     std::vector<RayRange> left_;  ///< of each half
 };
 
