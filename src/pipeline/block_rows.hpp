@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -19,6 +20,18 @@ inline std::size_t next_held(std::span<const std::uint8_t> bytes, std::size_t be
     }
     while (begin < end && bytes[begin] == 0) ++begin;
     return begin;
+}
+
+/// How many bytes, each 0 or 1, are 1.
+inline std::size_t count_held(std::span<const std::uint8_t> bytes) {
+    std::size_t count = 0, i = 0;
+    for (; i + 8 <= bytes.size(); i += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, bytes.data() + i, sizeof eight);
+        count += static_cast<std::size_t>(std::popcount(eight));
+    }
+    for (; i < bytes.size(); ++i) count += bytes[i];
+    return count;
 }
 
 class BlockRows {

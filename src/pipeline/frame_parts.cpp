@@ -1,47 +1,30 @@
 #include "pipeline/frame_parts.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
+
+#include "pipeline/block_rows.hpp"
+#include "pipeline/stages.hpp"
 
 namespace csgrt {
-namespace {
-
-constexpr std::uint64_t block_rays = BLOCK * BLOCK;
-
-/// How many bytes, each 0 or 1, are 1.
-std::uint64_t count_held(std::span<const std::uint8_t> bytes) {
-    std::uint64_t count = 0;
-    std::size_t i = 0;
-    for (; i + 8 <= bytes.size(); i += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, bytes.data() + i, sizeof eight);
-        count += static_cast<std::uint64_t>(std::popcount(eight));
-    }
-    for (; i < bytes.size(); ++i) count += bytes[i];
-    return count;
-}
-
-}  // namespace
 
 RayCosts::RayCosts(std::uint64_t rays) : rays_(rays), row_(1 << 16) {
     for (std::uint64_t first = 0; first < rays; first += row_) sums_.push_back(first * of_shown);
     sums_.push_back(rays * of_shown);
 }
 
-RayCosts::RayCosts(const kernel::Frame& frame, std::span<const std::uint8_t> drawn) {
-    const kernel::Window& window = frame.window;
-    const std::size_t across = kernel::blocks_across(window), down = kernel::blocks_down(window);
-    const std::size_t picture_across = (frame.width + BLOCK - 1) / BLOCK;
-    row_ = across * block_rays;
+RayCosts::RayCosts(const kernel::Frame& frame, const RenderTarget& target) {
+    const std::uint32_t across = kernel::blocks_across(frame.window), down = kernel::blocks_down(frame.window);
+    row_ = std::uint64_t{across} * block_rays;
     rays_ = down * row_;
+    sums_.push_back(0);
+    if (rays_ == 0) return;
+    const BlockRows rows(frame, 0, across * down);
     std::vector<std::uint64_t> held;
     std::uint64_t all = 0;
     for (std::size_t row = 0; row < down; ++row) {
-        held.push_back(count_held(drawn.subspan((window.top / BLOCK + row) * picture_across + window.left / BLOCK, across)));
+        held.push_back(count_held(rows.held(row, target)));
         all += held.back();
     }
-    sums_.push_back(0);
     for (const std::uint64_t blocks : held)
         sums_.push_back(sums_.back() + row_ + (of_shown - 1) * block_rays * (all == 0 ? across : blocks));
 }

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "kernel_host.hpp"
+#include "pipeline/picture.hpp"
 
 namespace csgrt {
 
@@ -23,8 +22,8 @@ public:
 
     /// Of a list: each the same.
     explicit RayCosts(std::uint64_t rays);
-    /// Of a frame: those of blocks in which the picture shows something now (not 0) do so again. If none does, each the same.
-    RayCosts(const kernel::Frame& frame, std::span<const std::uint8_t> drawn);
+    /// Of a frame: those of blocks in which the target holds something now show something again. If it holds nothing, each the same.
+    RayCosts(const kernel::Frame& frame, const RenderTarget& target);
 
     std::uint64_t rays() const { return rays_; }
     std::uint64_t total() const { return sums_.back(); }

@@ -1,7 +1,5 @@
 #include "pipeline/known_picture.hpp"
 
-#include <algorithm>
-
 namespace csgrt {
 
 bool KnownPicture::add(const Device& device, std::span<const ChannelPlane> planes, std::size_t pixels) {
@@ -15,17 +13,17 @@ bool KnownPicture::add(const Device& device, std::span<const ChannelPlane> plane
     return true;
 }
 
-std::vector<KnownPicture::Entry>::const_iterator KnownPicture::find(const Device& device) const {
-    return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.context == device.context(); });
+std::size_t KnownPicture::find(const Device& device) const {
+    std::size_t i = 0;
+    while (i < entries_.size() && entries_[i].context != device.context()) ++i;
+    return i;
 }
 
 std::size_t KnownPicture::planes_known_to(const Device& device) const {
-    const auto found = find(device);
-    return found == entries_.end() ? 0 : found->planes.size();
+    const std::size_t i = find(device);
+    return i < entries_.size() ? entries_[i].planes.size() : 0;
 }
 
-void KnownPicture::drop(const Device& device) {
-    entries_[static_cast<std::size_t>(find(device) - entries_.begin())].planes.pop_back();
-}
+void KnownPicture::drop(const Device& device) { entries_[find(device)].planes.pop_back(); }
 
 }  // namespace csgrt

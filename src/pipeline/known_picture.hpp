@@ -25,7 +25,7 @@ private:
         cl_context context;  ///< the memory holds on to it: no other comes to stand there
         std::vector<KnownMemory> planes;
     };
-    std::vector<Entry>::const_iterator find(const Device& device) const;
+    std::size_t find(const Device& device) const;  ///< among the entries; their number if it has none
 
     std::vector<Entry> entries_;
 };

@@ -74,10 +74,7 @@ public:
           target_(target) {
         for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
         std::size_t held = 0;
-        for (std::size_t row = 0; row < rows_.count(); ++row) {
-            const auto of_row = rows_.held(row, target);
-            held += of_row.size() - static_cast<std::size_t>(std::count(of_row.begin(), of_row.end(), 0));
-        }
+        for (std::size_t row = 0; row < rows_.count(); ++row) held += count_held(rows_.held(row, target));
         pixels_ = (drawn.size() + held) * BLOCK * BLOCK;
     }
 

@@ -20,7 +20,7 @@ struct ChannelPlane {
 /// What a frame is drawn into.
 struct RenderTarget {
     std::span<const ChannelPlane> planes;
-    std::span<std::uint8_t> drawn;  ///< a block of the picture: 0 if it holds nothing but the background
+    std::span<std::uint8_t> drawn;  ///< a block of the picture: 0 if it holds nothing but the background, else 1
     unsigned threads = 0;           ///< that put pixels into it; 0: all
     const KnownPicture* known = nullptr;  ///< the planes' memory, as devices know it
 };

@@ -159,7 +159,7 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(RayCosts(prepared.frame, target.drawn), prepared.frame.every_partition, progress, counts,
+    share(RayCosts(prepared.frame, target), prepared.frame.every_partition, progress, counts,
           [&](Pipeline& pipeline, RayRange part, const Next& next, const Progress& told, PipelineCounts& own) {
               pipeline.render(prepared, part, next, shared, told, own);
           });

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "pipeline/stages.hpp"
 
 using namespace csgrt;
 
 namespace {
-
-constexpr std::uint64_t block_rays = BLOCK * BLOCK;
 
 /// A frame whose window is so many blocks of a picture with a border, and what of the picture shows something.
 struct Shown {
@@ -59,7 +58,7 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
         Shown shown(across, down);
         for (auto& block : shown.drawn) block = random() % 3 == 0;
         shown.at(0, 0) = 1;
-        const RayCosts costs(shown.frame, shown.drawn);
+        const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
         REQUIRE(costs.rays() == across * down * block_rays);
         std::uint64_t sum = 0;
         for (std::uint32_t row = 0; row < down; ++row) {
@@ -85,7 +84,7 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
 TEST_CASE("rays of a picture that shows nothing yet cost the same, and those of a list") {
     Shown shown(10, 10);
     shown.drawn[0] = 1;  // outside of the window
-    const RayCosts costs(shown.frame, shown.drawn);
+    const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
     CHECK(costs.total() == costs.rays() * RayCosts::of_shown);
     CHECK(costs.before(1234) == 1234 * RayCosts::of_shown);
     for (const std::uint64_t rays : {std::uint64_t{1}, std::uint64_t{63}, std::uint64_t{65'536}, std::uint64_t{100'000}, std::uint64_t{1} << 33}) {
@@ -93,7 +92,7 @@ TEST_CASE("rays of a picture that shows nothing yet cost the same, and those of 
         CHECK(list.total() == rays * RayCosts::of_shown);
         CHECK(list.before(rays - 1) == (rays - 1) * RayCosts::of_shown);
         CHECK(list.end(0, list.total()) == rays);
-        CHECK(list.end(0, 1) == std::min(rays, block_rays));
+        CHECK(list.end(0, 1) == std::min<std::uint64_t>(rays, block_rays));
     }
 }
 
@@ -107,7 +106,7 @@ TEST_CASE("parts are all rays, each once, whatever they show") {
         for (std::uint32_t row = from; row < down; ++row)
             for (std::uint32_t column = 0; column < across; ++column) shown.at(column, row) = random() % sparse == 0;
         const std::size_t devices = 1 + random() % 4;
-        const RayCosts costs(shown.frame, shown.drawn);
+        const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
         Parts parts(costs, devices, 1 + random() % 9, round % 2 == 0);
         check_whole(all_of(parts), costs.rays());
         const RayRange none = parts.take();
@@ -123,7 +122,7 @@ TEST_CASE("devices' parts cost about as much, where most rays see nothing, too")
     Shown shown(512, 512);
     for (std::uint32_t row = 300; row < 400; ++row)
         for (std::uint32_t column = 0; column < 512; ++column) shown.at(column, row) = 1;
-    const RayCosts costs(shown.frame, shown.drawn);
+    const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
     Parts parts(costs, 2, 5, false);
     const std::vector<RayRange> taken = all_of(parts);
     CHECK(taken.size() >= 10);
