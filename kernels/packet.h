@@ -17,6 +17,8 @@ FN double8 real_fma(double8 a, double8 b, double8 c) { return fma(a, b, c); }
 FN double8 real_abs(double8 x) { return fabs(x); }
 FN double8 real_min(double8 a, double8 b) { return a < b ? a : b; }
 FN double8 real_max(double8 a, double8 b) { return a > b ? a : b; }
+FN float8 single_min(float8 a, float8 b) { return a < b ? a : b; }
+FN float8 single_max(float8 a, float8 b) { return a > b ? a : b; }
 FN float8 to_single(double8 x) { return convert_float8(x); }
 FN int none(long8 x) { return !any(x); }
 
@@ -203,10 +205,7 @@ FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u
 
 // Bit k: ray k.
 FN u32 bits_of(int8 x) {
-    const int8 bit = x & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-    const int4 four = bit.lo | bit.hi;
-    const int2 two = four.lo | four.hi;
-    return (u32)(two.x | two.y);
+    return (u32)((as_ulong(convert_char8(x)) & 0x8040201008040201ul) * 0x0101010101010101ul >> 56);
 }
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }

@@ -73,9 +73,6 @@ FN real real_floor(real x) { return host::floor(x); }
 FN int real_exponent(real x) { return host::exponent(x); }
 FN real real_scaled(real x, int e) { return host::scaled(x, e); }
 FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
-// As OpenCL's: of a NaN and a number, the number.
-FN float fmin(float a, float b) { return a < b || b != b ? a : b; }
-FN float fmax(float a, float b) { return a > b || b != b ? a : b; }
 #endif
 
 // A value that is one for each ray, as far as packets need the source (packet.h): of one ray, what it is called.
@@ -97,6 +94,14 @@ FN single to_single(real x) { return (float)x; }
 // The number of the lowest bit that is set; bits > 0.
 FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
 
+// Of numbers: a GPU has fmin as one instruction, a processor only the comparison, for fmin passes NaNs by.
+#if defined(__OPENCL_VERSION__) && !defined(CSGRT_PACKETS)
+FN float single_min(float a, float b) { return fmin(a, b); }
+FN float single_max(float a, float b) { return fmax(a, b); }
+#else
+FN float single_min(float a, float b) { return a < b ? a : b; }
+FN float single_max(float a, float b) { return a > b ? a : b; }
+#endif
 FN real real_min(real a, real b) { return a < b ? a : b; }
 FN real real_max(real a, real b) { return a > b ? a : b; }
 

@@ -34,13 +34,12 @@ PURE float ldexp(float x, int exponent);
 PURE double ldexp(double x, int exponent);
 PURE float fmin(float a, float b);
 PURE float fmax(float a, float b);
-PURE float8 fmin(float8 a, float8 b);
-PURE float8 fmax(float8 a, float8 b);
 
 PURE float8 convert_float8(double8 x);
 PURE float8 convert_float8(ulong8 x);
 PURE float8 convert_float8(uint8 x);
 PURE int8 convert_int8(long8 x);
+PURE char8 convert_char8(int8 x);
 PURE long8 convert_long8(int8 x);
 #define MEMORY_FUNCTIONS(T)                                                   \
     OVERLOADED T##8 vload8(size_t offset, const __private T* from);           \

@@ -11,7 +11,7 @@
 
 typedef struct {
     single px, py, pz;  // a point of the ray, relative to the center
-    single ix, iy, iz;  // 1 / direction
+    single ix, iy, iz;  // 1 / direction, or MOST_INVERSE
     single t_min;       // in the hierarchy's own parameter
     single pad;         // single precision: by which boxes grow
     truth hits_sphere;  // 0: nothing can be hit
@@ -20,6 +20,13 @@ typedef struct {
 
 #define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)
 #define SLAB_SLACK BY_PRECISION(0x1p-10, 0x1p-20, 0x1p-20)  // covers the rounding of t_min to float
+
+// So large that a ray which runs along a slab never leaves it within the sphere, and no infinity, which times 0 is no number.
+#define MOST_INVERSE 1e30f
+FN single inverse(single x) {
+    const single i = SINGLE(1) / x;
+    return i < SINGLE(-MOST_INVERSE) ? SINGLE(-MOST_INVERSE) : i > SINGLE(MOST_INVERSE) ? SINGLE(MOST_INVERSE) : i;
+}
 
 // `o`: the ray's origin relative to the center, around which all boxes lie within `radius`. What ends before t_min is not
 // wanted.
@@ -39,9 +46,9 @@ FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
     s.px = to_single(p.x);
     s.py = to_single(p.y);
     s.pz = to_single(p.z);
-    s.ix = SINGLE(1) / to_single(d.x);
-    s.iy = SINGLE(1) / to_single(d.y);
-    s.iz = SINGLE(1) / to_single(d.z);
+    s.ix = inverse(to_single(d.x));
+    s.iy = inverse(to_single(d.y));
+    s.iz = inverse(to_single(d.z));
     s.t_min = to_single(real_max(t_min * length - shift, REAL(-4) * radius) - radius * SLAB_SLACK);
     return s;
 }
@@ -50,14 +57,14 @@ FN single grown(float x, single pad) { return sizeof(real) == 4 ? x + pad : SING
 
 #define BOX_MISSED 3.0e38f
 
-// Where the ray enters the box, or before that, in the hierarchy's parameter; BOX_MISSED: it does not.
-// fmin and fmax pass a NaN by: 0 * infinity arises only for a ray within a padded face's plane, outside the true box.
+// Where the ray enters the box, or before that, in the hierarchy's parameter; BOX_MISSED: it does not. A ray along a padded
+// face, which is outside the true box, may be told either.
 FN single box_entry(slab_ray s, BvhNode node) {
     single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
     single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
     single z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
-    single in = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), s.t_min));
-    single out = fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmax(z0, z1));
+    single in = single_max(single_max(single_min(x0, x1), single_min(y0, y1)), single_max(single_min(z0, z1), s.t_min));
+    single out = single_min(single_min(single_max(x0, x1), single_max(y0, y1)), single_max(z0, z1));
     return in <= out ? in : SINGLE(BOX_MISSED);
 }
 
