@@ -56,14 +56,22 @@ FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which) {
     const u32 end = s.nodes[root].skip;
     u32 i = root, lost = 0;
     while (i < end) {
-        const BvhNode node = s.nodes[i];
-        const u32 hit = bits_of(box_is_hit(p->slabs, node)) & which & ~lost;
+        BvhNode node;
+        u32 hit;
+        // A loop of its own: what comes after a node that is missed is then loaded before it is known that it is.
+        do {
+            node = s.nodes[i];
+            hit = bits_of(box_is_hit(p->slabs, node)) & which;
+            if (!hit) i = node.skip;
+        } while (!hit && i < end);
         if (hit && node.leaf) {
             const u32 first = node.leaf >> BVH_LEAF_SHIFT, last = first + (node.leaf & BVH_LEAF_MASK);
             u32 solid;
             for (solid = first; solid < last; ++solid) lost |= take_solid_by_packet(p, s.g, solid, hit & ~lost);
+            i = node.skip;
+        } else if (hit) {
+            ++i;
         }
-        i = hit && !node.leaf ? i + 1 : node.skip;
     }
     return lost;
 }

@@ -57,18 +57,28 @@ FN single grown(float x, single pad) { return sizeof(real) == 4 ? x + pad : SING
 
 #define BOX_MISSED 3.0e38f
 
-// Where the ray enters the box, or before that, in the hierarchy's parameter; BOX_MISSED: it does not. A ray along a padded
-// face, which is outside the true box, may be told either.
-FN single box_entry(slab_ray s, BvhNode node) {
-    single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
-    single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
-    single z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
-    single in = single_max(single_max(single_min(x0, x1), single_min(y0, y1)), single_max(single_min(z0, z1), s.t_min));
-    single out = single_min(single_min(single_max(x0, x1), single_max(y0, y1)), single_max(z0, z1));
-    return in <= out ? in : SINGLE(BOX_MISSED);
+// Where the ray enters the box, or before that, in the hierarchy's parameter; it misses the box if that is behind `out`. A ray
+// along a padded face, which is outside the true box, may be told either.
+FN single box_passage(slab_ray s, BvhNode node, single* out) {
+    const single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
+    const single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
+    const single z0 = (grown(node.low[2], -s.pad) - s.pz) * s.iz, z1 = (grown(node.high[2], s.pad) - s.pz) * s.iz;
+    *out = single_min(single_min(single_max(x0, x1), single_max(y0, y1)), single_max(z0, z1));
+    return single_max(single_max(single_min(x0, x1), single_min(y0, y1)), single_max(single_min(z0, z1), s.t_min));
 }
 
-FN single_truth box_is_hit(slab_ray s, BvhNode node) { return box_entry(s, node) < BOX_MISSED; }
+FN single_truth box_is_hit(slab_ray s, BvhNode node) {
+    single out;
+    const single in = box_passage(s, node, &out);
+    return in <= out;
+}
+
+// BOX_MISSED: the ray does not enter it.
+FN single box_entry(slab_ray s, BvhNode node) {
+    single out;
+    const single in = box_passage(s, node, &out);
+    return in <= out ? in : SINGLE(BOX_MISSED);
+}
 
 // A distance along the ray that nothing in a box comes before which is entered at `at`. The box's padding covers the
 // rounding of its own test, not that of a far origin's distance.
