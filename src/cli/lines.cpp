@@ -66,9 +66,9 @@ bool LineReader::next(std::string_view& line) {
     for (;;) {
         const char* start = buffer_.data();
         if (auto* found = static_cast<const char*>(std::memchr(start + searched, '\n', end_ - searched))) {
-            auto stop = static_cast<std::size_t>(found - start);
-            line = std::string_view(start + begin_, stop - begin_);
-            begin_ = stop + 1;
+            auto line_end = static_cast<std::size_t>(found - start);
+            line = std::string_view(start + begin_, line_end - begin_);
+            begin_ = line_end + 1;
             break;
         }
         std::size_t kept = end_ - begin_;

@@ -23,7 +23,7 @@ std::vector<Settings> in_single() {
 }
 
 // By default all in one program for each precision, since what an OpenCL compiler takes for each is most of the time here;
-// every second of our scenes; and of the world's coordinates, which share all but the camera with the eye's, every fourth.
+// every third of our scenes; and of the world's coordinates, which share all but the camera with the eye's, every fourth.
 // `all`: each in its own, in both.
 void require(Scene scene, std::vector<std::string> objects, int size, int rays, std::size_t number, bool all) {
     if (!all) scene = test::with_every_type(std::move(scene), objects);
@@ -38,7 +38,7 @@ void require(Scene scene, std::vector<std::string> objects, int size, int rays, 
 void require_scenes(bool all) {
     const std::vector<std::string> files = test::scene_files();
     if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
-    for (std::size_t i = 0; i < files.size(); i += all ? 1 : 2) {
+    for (std::size_t i = 0; i < files.size(); i += all ? 1 : 3) {
         INFO(files[i]);
         require(load_scene(files[i]), {}, 64, 200, i, all);
     }
