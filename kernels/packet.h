@@ -210,6 +210,21 @@ FN u32 bits_of(int8 x) {
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
+// The rays through a row of eight pixels from `first` on, which is in the picture.
+FN packet_world_ray rays_through(__global const Frame* f, pixel_position first) {
+    return view_ray(f, (double)first.x + (double8)(0, 1, 2, 3, 4, 5, 6, 7), (double8)((double)first.y));
+}
+
+// Those of them whose pixels are in it, too.
+FN u32 rays_inside(__global const Frame* f, pixel_position first) {
+    const u32 left = f->window.right - first.x;
+    return left < PACKET ? (1u << left) - 1u : (1u << PACKET) - 1u;
+}
+
+FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {
+    return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius, f->t_min);
+}
+
 // The rays one by one.
 typedef struct {
     real ox[PACKET], oy[PACKET], oz[PACKET], dx[PACKET], dy[PACKET], dz[PACKET];

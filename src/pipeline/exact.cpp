@@ -14,18 +14,25 @@ namespace kernel {
 namespace {
 constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
 std::uint32_t blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
+
+std::vector<std::string> files_of(bool packets) {
+    std::vector<std::string> files = {"0_cull_blocks.cl"};
+    if (packets) files.push_back("1_packet_candidates.cl");
+    files.insert(files.end(),
+                 {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
+    return files;
 }
+}  // namespace
 
 Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
     : device_(device),
       scene_(scene),
       kernels_(kernels),
-      program_(device,
-               assemble_program({"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl",
-                                 "4_evaluate.cl", "5_shade.cl"}),
-               defines_of(scene, settings), settings.precision != Precision::double_),
+      program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings),
+               settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
+      find_packet_candidates_(in_packets(device, settings) ? std::optional(program_.kernel("find_packet_candidates")) : std::nullopt),
       count_hits_(program_.kernel("count_hits")),
       sum_hits_(program_.kernel("sum_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
@@ -138,7 +145,14 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     const Buffer none(device_, "nothing");
     const Buffer& lists = kind == Rays::blocks ? tile.lists : none;
     const std::size_t group = uneven_group(device_);
-    run(&PipelineCounts::count_hits, find_candidates_.launch(rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
+    // Only a picture's blocks hold rays that lie side by side.
+    const bool packets = kind == Rays::blocks && find_packet_candidates_;
+    const auto find_candidates = [&](std::uint32_t count, const Buffer& found) {
+        Kernel& kernel = packets ? *find_packet_candidates_ : find_candidates_;
+        run(&PipelineCounts::count_hits,
+            kernel.launch(packets ? count / packet_rays : count, group, tile.frame, s.nodes, lists, tile.rays, places_, found));
+    };
+    find_candidates(rays, none);
     queue_scan(places_, rays);
     const cl_uint candidates = sum_of(places_, rays).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
@@ -151,8 +165,7 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
         candidates_.reserve(candidate_bytes);
         found_.reserve(found_bytes);
     }
-    run(&PipelineCounts::count_hits,
-        find_candidates_.launch(candidates ? rays : 0, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
+    find_candidates(candidates ? rays : 0, candidates_);
     device_.flush();
     run(&PipelineCounts::count_hits, count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                                         s.inner_nodes, tile.rays, candidates, candidates_, found_));

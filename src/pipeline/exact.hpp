@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "compile/claims.hpp"
@@ -73,7 +74,9 @@ private:
     const HostKernels& kernels_;
     Program program_;
     Cull cull_;
-    Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
+    Kernel find_candidates_;
+    std::optional<Kernel> find_packet_candidates_;  // on processors
+    Kernel count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
     Buffer places_;            // of the rays' candidates; from weaving on their tallies
     Buffer counts_, firsts_;   // one entry a ray, too

@@ -5,17 +5,9 @@
 namespace csgrt {
 namespace {
 
-constexpr std::uint32_t packet_rays = 8;  // RAYS_AN_ITEM of kernels/first_hits_packet.h
-
-// On a processor eight rays go side by side, in its vectors.
-bool in_packets(const Device& device, const Settings& settings) {
-    return device.info().type == "cpu" && settings.precision == Precision::double_;
-}
-
-std::vector<std::string> defines(const CompiledScene& scene, const Settings& settings, bool packets) {
-    std::vector<std::string> all = defines_of(scene, settings);
+std::vector<std::string> defines(const Device& device, const CompiledScene& scene, const Settings& settings) {
+    std::vector<std::string> all = defines_of(device, scene, settings);
     all.push_back("CSGRT_PRIVATE_ENDS");
-    if (packets) all.push_back("CSGRT_PACKETS");
     if (scene.solids.size() > 32) all.push_back("CSGRT_FEW=64u");  // measured: bench/NOTES.md
     return all;
 }
@@ -28,7 +20,7 @@ FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings&
       program_(device,
                assemble_program({"0_cull_blocks.cl", rays_an_item_ == 1 ? "first_hits_ray.h" : "first_hits_packet.h",
                                  "first_hits.cl"}),
-               defines(scene, settings, rays_an_item_ != 1),
+               defines(device, scene, settings),
                settings.precision != Precision::double_),
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")) {}

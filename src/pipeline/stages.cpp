@@ -39,11 +39,16 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     return *this;
 }
 
-std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings) {
+bool in_packets(const Device& device, const Settings& settings) {
+    return device.info().type == "cpu" && settings.precision == Precision::double_;
+}
+
+std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> defines = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
                                         "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
     if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
     if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
+    if (in_packets(device, settings)) defines.push_back("CSGRT_PACKETS");
     if (scene.has_large_terms) defines.push_back("CSGRT_LARGE_TERMS");
     return defines;
 }

@@ -74,7 +74,11 @@ struct PipelineCounts {
     PipelineCounts& operator+=(const PipelineCounts& other);
 };
 
+/// Do a picture's rays go side by side in a processor's vectors, `packet_rays` a work-item?
+bool in_packets(const Device& device, const Settings& settings);
+inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet.h
+
 /// The options that a program for this scene is compiled with.
-std::vector<std::string> defines_of(const CompiledScene& scene, const Settings& settings);
+std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings);
 
 }  // namespace csgrt
