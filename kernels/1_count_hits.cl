@@ -3,6 +3,8 @@
 // one after the other.
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
+//
+// On processors the rays of a picture's blocks find their candidates eight at once (1_packet_candidates.cl).
 #include "blocks.h"
 #include "camera.h"
 #include "geometry/collect.h"
@@ -40,6 +42,9 @@ __kernel void count_hits(__global const Frame* frame, __global const SolidRecord
     real t_min;
     if (id >= size) return;
     c = candidates[id];
+#ifdef CSGRT_PACKETS  // some are counted, then
+    if (c.count != UNCOUNTED) return;
+#endif
     if (!ray_of(frame, rays, number_of(frame, rays, c.ray), &r)) return;
     t_min = t_min_along(frame, r);
     solid = solids[c.solid];

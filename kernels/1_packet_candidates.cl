@@ -1,67 +1,138 @@
-// Kernel 1's first step on processors, for the rays of a picture's blocks: which solids may they meet, eight rays at once. What it
-// leaves is what find_candidates does (1_count_hits.cl).
+// Kernel 1's first step on processors, for the rays of a picture's blocks: which solids may they meet, eight rays at once. And,
+// of solids that packets know, what they meet of them: count_hits (1_count_hits.cl) is left those that one ray alone comes to.
+//
+//   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
+#include "geometry/collect.h"
 #include "packet.h"
 
-// A packet's candidates: how many each ray has, and where they go, if anywhere.
+// A packet on its way through the nodes of its block's list.
 typedef struct {
-    u32 first_ray;
-    u32 counts[PACKET];
-    __global const RayCount* places;
-    __global Candidate* candidates;  // 0: they are counted
-} packet_candidates;
+    packet_slab_ray slabs;
+    __global const BvhNode* nodes;
+    __global const BlockNode* next;
+    u32 which;   // rays that pass near the scene
+    u32 i, end;  // of the subtree that it is in
+} packet_walk;
 
-static void add_candidate(packet_candidates* found, u32 solid, u32 which) {
-    for (; which; which &= which - 1u) {
-        const u32 k = lowest(which);
-        if (found->candidates) {
-            Candidate c;
-            c.ray = found->first_ray + k;
-            c.solid = solid;
-            c.count = c.before = 0;
-            found->candidates[found->places[c.ray].segments + found->counts[k]] = c;
-        }
-        ++found->counts[k];
-    }
+static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const BlockNode* list,
+                              packet_world_ray r, u32 within) {
+    packet_walk w;
+    w.slabs = slabs_of(f, r);
+    w.nodes = nodes;
+    w.next = list;
+    w.which = bits_of(w.slabs.hits_sphere) & within;
+    w.i = w.end = 0;
+    return w;
 }
 
-// Those that the rays of `which` may meet in a subtree.
-static void add_subtree(packet_candidates* found, packet_slab_ray slabs, __global const BvhNode* nodes, u32 root, u32 which) {
-    const u32 end = nodes[root].skip;
-    u32 i = root;
-    while (i < end) {
-        const BvhNode node = nodes[i];
-        const u32 hit = bits_of(box_is_hit(slabs, node)) & which;
-        if (hit && node.leaf) {
-            const u32 first = node.leaf >> BVH_LEAF_SHIFT, last = first + (node.leaf & BVH_LEAF_MASK);
-            u32 solid;
-            for (solid = first; solid < last; ++solid) add_candidate(found, solid, hit);
+// The next leaf that any ray meets, as BvhNode has it, and the rays that do; 0: there is none.
+static u32 next_packet_leaf(packet_walk* w, u32* hit) {
+    u32 leaf = 0;
+    while (!leaf && w->which && (w->i < w->end || w->next->node != NONE)) {
+        if (w->i == w->end) {
+            w->i = (w->next++)->node;
+            w->end = w->nodes[w->i].skip;
         }
-        i = hit && !node.leaf ? i + 1 : node.skip;
+        while (!leaf && w->i < w->end) {
+            const BvhNode node = w->nodes[w->i];
+            *hit = bits_of(box_is_hit(w->slabs, node)) & w->which;
+            leaf = *hit ? node.leaf : 0;
+            w->i = *hit && !leaf ? w->i + 1 : node.skip;
+        }
     }
+    return leaf;
 }
 
-__kernel void find_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
-                                     __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
+__kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
+                                      __global const RayRecord* rays, __global RayCount* places) {
     const u32 id = (u32)get_global_id(0) * PACKET;
-    packet_candidates found;
     pixel_position first;
-    u32 number, k;
-    if (id >= frame->ray_count || (candidates && places[id].segments == places[id + PACKET].segments)) return;
+    u32 counts[PACKET], number, k;
+    if (id >= frame->ray_count) return;
     number = number_of(frame, rays, id);
     first = pixel_of(number, frame->window);
-    found.first_ray = id;
-    found.places = places;
-    found.candidates = candidates;
-    for (k = 0; k < PACKET; ++k) found.counts[k] = 0;
+    for (k = 0; k < PACKET; ++k) counts[k] = 0;
     if (first.inside) {
-        const packet_slab_ray slabs = slabs_of(frame, rays_through(frame, first));
-        const u32 within = rays_inside(frame, first), near_scene = bits_of(slabs.hits_sphere) & within;
-        __global const BlockNode* next = list_of(frame, lists, number);
-        for (k = 0; k < frame->unbounded_count; ++k) add_candidate(&found, k, within);
-        for (; near_scene && next->node != NONE; ++next) add_subtree(&found, slabs, nodes, next->node, near_scene);
+        const u32 within = rays_inside(frame, first);
+        packet_walk w = start_walk(frame, nodes, list_of(frame, lists, number), rays_through(frame, first), within);
+        u32 hit, leaf;
+        for (k = 0; k < PACKET; ++k) counts[k] = within >> k & 1u ? frame->unbounded_count : 0;
+        while ((leaf = next_packet_leaf(&w, &hit)))
+            for (k = 0; k < PACKET; ++k) counts[k] += hit >> k & 1u ? leaf & BVH_LEAF_MASK : 0;
     }
-    for (k = 0; !candidates && k < PACKET; ++k) {
-        places[id + k].segments = found.counts[k];
+    for (k = 0; k < PACKET; ++k) {
+        places[id + k].segments = counts[k];
         places[id + k].words = 0;
+    }
+}
+
+// Where a packet's candidates go.
+typedef struct {
+    packet_ray3 rays;
+    real t_min;
+    u32 id;             // of the first ray
+    u32 next[PACKET];  // a ray's next candidate
+    __global Candidate* candidates;
+    __global End* found;
+} packet_list;
+
+// A solid becomes a candidate of the rays of `which`.
+static void list_solid(packet_list* list, Geometry g, u32 index, u32 which) {
+    const SolidRecord solid = g.solids[index];
+    real in[PACKET], out[PACKET];
+    ulong in_surface[PACKET], out_surface[PACKET];
+    u32 met = 0, alone = which;
+    if ((which & (which - 1u)) && takes_packets(solid)) {
+        const packet_hits h = packet_intersect(g, solid, list->rays);
+        met = bits_of(h.count == 1 && h.out0 >= list->t_min) & which;
+        alone &= bits_of(h.count == UNDECIDED);
+        vstore8(h.in0, 0, in);
+        vstore8(h.out0, 0, out);
+        vstore8(h.in0_surface, 0, in_surface);
+        vstore8(h.out0_surface, 0, out_surface);
+    }
+    for (; which; which &= which - 1u) {
+        const u32 k = lowest(which), place = list->next[k]++;
+        Candidate c;
+        c.ray = list->id + k;
+        c.solid = index;
+        c.count = alone >> k & 1u ? UNCOUNTED : met >> k & 1u;
+        c.before = 0;
+        list->candidates[place] = c;
+        if (met >> k & 1u)
+            put_segment(list->found + 2 * (size_t)place, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
+    }
+}
+
+__kernel void list_packet_candidates(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
+                                     __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
+                                     __global const u32* words, __global const BvhNode* inner_nodes,
+                                     __global const BvhNode* nodes, __global const BlockNode* lists,
+                                     __global const RayRecord* rays, __global const RayCount* places,
+                                     __global Candidate* candidates, __global End* found) {
+    const u32 id = (u32)get_global_id(0) * PACKET;
+    const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    packet_world_ray from_eye;
+    packet_list list;
+    packet_walk w;
+    pixel_position first;
+    u32 number, within, hit, leaf, k;
+    if (id >= frame->ray_count || places[id].segments == places[id + PACKET].segments) return;
+    number = number_of(frame, rays, id);
+    first = pixel_of(number, frame->window);
+    within = rays_inside(frame, first);
+    from_eye = rays_through(frame, first);
+    list.rays.o = from_eye.o;
+    list.rays.d = from_eye.d;
+    list.t_min = frame->t_min;
+    list.id = id;
+    list.candidates = candidates;
+    list.found = found;
+    for (k = 0; k < PACKET; ++k) list.next[k] = places[id + k].segments;
+    for (k = 0; k < frame->unbounded_count; ++k) list_solid(&list, g, k, within);
+    w = start_walk(frame, nodes, list_of(frame, lists, number), from_eye, within);
+    while ((leaf = next_packet_leaf(&w, &hit))) {
+        const u32 begin = leaf >> BVH_LEAF_SHIFT, end = begin + (leaf & BVH_LEAF_MASK);
+        for (k = begin; k < end; ++k) list_solid(&list, g, k, hit);
     }
 }

@@ -35,7 +35,8 @@ FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const Blo
                 Candidate c;
                 c.ray = ray;
                 c.solid = solid;
-                c.count = c.before = 0;
+                c.count = UNCOUNTED;
+                c.before = 0;
                 candidates[count] = c;
             }
         leaf = next_leaf(s, nodes, &i, last);

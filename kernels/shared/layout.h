@@ -230,6 +230,7 @@ typedef struct {
     u32 ray, solid;
     u32 count, before;  // segments: how many, and how many the ray has of earlier candidates
 } Candidate;
+#define UNCOUNTED COUNT_MAX  // of the segments, yet
 
 // 2 store segments -> weave: two ends a segment, in then out, by ascending solid.
 typedef struct {

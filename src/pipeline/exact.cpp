@@ -32,7 +32,6 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
                settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
-      find_packet_candidates_(in_packets(device, settings) ? std::optional(program_.kernel("find_packet_candidates")) : std::nullopt),
       count_hits_(program_.kernel("count_hits")),
       sum_hits_(program_.kernel("sum_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
@@ -51,7 +50,10 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       bits_(device, "partitions' bits"),
       tally_sums_(device, "sums of tallies"),
       read_(device, "sums of tallies"),
-      sum_(device, "sum of counts") {}
+      sum_(device, "sum of counts") {
+    if (in_packets(device, settings))
+        packet_candidates_ = {program_.kernel("count_packet_candidates"), program_.kernel("list_packet_candidates")};
+}
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = 0;
@@ -146,13 +148,10 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
     const Buffer& lists = kind == Rays::blocks ? tile.lists : none;
     const std::size_t group = uneven_group(device_);
     // Only a picture's blocks hold rays that lie side by side.
-    const bool packets = kind == Rays::blocks && find_packet_candidates_;
-    const auto find_candidates = [&](std::uint32_t count, const Buffer& found) {
-        Kernel& kernel = packets ? *find_packet_candidates_ : find_candidates_;
-        run(&PipelineCounts::count_hits,
-            kernel.launch(packets ? count / packet_rays : count, group, tile.frame, s.nodes, lists, tile.rays, places_, found));
-    };
-    find_candidates(rays, none);
+    const bool packets = kind == Rays::blocks && packet_candidates_;
+    run(&PipelineCounts::count_hits,
+        packets ? packet_candidates_->count.launch(rays / packet_rays, group, tile.frame, s.nodes, lists, tile.rays, places_)
+                : find_candidates_.launch(rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
     queue_scan(places_, rays);
     const cl_uint candidates = sum_of(places_, rays).segments;
     const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
@@ -165,7 +164,11 @@ bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::u
         candidates_.reserve(candidate_bytes);
         found_.reserve(found_bytes);
     }
-    find_candidates(candidates ? rays : 0, candidates_);
+    const std::size_t listed = candidates ? rays : 0;
+    run(&PipelineCounts::count_hits,
+        packets ? packet_candidates_->list.launch(listed / packet_rays, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
+                                                  s.words, s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, found_)
+                : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
     device_.flush();
     run(&PipelineCounts::count_hits, count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
                                                         s.inner_nodes, tile.rays, candidates, candidates_, found_));

@@ -75,7 +75,10 @@ private:
     Program program_;
     Cull cull_;
     Kernel find_candidates_;
-    std::optional<Kernel> find_packet_candidates_;  // on processors
+    struct PacketCandidates {
+        Kernel count, list;
+    };
+    std::optional<PacketCandidates> packet_candidates_;  // on processors
     Kernel count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
     Buffer places_;            // of the rays' candidates; from weaving on their tallies
