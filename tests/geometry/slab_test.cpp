@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 #include "compile/bvh.hpp"
 #include "kernel_geometry.hpp"
