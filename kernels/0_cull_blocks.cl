@@ -88,15 +88,16 @@ static void clear_tally(__global TileTally* tally, u32 blocks, u32 id) {
     if (id < blocks) ((__global unsigned char*)(tally + 1))[id] = 0;
 }
 
-// A work-item is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES.
+// One of `items_a_block` work-items is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. The others
+// do nothing: those that go in lockstep would wait for each other, and a picture has fewer blocks than a GPU has room for.
 // `lists` 0: they are not wanted.
 __kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global BlockNode* lists, __global TileTally* tally) {
-    const u32 id = (u32)get_global_id(0), blocks = frame->ray_count / (BLOCK * BLOCK);
+                          __global BlockNode* lists, __global TileTally* tally, u32 items_a_block) {
+    const u32 item = (u32)get_global_id(0), id = item / items_a_block, blocks = frame->ray_count / (BLOCK * BLOCK);
     u32 cost = 0;
     beam b;
-    if (frame->lines) clear_tally(tally, blocks, id);
-    if (id >= blocks) return;
+    if (frame->lines) clear_tally(tally, blocks, item);
+    if (id >= blocks || item % items_a_block) return;
     b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + id);
     if (lists) {
         BlockNode list[LISTED_NODES - 1];

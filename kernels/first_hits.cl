@@ -1,7 +1,16 @@
 // The first hits of a picture, without segments in memory: from a block's nodes to its pixels. How a work-item goes that way
 // comes before this: a ray at a time (first_hits_ray.h), or on processors eight (first_hits_packet.h).
 //
-// Of a tile whose pixels come by lines the host need not know how many blocks see anything: items of the others end at once.
+// Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
+
+// The number of item `id`'s (first) ray, by the list of blocks, see PART_SHIFT; COUNT_MAX: it has none.
+FN u32 number_in_part(__global const u32* entries, u32 id) {
+    const u32 entry = entries[id / (BLOCK * BLOCK)], code = entry >> PART_SHIFT, within = id % (BLOCK * BLOCK);
+    const u32 parts = code ? 1u << (31u - clz(code)) : 1u, rays = LOCKSTEP / parts, part = code ? code - parts : 0;
+    if (within % LOCKSTEP >= rays) return COUNT_MAX;
+    return (entry & ((1u << PART_SHIFT) - 1u)) * (BLOCK * BLOCK) + part * (BLOCK * BLOCK) / parts + within / LOCKSTEP * rays +
+           within % LOCKSTEP;
+}
 
 __kernel void first_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                          __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
@@ -16,8 +25,9 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     pixel_position at;
     scene_tables s;
     appearance_tables a;
-    if (id >= frame->ray_count || (frame->lines && id / (BLOCK * BLOCK) >= tally->seen)) return;
-    number = number_of(frame, rays, id);
+    if (id >= frame->ray_count || (frame->lines && id / (BLOCK * BLOCK) >= tally->entries)) return;
+    number = frame->lines ? number_in_part((__global const u32*)rays, id) : number_of(frame, rays, id);
+    if (number == COUNT_MAX) return;
     at = pixel_of(number, frame->window);
     if (!at.inside) return;
     s.g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);

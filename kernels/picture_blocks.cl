@@ -2,10 +2,10 @@
 // so that the host need not say, and wait before it does; and the background of all others.
 #include "camera.h"
 
-// A class for every half of a power of two.
+// A class for each cost below 16, then eight for every power of two.
 static u32 class_of(u32 cost) {
-    const u32 power = 31u - clz(cost);
-    return cost < 2 ? cost : 2 * power + (cost >> (power - 1u) & 1u);
+    const u32 power = 31u - clz(cost | 1u);
+    return cost < 16u ? cost : 8u * power - 16u + (cost >> (power - 3u) & 7u);
 }
 
 // costs: kernel 0's, of `count` blocks. An item a block.
@@ -19,27 +19,48 @@ __kernel void count_blocks(__global const unsigned char* costs, u32 count, __glo
     if (item < COST_CLASSES && blocks[item]) atomic_add(tally->blocks + item, blocks[item]);
 }
 
-// The numbers of the tile's blocks, from `first` on, in `numbers`: those of the same class in any order. A device that ends with the
-// longest waits for it.
-__kernel void list_blocks(__global const unsigned char* costs, u32 first, u32 count, __global TileTally* tally, __global u32* numbers) {
-    __local u32 blocks[COST_CLASSES], places[COST_CLASSES];
+static u32 most_parts(u32 class_number) { return class_number >= QUARTERED_CLASS ? 4u : class_number >= HALVED_CLASS ? 2u : 1u; }
+
+// Are blocks listed in parts? The list has room for as many entries as there are blocks.
+static u32 are_in_parts(__local const u32* blocks, u32 most_in_parts) {
+    u32 k, in_parts = 0, more = 0;
+    for (k = HALVED_CLASS; k < COST_CLASSES; ++k) {
+        in_parts += blocks[k];
+        more += blocks[k] * (most_parts(k) - 1u);
+    }
+    return in_parts <= most_in_parts && more <= blocks[0];
+}
+
+// The numbers of the tile's blocks that see anything, from `first` on, in `numbers`: those of the same class in any order. A device
+// that ends with the longest waits for it; so the dearest come first, and in parts if they are no more than `most_in_parts`.
+__kernel void list_blocks(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global TileTally* tally,
+                          __global u32* numbers) {
+    __local u32 all[COST_CLASSES], blocks[COST_CLASSES], places[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
-    u32 own = COST_CLASSES, before = 0;
-    if (item < COST_CLASSES) blocks[item] = 0;
+    u32 own = 0, before = 0, in_parts, k;
+    if (item < COST_CLASSES) {
+        all[item] = tally->blocks[item];
+        blocks[item] = 0;
+    }
     barrier(CLK_LOCAL_MEM_FENCE);
+    in_parts = are_in_parts(all, most_in_parts);
     if (id < count) {
         own = class_of(costs[id]);
         before = atomic_inc(blocks + own);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < COST_CLASSES) {
-        u32 place = atomic_add(tally->listed + item, blocks[item]), k;
-        for (k = item + 1; k < COST_CLASSES; ++k) place += tally->blocks[k];
-        places[item] = place;
+        u32 place = 0;
+        for (k = item + 1; k < COST_CLASSES; ++k) place += all[k] * (in_parts ? most_parts(k) : 1u);
+        if (id == 0) tally->entries = place;
+        places[item] = place + atomic_add(tally->listed + item, blocks[item]) * (in_parts ? most_parts(item) : 1u);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (own < COST_CLASSES) numbers[places[own] + before] = first + id;
-    if (id == 0) tally->seen = count - tally->blocks[0];
+    if (own > 0) {
+        const u32 parts = in_parts ? most_parts(own) : 1u;
+        for (k = 0; k < parts; ++k)
+            numbers[places[own] + before * parts + k] = (first + id) | (parts > 1u ? parts + k : 0u) << PART_SHIFT;
+    }
 }
 
 // Fills what no ray will, of a picture of whole lines of the window. A group of BLOCK * BLOCK items a block.

@@ -208,13 +208,21 @@ typedef struct {
 
 // Of a tile whose pixels come by lines: its blocks by what they cost, and what the host wants to know when it is drawn. Behind it
 // stands a byte for each of the tile's blocks: not 0 if a ray of it sees something.
-#define COST_CLASSES 16u
+#define COST_CLASSES 48u
 typedef struct {
     u32 blocks[COST_CLASSES];  // how many of each class; of class 0 those that see nothing
     u32 listed[COST_CLASSES];  // of them, those that have their place in the list
-    u32 seen;                  // blocks of all classes but 0
+    u32 entries;               // of that list: blocks of all classes but 0, or parts of them
     u32 overflows;             // first hits: rays without room, in no order
 } TileTally;
+
+// An entry of the list: a block's number, and above it 0, or 2 and 3 for its two halves, or 4 to 7 for its quarters. Work-items that
+// go in lockstep wait for each other, the more so the more there is to do: the few blocks that cost most have fewer rays in each
+// group of LOCKSTEP.
+#define PART_SHIFT 26u  // blocks are fewer: their rays have numbers of 32 bits
+#define HALVED_CLASS 40u
+#define QUARTERED_CLASS 44u
+#define LOCKSTEP 32u
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 

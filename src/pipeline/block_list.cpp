@@ -11,12 +11,13 @@ void BlockList::build() {
     list_.emplace(program_->kernel("list_blocks"));
 }
 
-std::array<Event, 2> BlockList::list(const Tile& tile, TileBuffers& buffers) {
+std::array<Event, 2> BlockList::list(const Tile& tile, TileBuffers& buffers, std::uint32_t most_in_parts) {
     const cl_uint blocks = tile.blocks();
     buffers.rays.reserve(blocks * sizeof(cl_uint));
     Event counted = count_->launch(blocks, work_group, buffers.costs, blocks, buffers.tally);
     return {std::move(counted),
-            list_->launch(blocks, work_group, buffers.costs, cl_uint{tile.first_block()}, blocks, buffers.tally, buffers.rays)};
+            list_->launch(blocks, work_group, buffers.costs, cl_uint{tile.first_block()}, blocks, cl_uint{most_in_parts}, buffers.tally,
+                          buffers.rays)};
 }
 
 Event BlockList::put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs,

@@ -17,9 +17,10 @@ public:
     void build();
     bool is_built() const { return list_.has_value(); }
 
-    /// Lists the tile's blocks, whose costs are known, in buffers.rays, those that cost most first, and counts them in buffers.tally,
-    /// which is 0. Does not wait. Returns what the two kernels tell.
-    std::array<Event, 2> list(const Tile& tile, TileBuffers& buffers);
+    /// Lists the tile's blocks that see anything, whose costs are known, in buffers.rays, those that cost most first, and counts them
+    /// in buffers.tally, which is 0. The dearest come in parts (PART_SHIFT) if they are no more than `most_in_parts`. Does not wait.
+    /// Returns what the two kernels tell.
+    std::array<Event, 2> list(const Tile& tile, TileBuffers& buffers, std::uint32_t most_in_parts);
     /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
     Event put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
                          std::uint32_t planes, const Buffer& picture);

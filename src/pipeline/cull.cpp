@@ -32,6 +32,14 @@ bool Cull::is_listed(const kernel::Frame& frame) const {
     return !frame.every_partition || device_.info().type == "cpu";
 }
 
+// Measured (bench/NOTES.md): of 8 items of a GPU one takes a block, as long as that makes fewer groups of 32 than it holds at a time.
+std::uint32_t Cull::items_a_block(std::uint32_t blocks) const {
+    const std::uint64_t most = device_.info().type == "cpu" ? 0 : std::uint64_t{1024} * device_.info().compute_units;
+    std::uint32_t items = 1;
+    while (items < 8 && 2 * items * std::uint64_t{blocks} <= most) items *= 2;
+    return items;
+}
+
 void Cull::reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64_t rays) {
     const std::uint64_t blocks = rays / block_rays;
     buffers.costs.reserve(blocks);
@@ -44,8 +52,9 @@ void Cull::reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64
 Event Cull::launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame) {
     reserve(buffers, frame, frame.ray_count);
     if (frame.lines) buffers.tally.reserve(Tile{0, frame.ray_count}.tally_bytes());
-    return cull_blocks_.launch(frame.ray_count / block_rays, uneven_group(device_), buffers.frame, scene.nodes, buffers.costs,
-                               buffers.lists, buffers.tally);
+    const std::uint32_t blocks = frame.ray_count / block_rays, items = items_a_block(blocks);
+    return cull_blocks_.launch(blocks * items, uneven_group(device_), buffers.frame, scene.nodes, buffers.costs, buffers.lists,
+                               buffers.tally, cl_uint{items});
 }
 
 std::vector<std::uint32_t> Cull::seen(const Tile& tile, const TileBuffers& buffers) {

@@ -10,8 +10,8 @@ public:
     /// `program` holds the kernel.
     Cull(Device& device, const Program& program);
 
-    /// Looks what the frame's tile's blocks may see, and clears the tally of one that comes by lines; does not wait. Lists every block's nodes, too: by
-    /// distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).
+    /// Looks what the frame's tile's blocks may see, and clears the tally of one that comes by lines; does not wait. Lists every
+    /// block's nodes, too: by distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).
     Event launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame);
     /// Makes room for as many rays of such a frame.
     void reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64_t rays);
@@ -22,6 +22,7 @@ public:
 
 private:
     bool is_listed(const kernel::Frame& frame) const;
+    std::uint32_t items_a_block(std::uint32_t blocks) const;
 
     Device& device_;
     Kernel cull_blocks_;

@@ -142,7 +142,9 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
     queued.culled.clear();
     queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers, frame));
-    for (Event& event : by_lines_->list.list(tile, queued.buffers)) queued.culled.push_back(std::move(event));
+    // More of the dearest blocks than these keep a GPU busy as they are; of every partition what they cost is dealt out otherwise.
+    const std::uint32_t most_in_parts = every ? 0 : 4 * device_.info().compute_units;
+    for (Event& event : by_lines_->list.list(tile, queued.buffers, most_in_parts)) queued.culled.push_back(std::move(event));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : tile.tally_bytes());
     if (!every) {
         PictureLines::wait(*queued.lines);
@@ -155,7 +157,7 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
 
 // Every partition of a queued tile. False: it does not fit the memory.
 bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts) {
-    const std::uint32_t rays = queued.tally().seen * block_rays;
+    const std::uint32_t rays = queued.tally().entries * block_rays;
     if (rays > 0) {
         queued.frame.ray_count = rays;
         queued.upload.start<std::byte>(queued.buffers.frame, kernels_.frame(queued.frame));
@@ -238,7 +240,7 @@ void Pipeline::put_drawn() {
     if (!every) {
         counts.first_hits += milliseconds(tile.drawn);
         read_overflown(tile);
-    } else if (tile.tally().seen > 0) {
+    } else if (tile.tally().entries > 0) {
         exact().add_tallies(counts);
         exact().add_times(counts);
     }

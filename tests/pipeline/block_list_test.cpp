@@ -11,37 +11,54 @@
 
 using namespace csgrt;
 
-TEST_CASE("a tile's blocks are listed once each, those that cost most first") {
+TEST_CASE("a tile's blocks are listed once each, those that cost most first, the dearest in parts") {
     Device device(test::on_device().device);
     BlockList list(device);
     list.build();
     std::mt19937 random(3);
     TileBuffers buffers(device);
-    for (const std::uint32_t blocks : {1u, 5u, 64u, 65u, 1000u, 5000u}) {
-        INFO(blocks << " blocks");
+    struct Listed {
+        std::uint32_t blocks, dearest, most_in_parts;  // dearest: one in so many; 0: none
+        bool is_parted;
+    };
+    for (const auto& [blocks, dearest, most_in_parts, is_parted] :
+         {Listed{1, 0, 0, false}, {5, 0, 9, false}, {64, 0, 9, false}, {65, 1, 99, false}, {1000, 20, 49, false}, {1000, 20, 50, true},
+          {5000, 50, 100, true}, {5000, 50, 99, false}, {5000, 50, 0, false}, {5000, 2, 5000, false}}) {
+        INFO(blocks << " blocks, one in " << dearest << " dear, at most " << most_in_parts << " in parts");
         std::vector<unsigned char> costs(blocks);
-        for (std::uint32_t i = 0; i < blocks; ++i) costs[i] = static_cast<unsigned char>(blocks == 1000 ? i % 256 : random() % 3 ? 0 : random() % 256);
+        for (std::uint32_t i = 0; i < blocks; ++i) {
+            const bool is_dear = dearest > 0 && i % dearest == 0;
+            costs[i] = static_cast<unsigned char>(is_dear ? 128 + random() % 128 : random() % 3 ? 0 : random() % 128);
+        }
         buffers.costs = Buffer(device, "costs", costs);
         const Tile tile{70 * block_rays, blocks * block_rays};
         buffers.tally.reserve(tile.tally_bytes());
         buffers.tally.queue_fill(0, tile.tally_bytes());
-        for (const Event& event : list.list(tile, buffers)) wait_for(event);
+        for (const Event& event : list.list(tile, buffers, most_in_parts)) wait_for(event);
         const auto tally = buffers.tally.read<kernel::TileTally>(1).front();
-        const auto numbers = buffers.rays.read<std::uint32_t>(blocks);
+        const auto entries = buffers.rays.read<std::uint32_t>(blocks);
         const auto bytes = buffers.tally.read<std::uint8_t>(sizeof tally + blocks);
-        CHECK(tally.seen == blocks - static_cast<std::uint32_t>(std::count(costs.begin(), costs.end(), 0)));
         CHECK(tally.overflows == 0);
         CHECK(std::all_of(bytes.begin() + sizeof tally, bytes.end(), [](std::uint8_t shows) { return shows == 0; }));
-        std::vector<std::uint32_t> sorted = numbers;
-        std::sort(sorted.begin(), sorted.end());
-        bool once = true, ordered = true;
-        for (std::uint32_t i = 0; i < blocks; ++i) {
-            once &= sorted[i] == 70 + i;
-            const int cost = costs[numbers[i] - 70], next = i + 1 < blocks ? costs[numbers[i + 1] - 70] : 0;
-            ordered &= (cost > 0) == (i < tally.seen) && (cost == 0 || next < 2 * cost);  // of one class, or of a lower one
+        REQUIRE(tally.entries <= blocks);
+        std::vector<int> listed(blocks);  // sixty-fourths of a block
+        bool ordered = true, any_parts = false;
+        int before = 255;
+        for (std::uint32_t i = 0; i < tally.entries; ++i) {
+            const std::uint32_t block = (entries[i] & ((1u << PART_SHIFT) - 1)) - 70, part = entries[i] >> PART_SHIFT;
+            REQUIRE(block < blocks);
+            const int cost = costs[block];
+            listed[block] += part == 0 ? 64 : part < 4 ? 32 : 16;
+            any_parts |= part > 0;
+            CHECK((part == 0 || (cost >= 192 ? part >= 4 && part < 8 : cost >= 128 && (part == 2 || part == 3))));
+            ordered &= cost > 0 && (cost <= before || (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
+            before = cost;
         }
+        bool once = true;
+        for (std::uint32_t i = 0; i < blocks; ++i) once &= listed[i] == (costs[i] > 0 ? 64 : 0);
         CHECK(once);
         CHECK(ordered);
+        CHECK(any_parts == is_parted);
     }
 }
 

@@ -262,6 +262,22 @@ TEST_CASE("pixels by lines: rays that have no room") {
     }
 }
 
+TEST_CASE("pixels by lines: few blocks with more to see than all others, whose rays come in parts") {
+    Scene scene;
+    for (int i = 0; i < 800; ++i) {  // two heaps of some pixels each, at the ends of an empty picture
+        const std::string name = "ball" + std::to_string(i);
+        const Vec3 at{(i % 2 ? 100 : -100) + 0.5 * (i / 2 % 8), 0.5 * (i / 16 % 8), 0.5 * (i / 128)};
+        scene.objects.push_back(Solid{name, stress::ball(at, 0.1 + 0.0003 * i), {}});
+        scene.top.push_back(name);
+    }
+    Lined lined(scene);
+    for (const double azimuth : {35, 100, 170}) {
+        lined.azimuth = azimuth;
+        lined.draw(203, 161, false, 1 << 20);
+        lined.draw(205, 170, false, 160 * block_rays);
+    }
+}
+
 TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
     const Scene scene = bench::scene_of_parts(20);
     const bool every_partition = GENERATE(false, true);

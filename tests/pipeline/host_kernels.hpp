@@ -97,7 +97,7 @@ inline HostBlocks cull(const CompiledScene& scene, const kernel::Frame& frame) {
     blocks.costs.resize(frame.ray_count / (BLOCK * BLOCK));
     blocks.lists.resize(blocks.costs.size() * LISTED_NODES);
     for (global_id = 0; global_id < blocks.costs.size(); ++global_id)
-        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr);
+        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr, 1);
     return blocks;
 }
 
