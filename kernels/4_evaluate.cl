@@ -12,7 +12,7 @@ __kernel void evaluate(__global const SolidRecord* solids, __global const StartR
     RayCount offset;
     cover c;
     covered_solids covered;
-    claim found;
+    u32 owner = ALONE_UNKNOWN;
     if (id >= size) return;
     node = nodes[id];
     if (node.in_end == NONE) return;
@@ -25,6 +25,10 @@ __kernel void evaluate(__global const SolidRecord* solids, __global const StartR
     c.leaves = leaves;
     c.trees = trees;
     list_covered(c, &covered);
-    found = find_claim(c, &covered, 1, all_solids());
-    nodes[id].owner = found.least | (found.other != NONE ? OVERLAP : 0u);
+    if (covered.count == 1) owner = solids[covered.solids[0]].alone;
+    if (owner == ALONE_UNKNOWN) {
+        const claim found = find_claim(c, &covered, 1, all_solids());
+        owner = found.least | (found.other != NONE ? OVERLAP : 0u);
+    }
+    nodes[id].owner = owner;
 }

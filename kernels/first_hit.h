@@ -91,12 +91,26 @@ FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
     return fits;
 }
 
+// What claims where one segment alone covers; ALONE_UNKNOWN: there are others, or that has to be looked at.
+FN u32 claim_of_one(const front* w, scene_tables s) {
+    u32 i, several = 0, slot = NONE;
+    for (i = 0; i < SLOT_WORDS; ++i) {
+        const u32 bits = w->open[i];
+        several |= bits & (bits - 1u);
+        several |= bits && slot != NONE;
+        slot = bits ? 32u * i + 31u - clz(bits) : slot;
+    }
+    return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->ends[2 * slot].solid].alone;
+}
+
 FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
     cover c;
     u32 starting[SLOT_WORDS], i, any = 0, region = NONE;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
     if (any) {
+        const u32 alone = claim_of_one(w, s);
         covered_solids covered;
+        if (alone != ALONE_UNKNOWN) return alone & ~OVERLAP;
         c.ends = w->ends;
         c.bits = w->open;
         c.segments = PENDING;

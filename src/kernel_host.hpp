@@ -17,7 +17,7 @@ inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
 #include "../kernels/shared/base.h"
 #include "../kernels/shared/layout.h"
 
-static_assert(sizeof(SolidRecord) == 40);
+static_assert(sizeof(SolidRecord) == 44);
 static_assert(sizeof(PlaneRecord) == 32);
 static_assert(sizeof(RegionRecord) == 16);
 static_assert(sizeof(MaterialRecord) == 28);

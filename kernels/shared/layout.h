@@ -49,11 +49,13 @@ typedef struct {
     u32 first_start, start_count;    // into starts
     u32 first_leaf, leaf_count;      // into leaves: where it stands in terms of more than SCANNED_WORDS, ascending
     u32 begins;                      // BEGINS_x: where it may be that a term begins to be true
+    u32 alone;                       // what claims where it alone covers: as PartitionNode.owner, or ALONE_UNKNOWN
     SOLID_CENTER
 } SolidRecord;
 
 #define BEGINS_AT_ENTRY 1u  // where a ray enters the solid: some term needs it
 #define BEGINS_AT_EXIT 2u   // where it leaves it: it is removed from some term
+#define ALONE_UNKNOWN 0xffffffffu  // its terms have to be looked at
 
 // A plane of the world: inside is n . p <= d. Shared by all faces that lie in it, so that they are hit at the very same t.
 typedef struct {

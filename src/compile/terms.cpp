@@ -112,12 +112,45 @@ private:
     bool needs_undecided_ = false;
 };
 
+/// What becomes of a term where a solid alone covers a partition. Unknown: it stands in the term more than once.
+enum class Alone : std::uint8_t { no, holds, unknown };
+
 /// Some terms, as one thread lists them.
 struct TermChunk {
     std::vector<kernel::StartRecord> records;
     std::vector<std::uint32_t> starts;  ///< the solids that start each of them, each once
+    std::vector<Alone> alone;           ///< what the term is where that solid alone covers
     std::vector<std::uint32_t> ends;    ///< one a term, among these
+    std::vector<std::pair<std::uint32_t, bool>> leaves;  ///< of one term: solid, and whether the term is true where it alone covers
+    std::vector<bool> is_true;                           ///< so far, of each of its words
 };
+
+/// Adds that of a term's starts, from `first` on. What does not hold them is empty: of an operator's two operands one.
+void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::size_t first, TermChunk& chunk) {
+    auto& leaves = chunk.leaves;
+    auto& is_true = chunk.is_true;
+    leaves.clear();
+    is_true.assign(term.end - term.first, false);
+    is_true[0] = true;
+    for (std::uint32_t node = term.first; node < term.end; ++node) {  // operators come before their operands
+        const std::uint32_t op = trees[node] >> TREE_SHIFT, right = trees[node] & TREE_MASK;
+        const bool is = is_true[node - term.first];
+        if (op == OP_LEAF) {
+            leaves.emplace_back(right, is);
+        } else {
+            is_true[node + 1 - term.first] = is && (op == OP_UNION || op == OP_XOR || op == OP_DIFFERENCE);
+            is_true[right - term.first] = is && (op == OP_UNION || op == OP_XOR || op == OP_REVERSE_DIFFERENCE);
+        }
+    }
+    std::sort(leaves.begin(), leaves.end());
+    auto leaf = leaves.begin();
+    for (std::size_t i = first; i < chunk.starts.size(); ++i) {
+        while (leaf->first != chunk.starts[i]) ++leaf;
+        const auto next = leaf + 1;
+        const bool is_once = next == leaves.end() || next->first != leaf->first;
+        chunk.alone.push_back(!is_once ? Alone::unknown : leaf->second ? Alone::holds : Alone::no);
+    }
+}
 
 void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermChunk& chunk) {
     // Lists of leaves are linked: nodes, by their place in the term.
@@ -131,6 +164,7 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
         const kernel::SolidFilter solid = kernel::filter_of(solid_at(term.first));
         chunk.records.push_back({term.region, term.first, term.end, solid, solid, NONE});
         chunk.starts.push_back(solid_at(term.first));
+        chunk.alone.push_back(Alone::holds);
     } else {
         // From the back, so that operands come before their operators: the way back is a stack, left operand on top.
         std::vector<Part> stack;
@@ -166,8 +200,22 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
         const auto own = chunk.starts.begin() + static_cast<std::ptrdiff_t>(before);
         std::sort(own, chunk.starts.end());
         chunk.starts.erase(std::unique(own, chunk.starts.end()), chunk.starts.end());
+        add_alone(trees, term, before, chunk);
     }
     chunk.ends.push_back(static_cast<std::uint32_t>(chunk.starts.size()));
+}
+
+/// Takes up what a term of that region is where the solid alone covers.
+void claim_alone(kernel::SolidRecord& solid, Alone alone, std::uint32_t region) {
+    const std::uint32_t least = solid.alone & ~OVERLAP;
+    if (alone == Alone::no || solid.alone == ALONE_UNKNOWN) return;
+    if (alone == Alone::unknown) {
+        solid.alone = ALONE_UNKNOWN;
+    } else if (least == NONE) {
+        solid.alone = region;
+    } else if (least != region) {
+        solid.alone = std::min(least, region) | OVERLAP;
+    }
 }
 
 /// Gives each solid as much of a table as it counts, and counts anew. Returns how large the table is.
@@ -259,6 +307,7 @@ void list_terms(CompiledScene& compiled) {
 
     const std::uint32_t count =
         lay_out(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count);
+    for (kernel::SolidRecord& solid : compiled.solids) solid.alone = NONE;
     resize_cleared(compiled.starts, count);
     for (TermChunk& chunk : chunks) {
         std::uint32_t i = 0;
@@ -272,6 +321,7 @@ void list_terms(CompiledScene& compiled) {
                 if (i + soon < chunk.starts.size()) fetch(&compiled.solids[chunk.starts[i + soon]]);
                 kernel::SolidRecord& solid = compiled.solids[chunk.starts[i]];
                 compiled.starts[solid.first_start + solid.start_count++] = record;
+                claim_alone(solid, chunk.alone[i], record.region);
             }
         }
     }

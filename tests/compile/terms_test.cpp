@@ -129,3 +129,38 @@ TEST_CASE("where a term begins to be true, its solids say that it may") {
     CHECK(began > 1000);
     CHECK(marked_once > 300);
 }
+
+TEST_CASE("what claims where a solid alone covers is known, or said not to be") {
+    Random random;
+    std::size_t claimed = 0, unclaimed = 0, wanted_by_several = 0, unknown = 0;
+    for (int round = 0; round < 300; ++round) {
+        const std::uint32_t solids = 1 + random.below(40);
+        CompiledScene scene;
+        scene.solids.resize(solids);
+        std::vector<FlatTree> trees(1 + random.below(8));
+        for (FlatTree& tree : trees) {
+            add_tree(tree, 1 + random.below(20), solids, random);
+            const LinearTree linear = linearize(tree, scene.trees);
+            scene.regions.push_back({linear.first_word, linear.word_count, 0, 0});
+        }
+        list_terms(scene);
+        for (std::uint32_t s = 0; s < solids; ++s) {
+            std::vector<bool> covered(solids);
+            covered[s] = true;
+            std::uint32_t expected = NONE;
+            for (std::uint32_t region = 0; region < trees.size(); ++region)
+                if (value_of(trees[region], covered)) expected = expected == NONE ? region : expected | OVERLAP;
+            const std::uint32_t alone = scene.solids[s].alone;
+            if (alone == ALONE_UNKNOWN) {
+                ++unknown;
+                continue;
+            }
+            REQUIRE(alone == expected);
+            ++(expected == NONE ? unclaimed : expected & OVERLAP ? wanted_by_several : claimed);
+        }
+    }
+    CHECK(claimed > 300);
+    CHECK(unclaimed > 300);
+    CHECK(wanted_by_several > 100);
+    CHECK(unknown < claimed + unclaimed);
+}

@@ -14,7 +14,7 @@ using namespace csgrt;
 #define CSGRT_LAYOUT(RECORD, FIELD) \
     RECORD(SolidRecord) FIELD(SolidRecord, type) FIELD(SolidRecord, first_real) FIELD(SolidRecord, first_word) \
     FIELD(SolidRecord, first_plane) FIELD(SolidRecord, plane_count) FIELD(SolidRecord, first_start) \
-    FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) FIELD(SolidRecord, begins) \
+    FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) FIELD(SolidRecord, begins) FIELD(SolidRecord, alone) \
     RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(PlaneRecord, nz) FIELD(PlaneRecord, d) \
     RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     FIELD(RegionRecord, material) RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \

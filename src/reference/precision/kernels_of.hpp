@@ -60,6 +60,7 @@ real convert(double x) { return static_cast<real>(x); }
     solid.first_leaf = s.first_leaf;
     solid.leaf_count = s.leaf_count;
     solid.begins = s.begins;
+    solid.alone = s.alone;
 #ifdef CSGRT_EYE_RELATIVE
     if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
         for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
