@@ -49,7 +49,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     pixel_position first;
     u32 counts[PACKET], number, k;
     if (id >= frame->ray_count) return;
-    number = number_of(frame, rays, id);
+    number = first_of_packet(number_of(frame, rays, id));
     first = pixel_of(number, frame->window);
     for (k = 0; k < PACKET; ++k) counts[k] = 0;
     if (first.inside) {
@@ -61,8 +61,9 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
             for (k = 0; k < PACKET; ++k) counts[k] += hit >> k & 1u ? leaf & BVH_LEAF_MASK : 0;
     }
     for (k = 0; k < PACKET; ++k) {
-        places[id + k].segments = counts[k];
-        places[id + k].words = 0;
+        const u32 place = first_of_packet(id) + ray_of_packet(k);
+        places[place].segments = counts[k];
+        places[place].words = 0;
     }
 }
 
@@ -70,7 +71,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
 typedef struct {
     packet_ray3 rays;
     real t_min;
-    u32 id;             // of the first ray
+    u32 ray;            // the first one's place
     u32 next[PACKET];  // a ray's next candidate
     __global Candidate* candidates;
     __global End* found;
@@ -94,7 +95,7 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 which) {
     for (; which; which &= which - 1u) {
         const u32 k = lowest(which), place = list->next[k]++;
         Candidate c;
-        c.ray = list->id + k;
+        c.ray = list->ray + ray_of_packet(k);
         c.solid = index;
         c.count = alone >> k & 1u ? UNCOUNTED : met >> k & 1u;
         c.before = 0;
@@ -116,19 +117,24 @@ __kernel void list_packet_candidates(__global const Frame* frame, __global const
     packet_list list;
     packet_walk w;
     pixel_position first;
-    u32 number, within, hit, leaf, k;
-    if (id >= frame->ray_count || places[id].segments == places[id + PACKET].segments) return;
-    number = number_of(frame, rays, id);
+    u32 number, within, hit, leaf, k, any = 0;
+    if (id >= frame->ray_count) return;
+    list.ray = first_of_packet(id);
+    for (k = 0; k < PACKET; ++k) {
+        const u32 ray = list.ray + ray_of_packet(k);
+        list.next[k] = places[ray].segments;
+        any |= places[ray + 1].segments != list.next[k];
+    }
+    if (!any) return;
+    number = first_of_packet(number_of(frame, rays, id));
     first = pixel_of(number, frame->window);
     within = rays_inside(frame, first);
     from_eye = rays_through(frame, first);
     list.rays.o = from_eye.o;
     list.rays.d = from_eye.d;
     list.t_min = frame->t_min;
-    list.id = id;
     list.candidates = candidates;
     list.found = found;
-    for (k = 0; k < PACKET; ++k) list.next[k] = places[id + k].segments;
     for (k = 0; k < frame->unbounded_count; ++k) list_solid(&list, g, k, within);
     w = start_walk(frame, nodes, list_of(frame, lists, number), from_eye, within);
     while ((leaf = next_packet_leaf(&w, &hit))) {

@@ -3,7 +3,7 @@
 //
 // Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
 
-// The number of item `id`'s (first) ray, by the list of blocks, see PART_SHIFT; COUNT_MAX: it has none.
+// The number that item `id` has by the list of blocks, see PART_SHIFT; COUNT_MAX: it has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
     const u32 entry = entries[id / (BLOCK * BLOCK)], code = entry >> PART_SHIFT, within = id % (BLOCK * BLOCK);
     const u32 parts = code ? 1u << (31u - clz(code)) : 1u, rays = LOCKSTEP / parts, part = code ? code - parts : 0;
@@ -28,6 +28,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     if (id >= frame->ray_count || (frame->lines && id / (BLOCK * BLOCK) >= tally->entries)) return;
     number = frame->lines ? number_in_part((__global const u32*)rays, id) : number_of(frame, rays, id);
     if (number == COUNT_MAX) return;
+    number = FIRST_OF_ITEM(number);
     at = pixel_of(number, frame->window);
     if (!at.inside) return;
     s.g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
@@ -38,7 +39,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     a.regions = regions;
     a.materials = materials;
     a.lights = lights;
-    lost = draw(frame, s, a, list_of(frame, block_nodes, number), at, picture + place_of(frame, at, id), &sees);
+    lost = draw(frame, s, a, list_of(frame, block_nodes, number), at, picture + place_of(frame, at, FIRST_OF_ITEM(id)), &sees);
     if (sees) mark_shown(frame, tally, number);
-    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&tally->overflows)] = number + lowest(lost);
+    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&tally->overflows)] = number + RAY_OF_ITEM(lowest(lost));
 }

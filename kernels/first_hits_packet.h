@@ -1,10 +1,12 @@
-// The first hits of a packet of rays, drawn (first_hits.cl): a row of eight pixels.
+// The first hits of a packet of rays, drawn (first_hits.cl): two rows of four pixels.
 #ifndef CSGRT_FIRST_HITS_PACKET_H
 #define CSGRT_FIRST_HITS_PACKET_H
 
 #include "packet_pixels.h"
 
 #define RAYS_AN_ITEM PACKET
+#define FIRST_OF_ITEM(id) first_of_packet(id)
+#define RAY_OF_ITEM(k) ray_of_packet(k)
 
 FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);

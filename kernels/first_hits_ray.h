@@ -6,6 +6,8 @@
 #include "shading.h"
 
 #define RAYS_AN_ITEM 1u
+#define FIRST_OF_ITEM(id) (id)
+#define RAY_OF_ITEM(k) (k)
 
 // Draws the pixel at `at`, whose channels begin at `picture`. 1: the ray had no room, nothing is drawn. `seen`: does it see anything?
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const BlockNode* list, pixel_position at,

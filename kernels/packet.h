@@ -1,5 +1,5 @@
-// The closed-form solids once more, for a packet of rays side by side: a row of eight pixels of a block. For processors, whose
-// work-items have vectors: what a ray waits for, others use.
+// The closed-form solids once more, for a packet of rays side by side: two rows of four pixels of a block, which meet fewer boxes and
+// solids than one row of eight. For processors, whose work-items have vectors: what a ray waits for, others use.
 //
 // The source is the same (one ray's `real` becomes a vector), so the bits are: vectors round each number as scalars do.
 #ifndef CSGRT_PACKET_H
@@ -210,15 +210,23 @@ FN u32 bits_of(int8 x) {
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
-// The rays through a row of eight pixels from `first` on, which is in the picture.
+// A packet is an item of eight rays. Its first one's number (or place), from the item's first; and the others' from that.
+#define PACKET_ROW 4u
+FN u32 first_of_packet(u32 id) {
+    const u32 within = id % (BLOCK * BLOCK) / PACKET;
+    return id - id % (BLOCK * BLOCK) + within / 2u * (2u * BLOCK) + within % 2u * PACKET_ROW;
+}
+FN u32 ray_of_packet(u32 k) { return k / PACKET_ROW * BLOCK + k % PACKET_ROW; }
+
+// The rays through the pixels of the packet whose first, which is in the picture, is given.
 FN packet_world_ray rays_through(__global const Frame* f, pixel_position first) {
-    return view_ray(f, (double)first.x + (double8)(0, 1, 2, 3, 4, 5, 6, 7), (double8)((double)first.y));
+    return view_ray(f, (double)first.x + (double8)(0, 1, 2, 3, 0, 1, 2, 3), (double)first.y + (double8)(0, 0, 0, 0, 1, 1, 1, 1));
 }
 
 // Those of them whose pixels are in it, too.
 FN u32 rays_inside(__global const Frame* f, pixel_position first) {
-    const u32 left = f->window.right - first.x;
-    return left < PACKET ? (1u << left) - 1u : (1u << PACKET) - 1u;
+    const u32 columns = f->window.right - first.x, row = columns < PACKET_ROW ? (1u << columns) - 1u : (1u << PACKET_ROW) - 1u;
+    return first.y + 1u < f->window.bottom ? row | row << PACKET_ROW : row;
 }
 
 FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {

@@ -54,13 +54,18 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
     return n;
 }
 
-FN void put_channel(__global float* channel, u32 which, float8 values) {
+// `channel`: where the first pixel is; the second row is `line` further.
+FN void put_channel(__global float* channel, u32 line, u32 which, float8 values) {
     if (which == 0xff) {
-        vstore8(values, 0, channel);
+        vstore4(values.lo, 0, channel);
+        vstore4(values.hi, 0, channel + line);
     } else {
         float one[PACKET];
         vstore8(values, 0, one);
-        for (; which; which &= which - 1u) channel[lowest(which)] = one[lowest(which)];
+        for (; which; which &= which - 1u) {
+            const u32 k = lowest(which);
+            channel[k / PACKET_ROW * line + k % PACKET_ROW] = one[k];
+        }
     }
 }
 
@@ -112,15 +117,16 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     return view;
 }
 
-// The pixels of `which`; those of `hit` see something.
-FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture, u32 which,
+// The pixels of `which`; those of `hit` see something. Left a call: measured (bench/NOTES.md).
+NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture, u32 which,
                    u32 hit) {
     const size_t size = plane_of(f);
+    const u32 line = f->lines ? width_of(f->window) : BLOCK;
     const int8 seen = of_bits(hit);
     packet_view v;
     u32 k;
     if (hit) v = view_of(p, f, g, a, hit);
-#define PUT(value, background) put_channel(picture, which, seen ? value : (float8)(background)), picture += size
+#define PUT(value, background) put_channel(picture, line, which, seen ? value : (float8)(background)), picture += size
     if (f->channels & CHANNEL_COLOR) {
         PUT(convert_float8(v.sight.color.r), f->background[0]);
         PUT(convert_float8(v.sight.color.g), f->background[1]);

@@ -50,6 +50,7 @@ MEMORY_FUNCTIONS(float)
 MEMORY_FUNCTIONS(double)
 MEMORY_FUNCTIONS(uint)
 MEMORY_FUNCTIONS(ulong)
+OVERLOADED void vstore4(float4 values, size_t offset, __global float* to);
 #undef MEMORY_FUNCTIONS
 #undef OVERLOADED
 #undef PURE
