@@ -104,13 +104,13 @@ FN u32 claim_of_one(const front* w, scene_tables s) {
 }
 
 FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
-    cover c;
-    u32 starting[SLOT_WORDS], i, any = 0, region = NONE;
+    u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
-    if (any) {
-        const u32 alone = claim_of_one(w, s);
+    alone = any ? claim_of_one(w, s) : NONE;
+    region = alone & ~OVERLAP;
+    if (alone == ALONE_UNKNOWN) {
+        cover c;
         covered_solids covered;
-        if (alone != ALONE_UNKNOWN) return alone & ~OVERLAP;
         c.ends = w->ends;
         c.bits = w->open;
         c.segments = PENDING;
