@@ -77,7 +77,7 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
-// The number of the tile's ray `id`. Of a picture the numbers are listed in place of rays: one by one, or by blocks.
+// The number of the tile's ray `id`. Of a picture the numbers are listed in place of rays: one by one, or by blocks, which are whole.
 FN u32 number_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 id) {
     GLOBAL const u32* numbers = (GLOBAL const u32*)rays;
     if (f->listed) return id;

@@ -3,7 +3,7 @@
 //
 // Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
 
-// The number that item `id` has by the list of blocks, see PART_SHIFT; COUNT_MAX: it has none.
+// The number that item `id` has by the list of blocks, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
     const u32 entry = entries[id / (BLOCK * BLOCK)], code = entry >> PART_SHIFT, within = id % (BLOCK * BLOCK);
     const u32 parts = code ? 1u << (31u - clz(code)) : 1u, rays = LOCKSTEP / parts, part = code ? code - parts : 0;

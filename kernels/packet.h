@@ -210,7 +210,8 @@ FN u32 bits_of(int8 x) {
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
-// A packet is an item of eight rays. Its first one's number (or place), from the item's first; and the others' from that.
+// An item has a packet for every eight numbers (or places) in a row, but its rays have others: those of two rows of four pixels. From
+// the row's first to the first ray's; and how far from there ray k's is.
 #define PACKET_ROW 4u
 FN u32 first_of_packet(u32 id) {
     const u32 within = id % (BLOCK * BLOCK) / PACKET;

@@ -19,14 +19,17 @@ __kernel void count_blocks(__global const unsigned char* costs, u32 count, __glo
     if (item < COST_CLASSES && blocks[item]) atomic_add(tally->blocks + item, blocks[item]);
 }
 
-static u32 most_parts(u32 class_number) { return class_number >= QUARTERED_CLASS ? 4u : class_number >= HALVED_CLASS ? 2u : 1u; }
+// Entries of a block of that class.
+static u32 parts_of(u32 class_number, u32 in_parts) {
+    return !in_parts || class_number < HALVED_CLASS ? 1u : class_number < QUARTERED_CLASS ? 2u : 4u;
+}
 
-// Are blocks listed in parts? The list has room for as many entries as there are blocks.
+// Are blocks listed in parts? The list has room for as many entries as there are blocks: those that see nothing make it.
 static u32 are_in_parts(__local const u32* blocks, u32 most_in_parts) {
     u32 k, in_parts = 0, more = 0;
     for (k = HALVED_CLASS; k < COST_CLASSES; ++k) {
         in_parts += blocks[k];
-        more += blocks[k] * (most_parts(k) - 1u);
+        more += blocks[k] * (parts_of(k, 1) - 1u);
     }
     return in_parts <= most_in_parts && more <= blocks[0];
 }
@@ -51,13 +54,13 @@ __kernel void list_blocks(__global const unsigned char* costs, u32 first, u32 co
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < COST_CLASSES) {
         u32 place = 0;
-        for (k = item + 1; k < COST_CLASSES; ++k) place += all[k] * (in_parts ? most_parts(k) : 1u);
+        for (k = item + 1; k < COST_CLASSES; ++k) place += all[k] * parts_of(k, in_parts);
         if (id == 0) tally->entries = place;
-        places[item] = place + atomic_add(tally->listed + item, blocks[item]) * (in_parts ? most_parts(item) : 1u);
+        if (blocks[item]) places[item] = place + atomic_add(tally->listed + item, blocks[item]) * parts_of(item, in_parts);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (own > 0) {
-        const u32 parts = in_parts ? most_parts(own) : 1u;
+        const u32 parts = parts_of(own, in_parts);
         for (k = 0; k < parts; ++k)
             numbers[places[own] + before * parts + k] = (first + id) | (parts > 1u ? parts + k : 0u) << PART_SHIFT;
     }

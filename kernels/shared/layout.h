@@ -213,7 +213,7 @@ typedef struct {
 #define COST_CLASSES 48u
 typedef struct {
     u32 blocks[COST_CLASSES];  // how many of each class; of class 0 those that see nothing
-    u32 listed[COST_CLASSES];  // of them, those that have their place in the list
+    u32 listed[COST_CLASSES];  // of them, those that have their place in the list, where class 0 has none
     u32 entries;               // of that list: blocks of all classes but 0, or parts of them
     u32 overflows;             // first hits: rays without room, in no order
 } TileTally;
@@ -221,9 +221,9 @@ typedef struct {
 // An entry of the list: a block's number, and above it 0, or 2 and 3 for its two halves, or 4 to 7 for its quarters. Work-items that
 // go in lockstep wait for each other, the more so the more there is to do: the few blocks that cost most have fewer rays in each
 // group of LOCKSTEP.
-#define PART_SHIFT 26u  // blocks are fewer: their rays have numbers of 32 bits
-#define HALVED_CLASS 40u
-#define QUARTERED_CLASS 44u
+#define PART_SHIFT 26u       // blocks are fewer: their rays have numbers of 32 bits
+#define HALVED_CLASS 40u     // costs from 128 on (class_of in picture_blocks.cl)
+#define QUARTERED_CLASS 44u  // from 192 on
 #define LOCKSTEP 32u
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----

@@ -125,7 +125,8 @@ struct TermChunk {
     std::vector<bool> is_true;                           ///< so far, of each of its words
 };
 
-/// Adds that of a term's starts, from `first` on. What does not hold them is empty: of an operator's two operands one.
+/// Whether the term holds where each of its starts, from `first` on, alone covers: then one of an operator's two operands is empty.
+/// The linearizer leaves no complements.
 void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::size_t first, TermChunk& chunk) {
     auto& leaves = chunk.leaves;
     auto& is_true = chunk.is_true;

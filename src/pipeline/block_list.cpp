@@ -4,6 +4,8 @@
 
 namespace csgrt {
 
+static_assert(COST_CLASSES <= work_group);  // an item a class
+
 void BlockList::build() {
     program_.emplace(device_, assemble_program({"picture_blocks.cl"}));
     count_.emplace(program_->kernel("count_blocks"));

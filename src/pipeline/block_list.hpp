@@ -18,12 +18,15 @@ public:
     bool is_built() const { return list_.has_value(); }
 
     /// Lists the tile's blocks that see anything, whose costs are known, in buffers.rays, those that cost most first, and counts them
-    /// in buffers.tally, which is 0. The dearest come in parts (PART_SHIFT) if they are no more than `most_in_parts`. Does not wait.
-    /// Returns what the two kernels tell.
+    /// in buffers.tally, which is 0. The dearest come in parts (PART_SHIFT) if they are no more than `most_in_parts` and others see
+    /// nothing; only first hits know of parts, so that is 0 for every partition. Does not wait. Returns what the two kernels tell.
     std::array<Event, 2> list(const Tile& tile, TileBuffers& buffers, std::uint32_t most_in_parts);
     /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
     Event put_background(const kernel::Frame& frame, const Tile& tile, const Buffer& costs, const kernel::PlaneValues& background,
                          std::uint32_t planes, const Buffer& picture);
+
+    /// Of first hits: more of the dearest blocks keep the device busy as they are.
+    static std::uint32_t most_in_parts(const Device& device) { return 4 * device.info().compute_units; }
 
 private:
     Device& device_;

@@ -142,8 +142,7 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
     queued.culled.clear();
     queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers, frame));
-    // More of the dearest blocks than these keep a GPU busy as they are; of every partition what they cost is dealt out otherwise.
-    const std::uint32_t most_in_parts = every ? 0 : 4 * device_.info().compute_units;
+    const std::uint32_t most_in_parts = every ? 0 : BlockList::most_in_parts(device_);  // its kernels take whole blocks
     for (Event& event : by_lines_->list.list(tile, queued.buffers, most_in_parts)) queued.culled.push_back(std::move(event));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : tile.tally_bytes());
     if (!every) {

@@ -41,21 +41,23 @@ TEST_CASE("a tile's blocks are listed once each, those that cost most first, the
         CHECK(tally.overflows == 0);
         CHECK(std::all_of(bytes.begin() + sizeof tally, bytes.end(), [](std::uint8_t shows) { return shows == 0; }));
         REQUIRE(tally.entries <= blocks);
-        std::vector<int> listed(blocks);  // sixty-fourths of a block
+        std::vector<unsigned> listed(blocks);  // a bit a quarter
         bool ordered = true, any_parts = false;
         int before = 255;
         for (std::uint32_t i = 0; i < tally.entries; ++i) {
             const std::uint32_t block = (entries[i] & ((1u << PART_SHIFT) - 1)) - 70, part = entries[i] >> PART_SHIFT;
             REQUIRE(block < blocks);
             const int cost = costs[block];
-            listed[block] += part == 0 ? 64 : part < 4 ? 32 : 16;
+            const unsigned quarters = part == 0 ? 15 : part < 4 ? 3u << 2 * (part - 2) : 1u << (part - 4);
+            CHECK((listed[block] & quarters) == 0);
+            listed[block] |= quarters;
             any_parts |= part > 0;
             CHECK((part == 0 || (cost >= 192 ? part >= 4 && part < 8 : cost >= 128 && (part == 2 || part == 3))));
             ordered &= cost > 0 && (cost <= before || (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
             before = cost;
         }
         bool once = true;
-        for (std::uint32_t i = 0; i < blocks; ++i) once &= listed[i] == (costs[i] > 0 ? 64 : 0);
+        for (std::uint32_t i = 0; i < blocks; ++i) once &= listed[i] == (costs[i] > 0 ? 15u : 0u);
         CHECK(once);
         CHECK(ordered);
         CHECK(any_parts == is_parted);

@@ -7,6 +7,8 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
+#include "pipeline/block_list.hpp"
+#include "pipeline/first_hits.hpp"
 #include "pipeline/known_picture.hpp"
 #include "pipeline/pipelines.hpp"
 #include "pipeline/same_answers.hpp"
@@ -236,13 +238,14 @@ TEST_CASE("pixels by lines: frames that are interrupted while tiles are queued, 
     }
 }
 
-TEST_CASE("pixels by lines: rays that have no room") {
-    Scene scene;
+namespace {
+
+/// 70 balls one in another, and what all of them hold as a region: more than a ray has room for while none is claimed.
+void add_shells(Scene& scene, const Vec3& center, double radius, double apart) {
     std::vector<Tree> shells;
-    for (int i = 0; i < 70; ++i) {  // more than a ray has room for while none is claimed
-        const double r = 20 - 0.1 * i;
+    for (int i = 0; i < 70; ++i) {
         const std::string name = "shell" + std::to_string(i);
-        scene.objects.push_back(Solid{name, Ell{{0, 0, 0}, {r, 0, 0}, {0, r, 0}, {0, 0, r}}, {}});
+        scene.objects.push_back(Solid{name, stress::ball(center, radius - apart * i), {}});
         shells.push_back(stress::leaf(name));
     }
     Combination core;
@@ -250,8 +253,44 @@ TEST_CASE("pixels by lines: rays that have no room") {
     core.tree = stress::operate(Operator::intersection, shells);
     core.region = true;
     scene.objects.push_back(core);
-    scene.objects.push_back(Solid{"ball", Ell{{0, 30, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {}});
-    scene.top = {"core", "ball"};
+    scene.top.push_back("core");
+}
+
+void add_ball(Scene& scene, const std::string& name, const Vec3& center, double radius) {
+    scene.objects.push_back(Solid{name, stress::ball(center, radius), {}});
+    scene.top.push_back(name);
+}
+
+/// How many of the blocks of such a picture's first hits are listed in parts, counted by entries.
+std::size_t count_parts(const Lined& lined, int width, int height) {
+    View view;
+    view.width = width;
+    view.height = height;
+    view.every_partition = false;
+    view.camera.azimuth = lined.azimuth;
+    PreparedFrame prepared = prepare_frame(lined.compiled, view, lined.renderer.statistics().tolerance);
+    const auto rays = static_cast<std::uint32_t>(prepared.rays);
+    prepared.frame.ray_count = rays;
+    prepared.frame.lines = prepared.frame.window.bottom - prepared.frame.window.top;
+    Device device(lined.settings.device);
+    FirstHits first_hits(device, lined.compiled, lined.settings);
+    const SceneBuffers scene(device, lined.compiled, lined.kernels->tables());
+    TileBuffers tile(device);
+    BlockList list(device);
+    list.build();
+    tile.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
+    wait_for(first_hits.cull().launch(scene, tile, prepared.frame));
+    for (const Event& event : list.list({0, rays}, tile, BlockList::most_in_parts(device))) wait_for(event);
+    const auto entries = tile.rays.read<std::uint32_t>(tile.tally.read<kernel::TileTally>(1).front().entries);
+    return static_cast<std::size_t>(std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));
+}
+
+}  // namespace
+
+TEST_CASE("pixels by lines: rays that have no room") {
+    Scene scene;
+    add_shells(scene, {0, 0, 0}, 20, 0.1);
+    add_ball(scene, "ball", {0, 30, 0}, 9);
     Lined lined(scene);
     for (const std::uint64_t blocks : {9, 60, 1000})
         CHECK(lined.draw(203, 161, false, blocks * block_rays).segments > 0);  // which the exact way alone counts
@@ -264,18 +303,26 @@ TEST_CASE("pixels by lines: rays that have no room") {
 
 TEST_CASE("pixels by lines: few blocks with more to see than all others, whose rays come in parts") {
     Scene scene;
-    for (int i = 0; i < 800; ++i) {  // two heaps of some pixels each, at the ends of an empty picture
-        const std::string name = "ball" + std::to_string(i);
-        const Vec3 at{(i % 2 ? 100 : -100) + 0.5 * (i / 2 % 8), 0.5 * (i / 16 % 8), 0.5 * (i / 128)};
-        scene.objects.push_back(Solid{name, stress::ball(at, 0.1 + 0.0003 * i), {}});
-        scene.top.push_back(name);
-    }
+    for (int i = 0; i < 300; ++i)  // a heap of some pixels, off the middle of an empty picture
+        add_ball(scene, "ball" + std::to_string(i), {40 + 0.3 * (i % 7), 0.3 * (i / 7 % 7), 0.3 * (i / 49)}, 0.1 + 0.0003 * i);
+    add_ball(scene, "left", {-100, 0, 0}, 1);
+    add_ball(scene, "right", {100, 0, 0}, 1);
+    const bool has_shells = GENERATE(false, true);
+    if (has_shells) add_shells(scene, {41, 1, 5}, 3, 0.02);
     Lined lined(scene);
+    std::size_t listed = 0;
     for (const double azimuth : {35, 100, 170}) {
+        INFO("azimuth " << azimuth);
         lined.azimuth = azimuth;
-        lined.draw(203, 161, false, 1 << 20);
-        lined.draw(205, 170, false, 160 * block_rays);
+        listed += count_parts(lined, 203, 161);
+        const PipelineCounts whole = lined.draw(203, 161, false, 1 << 20);
+        const PipelineCounts parts = lined.draw(205, 170, false, 30 * block_rays);
+        CHECK(whole.tiles == 1);
+        CHECK(parts.tiles > 1);
+        CHECK((whole.segments > 0) == has_shells);
+        CHECK((parts.segments > 0) == has_shells);
     }
+    if (BlockList::most_in_parts(lined.device) >= 8) CHECK(listed >= 8);  // one processor alone may find them too many
 }
 
 TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {

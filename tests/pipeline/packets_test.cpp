@@ -12,7 +12,7 @@ using namespace csgrt;
 
 namespace {
 
-// Cones seen from above, so that some rays of a row are steeper than their sides; quadrics, of which a ray may have two segments; a
+// Cones seen from above, so that some rays of a packet are steeper than their sides; quadrics, of which a ray may have two segments; a
 // tapered cone and tori, of which packets tell only which rays may meet them; a particle, which they do not know; surfaces seen
 // from within; and 70 shells one in another, more than a ray has room for while none is claimed.
 std::string scene() {
