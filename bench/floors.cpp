@@ -34,25 +34,25 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     const PreparedFrame prepared = prepare_frame(compiled, view, -1);
     kernel::counted = {};
     const test::HostRun run = test::run_kernels(compiled, prepared);
-    const double rays = static_cast<double>(run.tallies.size());
-    const auto per_ray = [&](auto count) { return static_cast<double>(count) / rays; };
+    const double pixels = view.width * view.height;  // of which only those of the window have rays
+    const auto per_pixel = [&](auto count) { return static_cast<double>(count) / pixels; };
     const auto bytes_of = [](const auto& all) { return all.size() * sizeof all[0]; };
     std::uint64_t partitions = 0;
     for (const kernel::RayTally& tally : run.tallies) partitions += tally.partitions;
     Floor floor;
     floor.workload = workload;
-    floor.boxes = per_ray(kernel::counted.boxes) / 2;  // two walks, one to count, one to list
-    floor.solids = per_ray(run.candidates);
-    floor.words = per_ray(kernel::counted.words);
-    floor.segments = per_ray(run.ends.size()) / 2;
-    floor.partitions = per_ray(partitions);
-    floor.bytes = per_ray(bytes_of(run.offsets) + bytes_of(run.ends) + bytes_of(run.nodes) + bytes_of(run.bits) +
+    floor.boxes = per_pixel(kernel::counted.boxes) / 2;  // two walks, one to count, one to list
+    floor.solids = per_pixel(run.candidates);
+    floor.words = per_pixel(kernel::counted.words);
+    floor.segments = per_pixel(run.ends.size()) / 2;
+    floor.partitions = per_pixel(partitions);
+    floor.bytes = per_pixel(bytes_of(run.offsets) + bytes_of(run.ends) + bytes_of(run.nodes) + bytes_of(run.bits) +
                           bytes_of(run.firsts) + bytes_of(run.tallies) + bytes_of(run.picture));
     return floor;
 }
 
 void print_floors(const std::vector<Floor>& floors, const std::vector<double>& measured, int size) {
-    std::printf("\nper ray, every partition, and the least time of %d x %d on an H200 (floor), ms\n", size, size);
+    std::printf("\nper pixel, every partition, and the least time of %d x %d on an H200 (floor), ms\n", size, size);
     std::printf("| %-16s | %7s | %7s | %8s | %8s | %10s | %7s | %8s | %8s |\n|---|---|---|---|---|---|---|---|---|\n",
                 "scene", "boxes", "solids", "words", "segments", "partitions", "bytes", "floor", "measured");
     for (std::size_t i = 0; i < floors.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace csgrt::bench {
 
-/// Counted along the rays of a frame by the kernels themselves, run on the host; per ray.
+/// Counted along the rays of a frame by the kernels themselves, run on the host; per pixel of the picture.
 struct Floor {
     std::string workload;
     double boxes = 0, solids = 0;  ///< tests, of one walk
