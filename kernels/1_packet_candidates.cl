@@ -33,12 +33,7 @@ static u32 next_packet_leaf(packet_walk* w, u32* hit) {
             w->i = (w->next++)->node;
             w->end = w->nodes[w->i].skip;
         }
-        while (!leaf && w->i < w->end) {
-            const BvhNode node = w->nodes[w->i];
-            *hit = bits_of(box_is_hit(w->slabs, node)) & w->which;
-            leaf = *hit ? node.leaf : 0;
-            w->i = *hit && !leaf ? w->i + 1 : node.skip;
-        }
+        leaf = next_leaf(w->slabs, w->nodes, &w->i, w->end, w->which, hit);
     }
     return leaf;
 }

@@ -54,24 +54,11 @@ FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 which) {
 // The rays among `which` that meet what a subtree holds take it up. Returns those that have no room for it.
 FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which) {
     const u32 end = s.nodes[root].skip;
-    u32 i = root, lost = 0;
-    while (i < end) {
-        BvhNode node;
-        u32 hit;
-        // A loop of its own: what comes after a node that is missed is then loaded before it is known that it is.
-        do {
-            node = s.nodes[i];
-            hit = bits_of(box_is_hit(p->slabs, node)) & which;
-            if (!hit) i = node.skip;
-        } while (!hit && i < end);
-        if (hit && node.leaf) {
-            const u32 first = node.leaf >> BVH_LEAF_SHIFT, last = first + (node.leaf & BVH_LEAF_MASK);
-            u32 solid;
-            for (solid = first; solid < last; ++solid) lost |= take_solid_by_packet(p, s.g, solid, hit & ~lost);
-            i = node.skip;
-        } else if (hit) {
-            ++i;
-        }
+    u32 i = root, lost = 0, hit, leaf;
+    while ((leaf = next_leaf(p->slabs, s.nodes, &i, end, which, &hit))) {
+        const u32 first = leaf >> BVH_LEAF_SHIFT, last = first + (leaf & BVH_LEAF_MASK);
+        u32 solid;
+        for (solid = first; solid < last; ++solid) lost |= take_solid_by_packet(p, s.g, solid, hit & ~lost);
     }
     return lost;
 }
