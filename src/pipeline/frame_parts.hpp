@@ -18,11 +18,13 @@ struct RayRange {
 /// What rays may cost, of which a ray that sees nothing costs 1. Where this is wrong it costs time and nothing else.
 class RayCosts {
 public:
-    static constexpr std::uint64_t of_shown = 16;  ///< of a ray whose block shows something (measured: bench/NOTES.md)
+    static constexpr std::uint64_t of_shown = 16;   ///< of a ray whose block shows something (measured: bench/NOTES.md)
+    static constexpr std::uint32_t most_bands = 128;  ///< of rows of a frame's blocks, at most twice as many
 
     /// Of a list: each the same.
     explicit RayCosts(std::uint64_t rays);
-    /// Of a frame: those of blocks in which the target holds something now show something again. If it holds nothing, each the same.
+    /// Of a frame: those of blocks in which the target holds something now show something again; a row stands for a band of them. If
+    /// it holds nothing, each the same.
     RayCosts(const kernel::Frame& frame, const RenderTarget& target);
 
     std::uint64_t rays() const { return rays_; }
@@ -34,10 +36,10 @@ public:
     std::uint64_t end(std::uint64_t first, std::uint64_t cost) const;
 
 private:
-    std::uint64_t rays_of(std::size_t row) const { return std::min(row_, rays_ - row * row_); }
+    std::uint64_t rays_of(std::size_t band) const { return std::min(band_, rays_ - band * band_); }
 
-    std::uint64_t rays_, row_;          ///< all, and those of a row of the window's blocks, or of so many of a list
-    std::vector<std::uint64_t> sums_;   ///< of each row what those before cost, and all
+    std::uint64_t rays_, row_, band_;  ///< all, and those of a row and of a band of the window's blocks, or of so many of a list
+    std::vector<std::uint64_t> sums_;  ///< of each band what those before cost, and all
 };
 
 class Parts {
