@@ -175,8 +175,8 @@ bool Pipeline::weave_queued(QueuedTile& queued, const RenderTarget& target, Pipe
 }
 
 // False: the tile does not fit the memory. A device, and the bus, stand still whenever the host waits for an answer before it says what
-// comes next: therefore the next tile is queued before the host looks at what has become of the one before this one, if there is
-// memory for the lines of three, and of every partition that waits until most of this one's kernels run.
+// comes next: therefore this tile is queued before the host looks at what has become of the one before, whose pixels are on their way
+// before the next is queued; of every partition that waits until most of this one's kernels run.
 bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
                              PipelineCounts& counts) {
     ByLines& by = *by_lines_;
@@ -197,17 +197,16 @@ bool Pipeline::draw_by_lines(const kernel::Frame& frame, const Tile& tile, const
     by.next = (by.next + 1) % by.tiles.size();
     QueuedTile& other = by.tiles[by.next];
     const bool has_next = next.rays > 0 && next.rays % block_rays == 0;
-    if (has_next && !every && lines_in_turn(frame, next, largest_tile(frame)) < by.tiles.size()) put_drawn();  // its lines come next
+    if (!every) put_drawn();
     if (has_next && queue(other, frame, next, target, &own)) by.ahead = next;
     if (every) {
         device_.finish();
     } else {
-        put_drawn();
         by.ahead ? wait_patiently(own.drawn) : wait_for(own.drawn);
     }
+    if (every && by.ahead) other.answer.fetch();  // for which its kernels wait
     own.answer.fetch();
     if (every) exact().fetch();
-    if (every && by.ahead) other.answer.fetch();
     by.drawn = {&own, target, next.rays == 0, &counts};
     if (by.ahead) return true;  // the rest while the next one's kernels run
     put_drawn();

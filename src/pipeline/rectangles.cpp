@@ -49,7 +49,7 @@ bool hold(const BlockRows& rows, const Rectangle& r) {
 
 /// The rectangles around strips that follow each other for which pixels and copies take least time in all.
 std::vector<Rectangle> join(const BlockRows& rows, std::span<const Rectangle> strips) {
-    constexpr std::size_t copy_cost = 1 << 15;  // pixels that a copy's begin takes as long as (bench/NOTES.md)
+    constexpr std::size_t copy_cost = 1 << 12;  // pixels that a copy's begin takes as long as (bench/NOTES.md)
     constexpr std::size_t most = 256;           // strips of a rectangle: as many are looked at from each
     struct Best {
         std::size_t cost = 0, begin = 0;  ///< of all strips before, and where the last rectangle of them begins
