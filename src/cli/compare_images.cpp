@@ -23,7 +23,7 @@ struct ChannelDifference {
     std::size_t position = 0;  ///< of the largest
 };
 
-ChannelDifference difference(const std::vector<float>& a, const std::vector<float>& b,
+ChannelDifference difference(std::span<const float> a, std::span<const float> b,
                              std::optional<double> tolerance) {
     ChannelDifference result;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -66,7 +66,7 @@ Status compare_images(const CompareArguments& arguments) {
     bool differs = !text.empty();
     std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height), common = 0;
     for (std::size_t c = 0; c < a.names.size(); ++c) {
-        const std::vector<float>* other = b.channel(a.names[c]);
+        const std::optional<std::span<const float>> other = b.channel(a.names[c]);
         if (!other) continue;
         ++common;
         ChannelDifference found = difference(a.channels[c], *other, arguments.tolerance);

@@ -22,12 +22,8 @@ void check_form(const Image& image, const std::string& name) {
                " channels");
     }
     const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
-    for (std::size_t i = 0; i < image.channels.size(); ++i) {
-        if (image.channels[i].size() != pixels) {
-            refuse("has " + std::to_string(image.channels[i].size()) + " values in channel " + image.names[i] +
-                   ", not " + std::to_string(pixels));
-        }
-    }
+    if (image.channels[0].size() != pixels)
+        refuse("has channels of " + std::to_string(image.channels[0].size()) + " values, not " + std::to_string(pixels));
     for (const auto& [key, matrix] : image.matrices) {
         if (matrix.size() != 16) refuse("has " + std::to_string(matrix.size()) + " numbers in matrix " + key + ", not 16");
     }
@@ -48,7 +44,7 @@ std::vector<unsigned char> quantize(const Image& image, const std::string& name)
     std::vector<unsigned char> pixels(3 * image.channels[0].size());
     for (std::size_t c = 0; c < 3; ++c) {
         const std::string color(1, "RGB"[c]);
-        const std::vector<float>* channel = image.channel(color);
+        const std::optional<std::span<const float>> channel = image.channel(color);
         if (!channel) throw Error(Status::usage, name + ": the picture has no channel " + color + ", which a PNG needs");
         for (std::size_t i = 0; i < channel->size(); ++i) {
             const float value = (*channel)[i];

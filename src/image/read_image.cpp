@@ -47,10 +47,11 @@ Image read_image(const std::string& path) {
     Image image;
     image.width = spec.width;
     image.height = spec.height;
-    for (const std::size_t c : order) {
-        image.names.push_back(spec.channelnames[c]);
-        std::vector<float>& channel = image.channels.emplace_back(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) channel[i] = interleaved[i * count + c];
+    image.channels = Channels(pixels, std::vector<float>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        image.names.push_back(spec.channelnames[order[i]]);
+        const std::span<float> channel = image.channels[i];
+        for (std::size_t p = 0; p < pixels; ++p) channel[p] = interleaved[p * count + order[i]];
     }
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();

@@ -4,7 +4,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "parallel.hpp"
+#include "kernel_host.hpp"
 #include "pipeline/known_picture.hpp"
 
 namespace csgrt {
@@ -43,10 +43,7 @@ void Framebuffer::fit(int width, int height, std::vector<std::string> names, std
     if (!fits) {
         *this = {};  // before there is more memory; and whole, if there is none
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        std::vector<std::vector<float>> channels(names.size());
-        // Cleared page by page: by several threads, if there is much.
-        for_chunks(names.size(), 1, pixels > 200'000 ? 0 : 1,
-                   [&](std::size_t i, std::size_t, std::size_t) { channels[i].assign(pixels, background[i]); });
+        Channels channels(pixels, background);
         image_.width = width;
         image_.height = height;
         image_.names = std::move(names);

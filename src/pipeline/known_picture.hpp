@@ -2,32 +2,40 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <vector>
 
 #include "device/buffer.hpp"
-#include "pipeline/picture.hpp"
 
 namespace csgrt {
 
 class KnownPicture {
 public:
-    /// Makes `pixels` floats of each of these planes, the picture's first ones, known to the device. False: its driver refuses.
-    bool add(const Device& device, std::span<const ChannelPlane> planes, std::size_t pixels);
+    /// Of `pixels` floats a plane, the first of which is this; the others follow each other.
+    KnownPicture(float* first_plane, std::size_t pixels) : first_plane_(first_plane), pixels_(pixels) {}
 
-    /// How many of the planes are known to it.
+    /// How many planes of the picture, its first ones, a device is to know.
+    struct Wanted {
+        const Device* device;
+        std::size_t planes;
+    };
+    /// Makes them known to these devices, and to no other any more: fewer, where a driver refuses.
+    void make_known(std::span<const Wanted> wanted);
     std::size_t planes_known_to(const Device& device) const;
-    /// The last of them is not any more. There must be one.
-    void drop(const Device& device);
+    /// Planes are known in pieces, which a copy must not cross: after how many each one ends, ascending.
+    std::span<const std::size_t> piece_ends() const { return piece_ends_; }
 
 private:
-    struct Entry {
-        cl_context context;  ///< the memory holds on to it: no other comes to stand there
-        std::vector<KnownMemory> planes;
+    struct Known {
+        std::size_t planes = 0;
+        std::vector<KnownMemory> pieces;
     };
-    std::size_t find(const Device& device) const;  ///< among the entries; their number if it has none
 
-    std::vector<Entry> entries_;
+    float* first_plane_;
+    std::size_t pixels_;
+    std::vector<std::size_t> piece_ends_;
+    std::map<cl_context, Known> known_;  ///< the memory holds on to the context: no other comes to stand there
 };
 
 }  // namespace csgrt

@@ -46,9 +46,12 @@ void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<c
         floats += r.size() * others.planes.size();
         CopyFeed::Copy copy{.columns = r.columns(), .lines = r.lines(), .begin = (r.top - all.top) * all.columns() + r.left - all.left,
                             .pitch = all.columns(), .slice = all.size(), .target_pitch = frame.width};
-        for (std::size_t p = 0; p < known; ++p, copy.begin += copy.slice) {
+        for (std::size_t p = 0, piece = 0; p < known; p += copy.planes, ++piece) {
+            copy.planes = std::min(target.known->piece_ends()[piece], known) - p;
             copy.target = target.planes[p].pixels + r.top * frame.width + r.left;
+            copy.target_slice = std::size_t{frame.width} * frame.height;
             known_copies.push_back(copy);
+            copy.begin += copy.planes * copy.slice;
         }
         copy.planes = others.planes.size();
         copies.push_back(copy);

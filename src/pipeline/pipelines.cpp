@@ -21,6 +21,15 @@ constexpr const char* known_name = "picture of the host's";
 // grow yet.
 constexpr std::uint64_t most_bytes_a_pixel = 64, bytes_a_pixel = 60;
 
+/// Of a picture's, how many planes a device has room for. `own`: what it holds besides.
+std::size_t planes_fitting(const Device& device, std::uint64_t own, std::size_t planes, std::uint64_t pixels) {
+    const std::uint64_t plane = std::max<std::uint64_t>(1, pixels * sizeof(float));
+    const auto fitting = [&](std::uint64_t all) -> std::uint64_t {
+        return std::min({device.available() / 2, device.max_buffer(), all - std::min(all, own)}) / plane;
+    };
+    return fitting(most_bytes_a_pixel * pixels) >= planes ? planes : std::min<std::uint64_t>(planes, fitting(bytes_a_pixel * pixels));
+}
+
 }  // namespace
 
 Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, Readback readback) {
@@ -111,19 +120,17 @@ void Pipelines::forget() {
 
 std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane> planes, std::size_t pixels) {
     forget();
-    const auto known = std::make_shared<KnownPicture>();
-    const std::uint64_t plane = pixels * sizeof(float);
-    for (const auto& device : devices_) {  // in turn: drivers may touch what they are told of
-        const std::uint64_t own = device->allocated() - claimed_of(*device);
-        const auto fitting = [&](std::uint64_t all) -> std::uint64_t {
-            const std::uint64_t most = std::min({device->available() / 2, device->max_buffer(), all - std::min(all, own)});
-            return most / std::max<std::uint64_t>(1, plane);
-        };
-        const bool is_all = fitting(most_bytes_a_pixel * pixels) >= planes.size();
-        const std::size_t count = is_all ? planes.size() : std::min<std::uint64_t>(planes.size(), fitting(bytes_a_pixel * pixels));
-        if (device->info().type == "cpu" || count == 0 || !known->add(*device, planes.first(count), pixels)) continue;
-        device->claim(known_name, count * plane);
-        claims_.push_back({known, device.get(), count * plane});
+    const auto known = std::make_shared<KnownPicture>(planes.empty() ? nullptr : planes.front().pixels, pixels);
+    std::vector<KnownPicture::Wanted> wanted;
+    for (const auto& device : devices_)
+        if (device->info().type != "cpu")
+            wanted.push_back({device.get(), planes_fitting(*device, device->allocated() - claimed_of(*device), planes.size(), pixels)});
+    known->make_known(wanted);
+    for (const auto& device : devices_) {
+        const std::uint64_t bytes = known->planes_known_to(*device) * pixels * sizeof(float);
+        if (bytes == 0) continue;
+        device->claim(known_name, bytes);
+        claims_.push_back({known, device.get(), bytes});
     }
     return known;
 }
@@ -136,15 +143,24 @@ std::uint64_t Pipelines::claimed_of(const Device& device) const {
 }
 
 void Pipelines::keep_small(KnownPicture& known, std::size_t pixels) {
-    const std::uint64_t plane = pixels * sizeof(float);
+    const std::uint64_t plane = pixels * sizeof(float), most = most_bytes_a_pixel * pixels;
+    const auto is_its = [&](const Claim& claim) { return claim.picture.lock().get() == &known; };
+    std::vector<KnownPicture::Wanted> wanted;
+    bool are_fewer = false;
+    for (const Claim& claim : claims_) {
+        if (!is_its(claim)) continue;
+        const std::uint64_t held = claim.device->allocated() - (claimed_of(*claim.device) - claim.bytes);
+        const std::uint64_t surplus = held - std::min(held, most);
+        are_fewer = are_fewer || surplus > 0;
+        wanted.push_back({claim.device, (claim.bytes - std::min(claim.bytes, surplus)) / plane});
+    }
+    if (!are_fewer) return;
+    known.make_known(wanted);
     for (Claim& claim : claims_) {
-        if (claim.picture.lock().get() != &known) continue;
-        const std::uint64_t others = claimed_of(*claim.device) - claim.bytes;
-        while (claim.device->allocated() - others > most_bytes_a_pixel * pixels && known.planes_known_to(*claim.device) > 0) {
-            known.drop(*claim.device);
-            claim.device->release(known_name, plane);
-            claim.bytes -= plane;
-        }
+        if (!is_its(claim)) continue;
+        const std::uint64_t left = known.planes_known_to(*claim.device) * plane;
+        claim.device->release(known_name, claim.bytes - left);
+        claim.bytes = left;
     }
 }
 

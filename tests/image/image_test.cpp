@@ -39,10 +39,9 @@ Image full_picture() {
     image.height = 5;
     image.names = {"R",   "G",      "B",     "A",     "Z",          "N.X",    "N.Y",
                    "N.Z", "region", "solid", "depth", "partitions", "overlap"};
-    for (std::size_t c = 0; c < image.names.size(); ++c) {
-        std::vector<float>& channel = image.channels.emplace_back();
-        for (int i = 0; i < 35; ++i) channel.push_back(static_cast<float>(c) * 1000 + static_cast<float>(i) + 1 / 3.0f);
-    }
+    image.channels = Channels(35, std::vector<float>(image.names.size()));
+    for (std::size_t c = 0; c < image.names.size(); ++c)
+        for (std::size_t i = 0; i < 35; ++i) image.channels[c][i] = static_cast<float>(c) * 1000 + static_cast<float>(i) + 1 / 3.0f;
     image.channels[4][6] = std::numeric_limits<float>::infinity();
     image.channels[5][7] = -std::numeric_limits<float>::denorm_min();
     image.channels[8][0] = 16777215;  // the largest odd whole number of a float
@@ -57,7 +56,7 @@ Image gray(std::vector<float> values) {
     image.width = static_cast<int>(values.size());
     image.height = 1;
     image.names = {"R", "G", "B"};
-    image.channels = {values, values, values};
+    image.channels = std::vector<std::vector<float>>{values, values, values};
     return image;
 }
 
@@ -151,7 +150,7 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
 
     std::ofstream(folder / "b.png") << "old";
     Image broken = gray({1, 0});
-    broken.channels[1].pop_back();
+    broken.width = 3;
     CHECK_THROWS_AS(write_image(broken, folder / "b.png"), Error);
     CHECK(content(folder / "b.png") == "old");
 
@@ -168,6 +167,31 @@ TEST_CASE("a file that cannot be written is named, with the reason", "[image]") 
     CHECK(failure(Status::file, [&] { write_image(gray({1}), path); }) == path + ": cannot create: No such file or directory");
 }
 
+TEST_CASE("channels: in one piece, copied, moved, compared, and of one size", "[image]") {
+    Channels channels(3, std::vector<float>{1, 2});
+    REQUIRE(channels.size() == 2);
+    CHECK(channels[1].data() == channels[0].data() + 3);
+    CHECK(std::ranges::equal(channels[0], std::vector<float>{1, 1, 1}));
+    CHECK(std::ranges::equal(channels[1], std::vector<float>{2, 2, 2}));
+    CHECK(channels == Channels({{1, 1, 1}, {2, 2, 2}}));
+    Channels copy = channels;
+    copy[1][2] = 7;
+    CHECK(channels[1][2] == 2);
+    CHECK(copy != channels);
+    channels = copy;
+    CHECK(copy == channels);
+    const Channels moved = std::move(copy);
+    CHECK(moved == channels);
+    CHECK(copy.empty());  // NOLINT: that is what is tested
+    CHECK(Channels() == Channels(std::vector<std::vector<float>>{}));
+    CHECK(Channels() != Channels(0, std::vector<float>{1}));
+    const std::size_t many = 2'000'001;  // several threads fill them
+    const Channels large(many, std::vector<float>{3, 4});
+    CHECK(std::ranges::count(large[0], 3.0f) == many);
+    CHECK(std::ranges::count(large[1], 4.0f) == many);
+    CHECK(failure(Status::usage, [] { Channels({{1, 2}, {1, 2}, {1}}); }) == "channel 2 has 1 values, channel 0 has 2");
+}
+
 TEST_CASE("a picture that is not well formed is refused", "[image]") {
     const auto refusal = [](Image image, const char* format = "exr") {
         return failure(Status::usage, [&] { encode(image, format, "a"); });
@@ -179,8 +203,8 @@ TEST_CASE("a picture that is not well formed is refused", "[image]") {
     image.names.pop_back();
     CHECK(refusal(image) == "a: the picture has 2 names for 3 channels");
     image = gray({1, 2});
-    image.channels[2].push_back(0);
-    CHECK(refusal(image) == "a: the picture has 3 values in channel B, not 2");
+    image.height = 3;
+    CHECK(refusal(image) == "a: the picture has channels of 2 values, not 6");
     image = gray({1, 2});
     image.matrices["m"] = {1, 2};
     CHECK(refusal(image) == "a: the picture has 2 numbers in matrix m, not 16");

@@ -36,11 +36,11 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     Pipeline pipeline(device, compiled, *kernels, settings, Readback::lines);
 
     Framebuffer framebuffer;
-    std::vector<std::vector<float>> pixels;
+    Channels pixels;
     std::vector<std::uint8_t> drawn;
     std::vector<float> background;
     std::uint32_t most_tiles = 0;
-    KnownPicture known;
+    std::optional<KnownPicture> known;
     for (const double azimuth : {35.0, 80.0, 200.0}) {
         View view;
         view.width = 77;
@@ -51,7 +51,8 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
         const Image& image = framebuffer.image();
         std::vector<ChannelPlane> planes;
         if (pixels.empty()) {
-            pixels.assign(image.channels.size(), std::vector<float>(77 * 61, -1));
+            pixels = Channels(77 * 61, std::vector<float>(image.channels.size(), -1));
+            known.emplace(pixels[0].data(), pixels[0].size());
             drawn.assign(10 * 8, 1);
             background.assign(image.channels.size(), 0);
             background[0] = 0.2f;
@@ -60,18 +61,21 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
         }
         for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), background[p]});
         if (known_planes > 0 && azimuth == 80) {  // what there is stays there
-            const auto first_planes = std::span<const ChannelPlane>(planes).first(std::min(known_planes, planes.size()));
-            REQUIRE(known.add(device, first_planes, pixels[0].size()));
-            REQUIRE(known.planes_known_to(device) == first_planes.size());
-            REQUIRE(known.planes_known_to(first) == 0);
+            const std::size_t count = std::min(known_planes, planes.size());
+            known->make_known(std::vector<KnownPicture::Wanted>{{&device, count}});
+            REQUIRE(known->planes_known_to(device) == count);
+            REQUIRE(known->planes_known_to(first) == 0);
+            REQUIRE(known->piece_ends().size() == 1);
         } else if (known_planes > 0 && azimuth == 200) {
-            const std::size_t before = known.planes_known_to(device);
-            known.drop(device);
-            REQUIRE(known.planes_known_to(device) == before - 1);
+            const std::size_t fewer = known->planes_known_to(device) - 1;
+            known->make_known(std::vector<KnownPicture::Wanted>{{&first, 2}, {&device, fewer}});
+            REQUIRE(known->planes_known_to(device) == fewer);
+            REQUIRE(known->planes_known_to(first) == 2);
+            REQUIRE(known->piece_ends().size() == (fewer == 2 ? 1 : 2));
         }
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
-        const RenderTarget target{.planes = planes, .drawn = drawn, .known = &known};
+        const RenderTarget target{.planes = planes, .drawn = drawn, .known = &*known};
         pipeline.render(prepared, {0, prepared.rays}, [] { return RayRange{}; }, target, nullptr, counts);
         clear_around(prepared.frame, target);
         pipeline.finish();
@@ -126,7 +130,7 @@ struct Lined {
         view.every_partition = every_partition;
         Image image = renderer.render(view);
         const std::size_t size = std::size_t(width) * std::size_t(height);
-        std::vector<std::vector<float>> pixels(image.channels.size(), std::vector<float>(size, -1));
+        Channels pixels(size, std::vector<float>(image.channels.size(), -1));
         std::vector<ChannelPlane> planes;
         for (std::size_t p = 0; p < pixels.size(); ++p)
             planes.push_back({pixels[p].data(), image.names[p] == "Z" ? std::numeric_limits<float>::infinity() : 0.0f});
@@ -349,9 +353,9 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
     view.height = 1000;
     view.camera.view_size = lined.compiled.radius;  // from edge to edge
     view.channels = channel::color | channel::ids;
-    std::vector<std::vector<float>> pixels(6, std::vector<float>(1600 * 1000, 0.0f));
+    Channels pixels(1600 * 1000, std::vector<float>(6));
     std::vector<ChannelPlane> planes;
-    for (auto& plane : pixels) planes.push_back({plane.data(), 0});
+    for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), 0});
     std::vector<std::uint8_t> drawn(200 * 125);
     for (const bool every_partition : {false, true})
         for (const bool sees : {true, false, true}) {

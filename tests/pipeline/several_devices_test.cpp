@@ -76,7 +76,7 @@ TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
     view.width = 301;
     view.height = 257;
     view.channels = channel::color | channel::ids;
-    std::vector<std::vector<float>> pixels(6, std::vector<float>(301 * 257));
+    Channels pixels(301 * 257, std::vector<float>(6));
     std::vector<ChannelPlane> planes;
     const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);
     for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 3 ? any.frame.background[p] : 0});

@@ -28,7 +28,7 @@ inline constexpr int picture_size = 64;
 
 /// The pixels whose eight neighbours are all of one region, which is not their own.
 inline std::vector<std::size_t> lone_pixels(const Image& image) {
-    const std::vector<float>& region = *image.channel("region");
+    const std::span<const float> region = *image.channel("region");
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     std::vector<std::size_t> lone;
     for (std::size_t y = 1; y + 1 < height; ++y)
@@ -68,7 +68,7 @@ inline Speckles look(const stress::StressScene& made, const Settings& settings) 
         view.camera.view_size = std::hypot(box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z);
         const Image image = Renderer(made.scene, made.objects, settings).render(view);
         ++found.pictures;
-        found.pixels += image.channels.front().size();
+        found.pixels += image.channels[0].size();
 
         const CompiledScene compiled = compile(made.scene, made.objects, {});
         const PreparedFrame prepared = prepare_frame(compiled, view, -1);

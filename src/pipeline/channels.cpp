@@ -1,0 +1,52 @@
+#include <algorithm>
+#include <utility>
+
+#include <csgrt/image.hpp>
+
+#include "parallel.hpp"
+
+namespace csgrt {
+
+void Channels::allocate(std::size_t count, std::size_t size) {
+    count_ = count;
+    size_ = size;
+    values_.reset(static_cast<float*>(::operator new(count * size * sizeof(float), alignment)));
+}
+
+Channels::Channels(std::size_t size, std::span<const float> values) {
+    constexpr std::size_t piece = 1 << 18, worth_a_thread = 200'000;  // floats
+    allocate(values.size(), size);
+    for (std::size_t c = 0; c < count_; ++c)
+        for_chunks(size, piece, size > worth_a_thread ? 0 : 1, [&](std::size_t first, std::size_t last, std::size_t) {
+            std::ranges::fill((*this)[c].subspan(first, last - first), values[c]);
+        });
+}
+
+Channels::Channels(const std::vector<std::vector<float>>& channels) {
+    if (channels.empty()) return;
+    for (std::size_t c = 1; c < channels.size(); ++c)
+        if (channels[c].size() != channels[0].size())
+            throw Error(Status::usage, "channel " + std::to_string(c) + " has " + std::to_string(channels[c].size()) +
+                                           " values, channel 0 has " + std::to_string(channels[0].size()));
+    allocate(channels.size(), channels[0].size());
+    for (std::size_t c = 0; c < count_; ++c) std::ranges::copy(channels[c], (*this)[c].begin());
+}
+
+Channels::Channels(const Channels& other) {
+    allocate(other.count_, other.size_);
+    std::copy_n(other.values_.get(), count_ * size_, values_.get());
+}
+
+Channels& Channels::operator=(Channels&& other) noexcept {
+    count_ = std::exchange(other.count_, 0);
+    size_ = std::exchange(other.size_, 0);
+    values_ = std::move(other.values_);
+    return *this;
+}
+
+bool operator==(const Channels& a, const Channels& b) noexcept {
+    return a.count_ == b.count_ && a.size_ == b.size_ &&
+           std::equal(a.values_.get(), a.values_.get() + a.count_ * a.size_, b.values_.get());
+}
+
+}  // namespace csgrt
