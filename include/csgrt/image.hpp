@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <csgrt/error.hpp>
@@ -19,7 +20,7 @@ namespace csgrt {
 class CSGRT_API Channels {
 public:
     Channels() = default;
-    /// `size` values of each channel, all as `values` says of it. Their memory is first touched by all processors.
+    /// `size` values of each channel, all as `values` says of it. Much memory is first touched by all processors.
     Channels(std::size_t size, std::span<const float> values);
     /// The same values. Throws Error (usage) if a channel has not as many as the first.
     Channels(const std::vector<std::vector<float>>& channels);  // NOLINT: it is the same in another form

@@ -38,7 +38,7 @@ public:
 
     /// Until it is gone another queue takes what is queued: those of different lanes may run side by side.
     class Lane;
-    static constexpr std::size_t lanes = 3;
+    static constexpr std::size_t lanes = 2;
 
     /// Hands what is queued, but for copies and other lanes, to the device without waiting.
     void flush() const;

@@ -1,5 +1,5 @@
-// A picture's tiles on a GPU: while one's pixels are copied, another's kernels run and a third's are queued, or run beside them. Each
-// has memory of its own for all but pixels.
+// A picture's tiles on a GPU, two in turn: while one's kernels run, the other's are queued, or run beside them, and pixels of those
+// before are copied. Each has memory of its own for all but pixels.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct QueuedTile {
 
 /// What a pipeline has for them.
 struct ByLines {
-    explicit ByLines(Device& device) : list(device), tiles{QueuedTile(device, 0), QueuedTile(device, 1), QueuedTile(device, 2)}, lines(device) {}
+    explicit ByLines(Device& device) : list(device), tiles{QueuedTile(device, 0), QueuedTile(device, 1)}, lines(device) {}
 
     BlockList list;
     std::array<QueuedTile, Device::lanes> tiles;

@@ -9,17 +9,20 @@ namespace csgrt {
 
 void Channels::allocate(std::size_t count, std::size_t size) {
     count_ = count;
-    size_ = size;
+    size_ = count == 0 ? 0 : size;
     values_.reset(static_cast<float*>(::operator new(count * size * sizeof(float), alignment)));
 }
 
 Channels::Channels(std::size_t size, std::span<const float> values) {
-    constexpr std::size_t piece = 1 << 18, worth_a_thread = 200'000;  // floats
+    constexpr std::size_t piece = 1 << 18;  // floats that are worth a thread
     allocate(values.size(), size);
-    for (std::size_t c = 0; c < count_; ++c)
-        for_chunks(size, piece, size > worth_a_thread ? 0 : 1, [&](std::size_t first, std::size_t last, std::size_t) {
-            std::ranges::fill((*this)[c].subspan(first, last - first), values[c]);
-        });
+    for_chunks(count_ * size_, piece, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t c = first / size_; first < last; ++c) {
+            const std::size_t end = std::min(last, (c + 1) * size_);
+            std::fill(values_.get() + first, values_.get() + end, values[c]);
+            first = end;
+        }
+    });
 }
 
 Channels::Channels(const std::vector<std::vector<float>>& channels) {

@@ -1,6 +1,5 @@
 // A tile of a picture, each of the ways: in place, by lines, ray by ray.
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "pipeline/pipeline.hpp"
@@ -128,8 +127,7 @@ bool Pipeline::queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, 
     const std::uint64_t of_all = count * most_lines + by_lines_->tiles.size() * needed(largest);
     const bool is_plenty = !every && is_small(frame, largest.rays) && most_lines <= device_.max_buffer() &&
                            2 * of_all <= device_.available() + by_lines_->held();
-    const QueuedTile* const drawn = by_lines_->drawn.tile;
-    const std::array<const PictureLines::Lines*, 2> held = {before ? before->lines : nullptr, drawn ? drawn->lines : nullptr};
+    const PictureLines::Lines* const held = before ? before->lines : nullptr;
     queued.lines = by_lines_->lines.next(is_plenty ? most_lines : all.size() * pixel_bytes_of(target), count, held, every);
     if (!queued.lines) return false;
     if (needed(tile) > device_.available() + queued.buffers.held()) return false;

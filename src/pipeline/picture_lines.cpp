@@ -12,13 +12,11 @@ PictureLines::PictureLines(Device& device) : device_(device), copies_(device) {
     for (std::size_t i = 0; i < most_lines; ++i) lines_.push_back({Buffer(device, "lines"), {}});
 }
 
-PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t count, std::span<const Lines* const> held,
-                                        bool is_drawn_later) {
-    const auto is_held = [&](std::size_t i) { return std::ranges::find(held, &lines_[i % count]) != held.end(); };
-    for (std::size_t tried = 0; tried < count && is_held(next_lines_); ++tried) ++next_lines_;
+PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t count, const Lines* held, bool is_drawn_later) {
+    if (&lines_[next_lines_ % count] == held) ++next_lines_;
     Lines& lines = lines_[next_lines_ % count];
     const bool grows = bytes > lines.buffer.size();
-    if (is_held(next_lines_) && (grows || !is_drawn_later)) return nullptr;
+    if (&lines == held && (grows || !is_drawn_later)) return nullptr;
     if (grows) {
         wait(lines);
         if (bytes > std::min(device_.available() + lines.buffer.size(), device_.max_buffer())) return nullptr;

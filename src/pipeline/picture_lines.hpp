@@ -28,9 +28,9 @@ public:
 
     explicit PictureLines(Device& device);
 
-    /// Memory for lines, one of `count` that are taken in turn. `held`: those whose lines are not put yet; one of them is taken again
-    /// only if nothing is drawn into it before they are. Null: there is no room on the device.
-    Lines* next(std::size_t bytes, std::size_t count, std::span<const Lines* const> held, bool is_drawn_later);
+    /// Memory for lines, one of `count` that are taken in turn. `held`, if not null: those that are not put yet, taken again only if
+    /// nothing is drawn into them before they are. Null: there is no room on the device.
+    Lines* next(std::size_t bytes, std::size_t count, const Lines* held, bool is_drawn_later);
     /// Returns when the lines that were there are in the picture.
     static void wait(Lines& lines) {
         if (lines.copied.valid()) std::exchange(lines.copied, {}).get();

@@ -122,9 +122,11 @@ std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane
     forget();
     const auto known = std::make_shared<KnownPicture>(planes.empty() ? nullptr : planes.front().pixels, pixels);
     std::vector<KnownPicture::Wanted> wanted;
-    for (const auto& device : devices_)
-        if (device->info().type != "cpu")
-            wanted.push_back({device.get(), planes_fitting(*device, device->allocated() - claimed_of(*device), planes.size(), pixels)});
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        const Device& device = *devices_[i];
+        if (pipelines_[i]->copies_beside())
+            wanted.push_back({&device, planes_fitting(device, device.allocated() - claimed_of(device), planes.size(), pixels)});
+    }
     known->make_known(wanted);
     for (const auto& device : devices_) {
         const std::uint64_t bytes = known->planes_known_to(*device) * pixels * sizeof(float);
@@ -151,7 +153,7 @@ void Pipelines::keep_small(KnownPicture& known, std::size_t pixels) {
         if (!is_its(claim)) continue;
         const std::uint64_t held = claim.device->allocated() - (claimed_of(*claim.device) - claim.bytes);
         const std::uint64_t surplus = held - std::min(held, most);
-        are_fewer = are_fewer || surplus > 0;
+        are_fewer = are_fewer || (surplus > 0 && claim.bytes > 0);
         wanted.push_back({claim.device, (claim.bytes - std::min(claim.bytes, surplus)) / plane});
     }
     if (!are_fewer) return;

@@ -22,7 +22,7 @@ public:
     /// Makes the memory of a picture that will be drawn into again known to its GPUs: `pixels` floats of as many planes, which follow
     /// each other, as each has room for. It must outlast what is returned, which this need not.
     std::shared_ptr<KnownPicture> make_known(std::span<const ChannelPlane> planes, std::size_t pixels);
-    /// Before a frame: where devices hold more than they should, of all, fewer of its planes are known to them.
+    /// Before a frame: where devices hold more than they should, of all, fewer of its planes are known to them. That is made known anew.
     void keep_small(KnownPicture& known, std::size_t pixels);
     /// As Pipeline's. Progress is told by one thread at a time.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,

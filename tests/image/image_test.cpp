@@ -185,6 +185,7 @@ TEST_CASE("channels: in one piece, copied, moved, compared, and of one size", "[
     CHECK(copy.empty());  // NOLINT: that is what is tested
     CHECK(Channels() == Channels(std::vector<std::vector<float>>{}));
     CHECK(Channels() != Channels(0, std::vector<float>{1}));
+    CHECK(Channels() == Channels(7, {}));
     const std::size_t many = 2'000'001;  // several threads fill them
     const Channels large(many, std::vector<float>{3, 4});
     CHECK(std::ranges::count(large[0], 3.0f) == many);

@@ -6,6 +6,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "bench/parts.hpp"
 #include "pipeline/pipelines.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
@@ -64,7 +65,9 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
 }
 
 TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
-    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    // Its memory is known to them, or not; to fewer of its planes once every partition of a large scene takes more of theirs.
+    const bool is_known = GENERATE(false, true);
+    const Scene scene = is_known ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
     Settings settings;
     settings.device = "0";
     Renderer one(scene, {}, settings);
@@ -81,16 +84,33 @@ TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
     const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);
     for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 3 ? any.frame.background[p] : 0});
     std::vector<std::uint8_t> drawn(38 * 33, 1);
+    std::shared_ptr<KnownPicture> known;
+    std::uint64_t known_bytes = 0;
     for (const bool every : {false, true, false})
         for (const double azimuth : {35.0, 100.0}) {
             view.every_partition = every;
             view.camera.azimuth = azimuth;
             PipelineCounts counts;
-            two.render(prepare_frame(compiled, view, one.statistics().tolerance), {.planes = planes, .drawn = drawn}, nullptr, counts);
+            if (known) two.keep_small(*known, pixels[0].size());
+            two.render(prepare_frame(compiled, view, one.statistics().tolerance),
+                       {.planes = planes, .drawn = drawn, .known = known.get()}, nullptr, counts);
+            if (is_known && !known) {
+                const std::uint64_t before = two.device_bytes();
+                known = two.make_known(planes, pixels[0].size());
+                known_bytes = two.device_bytes() - before;
+                CHECK(known_bytes == 2 * 6 * pixels[0].size() * sizeof(float));
+            }
             CHECK(counts.tiles > 2);
             const Image image = one.render(view);
             Image packed = image;
             packed.channels = pixels;
             test::require_same(packed, image);
         }
+    if (!is_known) return;
+    const std::uint64_t before = two.device_bytes();
+    known.reset();
+    two.make_known({}, 0);
+    const std::uint64_t left = before - two.device_bytes();
+    CHECK(left > 0);
+    CHECK(left < known_bytes);
 }
