@@ -243,7 +243,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         else if (!framebuffer.known_)
             framebuffer.known_ = impl.pipelines->make_known(planes, pixels);
         else
-            impl.pipelines->keep_small(*framebuffer.known_, pixels);
+            impl.pipelines->keep_small(*framebuffer.known_);
         try {
             impl.pipelines->render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
                                    impl.settings.progress, counts);

@@ -23,8 +23,7 @@ struct ChannelDifference {
     std::size_t position = 0;  ///< of the largest
 };
 
-ChannelDifference difference(std::span<const float> a, std::span<const float> b,
-                             std::optional<double> tolerance) {
+ChannelDifference difference(std::span<const float> a, std::span<const float> b, std::optional<double> tolerance) {
     ChannelDifference result;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (std::bit_cast<std::uint32_t>(a[i]) == std::bit_cast<std::uint32_t>(b[i])) continue;

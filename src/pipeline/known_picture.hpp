@@ -23,6 +23,7 @@ public:
     /// Makes them known to these devices, and to no other any more: fewer, where a driver refuses. Takes a tenth of a second a gigabyte.
     void make_known(std::span<const Wanted> wanted);
     std::size_t planes_known_to(const Device& device) const;
+    std::size_t pixels() const { return pixels_; }
     /// Planes are known in pieces, which a copy must not cross: after how many each one ends, ascending.
     std::span<const std::size_t> piece_ends() const { return piece_ends_; }
 

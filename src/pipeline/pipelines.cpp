@@ -144,8 +144,8 @@ std::uint64_t Pipelines::claimed_of(const Device& device) const {
     return sum;
 }
 
-void Pipelines::keep_small(KnownPicture& known, std::size_t pixels) {
-    const std::uint64_t plane = pixels * sizeof(float), most = most_bytes_a_pixel * pixels;
+void Pipelines::keep_small(KnownPicture& known) {
+    const std::uint64_t plane = known.pixels() * sizeof(float), most = most_bytes_a_pixel * known.pixels();
     const auto is_its = [&](const Claim& claim) { return claim.picture.lock().get() == &known; };
     std::vector<KnownPicture::Wanted> wanted;
     bool are_fewer = false;
@@ -153,8 +153,8 @@ void Pipelines::keep_small(KnownPicture& known, std::size_t pixels) {
         if (!is_its(claim)) continue;
         const std::uint64_t held = claim.device->allocated() - (claimed_of(*claim.device) - claim.bytes);
         const std::uint64_t surplus = held - std::min(held, most);
-        are_fewer = are_fewer || (surplus > 0 && claim.bytes > 0);
         wanted.push_back({claim.device, (claim.bytes - std::min(claim.bytes, surplus)) / plane});
+        are_fewer = are_fewer || wanted.back().planes < known.planes_known_to(*claim.device);
     }
     if (!are_fewer) return;
     known.make_known(wanted);

@@ -23,7 +23,7 @@ public:
     /// each other, as each has room for. It must outlast what is returned, which this need not.
     std::shared_ptr<KnownPicture> make_known(std::span<const ChannelPlane> planes, std::size_t pixels);
     /// Before a frame: where devices hold more than they should, of all, fewer of its planes are known to them. That is made known anew.
-    void keep_small(KnownPicture& known, std::size_t pixels);
+    void keep_small(KnownPicture& known);
     /// As Pipeline's. Progress is told by one thread at a time.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);

@@ -91,7 +91,7 @@ TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
             view.every_partition = every;
             view.camera.azimuth = azimuth;
             PipelineCounts counts;
-            if (known) two.keep_small(*known, pixels[0].size());
+            if (known) two.keep_small(*known);
             two.render(prepare_frame(compiled, view, one.statistics().tolerance),
                        {.planes = planes, .drawn = drawn, .known = known.get()}, nullptr, counts);
             if (is_known && !known) {
