@@ -1,4 +1,5 @@
-// Kernel 1: how many segments does each ray have, so that exactly that much memory is allocated. First in float, from box
+// Kernel 1: how many segments does each ray have, so that exactly that much memory is allocated, or it is
+// known whether what there is does (room.h). First in float, from box
 // to box: which solids may the ray meet. Then a work-item for each such candidate, so that no ray waits for its many solids
 // one after the other.
 //
@@ -8,18 +9,20 @@
 #include "blocks.h"
 #include "camera.h"
 #include "geometry/collect.h"
+#include "room.h"
 #include "traverse.h"
 
-// Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not
-// come in blocks.
+// Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
+// in blocks.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
-                              __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
+                              __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates,
+                              RayCount room) {
     u32 id = (u32)get_global_id(0), number;
     RayCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
     if (candidates) {
-        if (places[id].segments == places[id + 1].segments) return;
+        if (places[id].segments == places[id + 1].segments || !has_room(frame, places, room)) return;
         candidates += places[id].segments;
     }
     count.segments = count.words = 0;
@@ -29,40 +32,50 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     if (!candidates) places[id] = count;
 }
 
-// A candidate's only segment is kept in `found`, so that kernel 2 need not find it again; more are too rare for the room.
-__kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                         __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
-                         __global const BvhNode* inner_nodes, __global const RayRecord* rays, u32 size,
-                         __global Candidate* candidates, __global End* found) {
-    u32 id = (u32)get_global_id(0), count;
-    Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global Candidate* candidate,
+                           __global End* segment) {
+    const Candidate c = *candidate;
     SolidRecord solid;
-    Candidate c;
     ray3 r;
     real t_min;
-    if (id >= size) return;
-    c = candidates[id];
+    u32 count;
 #ifdef CSGRT_PACKETS  // some are counted, then
     if (c.count != UNCOUNTED) return;
 #endif
     if (!ray_of(frame, rays, number_of(frame, rays, c.ray), &r)) return;
     t_min = t_min_along(frame, r);
-    solid = solids[c.solid];
+    solid = g.solids[c.solid];
     r = ray_at(solid, r);
     if (!collect_many(g, solid, c.solid, r, t_min, 0, &count)) {
         const hits h = collect_few(g, solid, r, t_min);
         count = h.count;
-        if (count == 1) put_segment(found + 2 * (size_t)id, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
+        if (count == 1) put_segment(segment, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
     }
-    candidates[id].count = count;
+    candidate->count = count;
+}
+
+// A candidate's only segment is kept in `found`, so that kernel 2 need not find it again; more are too rare for the room.
+__kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
+                         __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
+                         __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
+                         RayCount room, __global Candidate* candidates, __global End* found) {
+    const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    const u32 size = entries_of(frame, places, room);
+    u32 id;
+    FOR_ENTRIES(id, size)
+        count_segments(frame, g, rays, candidates + id, found + 2 * (size_t)id);
 }
 
 // Each ray's counts, and each of its candidates' place among the ray's segments.
-__kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
+__kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, RayCount room, __global Candidate* candidates,
                        __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;
     RayCount count;
     if (id >= frame->ray_count) return;
+    if (!has_room(frame, places, room)) {
+        counts[id].segments = counts[id].words = COUNT_MAX;
+        return;
+    }
     count.segments = 0;
     for (i = places[id].segments; i < places[id + 1].segments; ++i) {
         candidates[i].before = count.segments;

@@ -6,30 +6,35 @@
 // Whose an end is stands in the end's word of `bits` until kernel 3 has read it: the nodes may lie where `found` does.
 #include "camera.h"
 #include "geometry/collect.h"
+#include "room.h"
 
-__kernel void store_segments(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                             __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
-                             __global const BvhNode* inner_nodes, __global const RayRecord* rays, u32 size,
-                             __global const Candidate* candidates, __global const End* found,
-                             __global const RayCount* offsets, __global End* ends, __global u32* bits) {
-    u32 id = (u32)get_global_id(0), i;
-    size_t base;
-    Candidate c;
-    if (id >= size) return;
-    c = candidates[id];
+static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, Candidate c, __global const End* found,
+                  __global const RayCount* offsets, __global End* ends, __global u32* bits) {
+    const size_t base = 2 * ((size_t)offsets[c.ray].segments + c.before);
+    u32 i;
     if (c.count == 0) return;
-    base = 2 * ((size_t)offsets[c.ray].segments + c.before);
 #if (CSGRT_SOLIDS) & ~ONE_SEGMENT
-    if (c.count > 1 || (MANY_SEGMENTS >> solids[c.solid].type & 1u)) {
-        Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    if (c.count > 1 || (MANY_SEGMENTS >> g.solids[c.solid].type & 1u)) {
         ray3 r;
         if (!ray_of(frame, rays, number_of(frame, rays, c.ray), &r)) return;
-        collect(g, solids[c.solid], c.solid, r, t_min_along(frame, r), ends + base);
+        collect(g, g.solids[c.solid], c.solid, r, t_min_along(frame, r), ends + base);
     } else
 #endif
     {
-        ends[base] = found[2 * (size_t)id];
-        ends[base + 1] = found[2 * (size_t)id + 1];
+        ends[base] = found[0];
+        ends[base + 1] = found[1];
     }
     for (i = 0; i < 2 * c.count; ++i) bits[base + i] = c.ray;
+}
+
+__kernel void store_segments(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
+                             __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
+                             __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
+                             RayCount room_for_candidates, __global const Candidate* candidates, __global const End* found,
+                             __global const RayCount* offsets, RayCount room, __global End* ends, __global u32* bits) {
+    const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    const u32 size = has_room(frame, offsets, room) ? entries_of(frame, places, room_for_candidates) : 0;
+    u32 id;
+    FOR_ENTRIES(id, size)
+        store(frame, g, rays, candidates[id], found + 2 * (size_t)id, offsets, ends, bits);
 }

@@ -13,31 +13,33 @@
 // that of its first end, and a partition's node is in the place of that end, so the list needs no memory but the
 // 2 * segments nodes.
 #include "camera.h"
+#include "room.h"
 
-// A work-item is an end. `rays`: whose each end is.
-__kernel void order_ends(__global const RayCount* offsets, __global const End* all_ends, __global const u32* rays, u32 size,
-                         __global PartitionNode* all_nodes) {
-    u32 id = (u32)get_global_id(0), number, count, i, place = 0;
-    RayCount offset;
-    size_t base;
-    __global const End* ends;
-    real t;
-    if (id >= size) return;
-    i = rays[id];
-    all_nodes[id].owner = i;
-    offset = offsets[i];
-    count = 2 * (offsets[i + 1].segments - offset.segments);
-    base = 2 * (size_t)offset.segments;
-    ends = all_ends + base;
-    number = id - (u32)base;
-    t = ends[number].t;
+static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
+                      __global PartitionNode* all_nodes) {
+    const u32 count = 2 * (offsets[ray + 1].segments - offsets[ray].segments);
+    const size_t base = 2 * (size_t)offsets[ray].segments;
+    __global const End* const ends = all_ends + base;
+    const u32 number = id - (u32)base;
+    const real t = ends[number].t;
+    u32 i, place = 0;
+    all_nodes[id].owner = ray;
     for (i = 0; i < count; ++i) place += ends[i].t < t || (ends[i].t == t && i < number);
     all_nodes[base + place].next = number;
 }
 
+// A work-item is an end. `rays`: whose each end is.
+__kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
+                         __global const u32* rays, RayCount room, __global PartitionNode* all_nodes) {
+    const u32 size = 2 * entries_of(frame, offsets, room);
+    u32 id;
+    FOR_ENTRIES(id, size)
+        order_end(id, rays[id], offsets, all_ends, all_nodes);
+}
+
 static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
 
-__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
+__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets, RayCount room,
                     __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
                     __global u32* firsts, __global RayTally* tallies) {
     u32 id = (u32)get_global_id(0), first_node = NONE;
@@ -50,7 +52,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     __global End* ends;
     __global PartitionNode* list;
     __global u32* bits;
-    if (id >= frame->ray_count) return;
+    if (id >= frame->ray_count || !has_room(frame, offsets, room)) return;
     tally.partitions = tally.overlaps = 0;
     offset = offsets[id];
     segments = offsets[id + 1].segments - offset.segments;

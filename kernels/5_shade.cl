@@ -1,11 +1,12 @@
 // Kernel 5: the first claimed partition -> a pixel.
+#include "room.h"
 #include "shading.h"
 
 __kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                     __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                     __global const BvhNode* inner_nodes,
                     __global const RegionRecord* regions, __global const MaterialRecord* materials,
-                    __global const LightRecord* lights, __global const RayCount* offsets,
+                    __global const LightRecord* lights, __global const RayCount* offsets, RayCount room,
                     __global const End* ends, __global const PartitionNode* nodes,
                     __global const u32* firsts, __global RayTally* tallies, __global const RayRecord* rays,
                     __global TileTally* tally_of_tile, __global float* picture) {
@@ -15,6 +16,11 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     pixel_position at;
     ray3 r;
     if (id >= frame->ray_count) return;
+    if (id == 0 && frame->lines) {  // weaving has left what stands behind the rays' tallies
+        tally_of_tile->candidates = tallies[frame->ray_count].partitions;
+        tally_of_tile->total = offsets[frame->ray_count];
+    }
+    if (!has_room(frame, offsets, room)) return;
     number = number_of(frame, rays, id);
     at = pixel_of(number, frame->window);
     if (!at.inside) return;

@@ -208,6 +208,13 @@ typedef struct {
 } BlockNode;
 #define LISTED_NODES 32u  // entries of a block
 
+// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.
+typedef struct {
+    u32 segments;  // of the ray
+    u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
+} RayCount;
+#define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
+
 // Of a tile whose pixels come by lines: its blocks by what they cost, and what the host wants to know when it is drawn. Behind it
 // stands a byte for each of the tile's blocks: not 0 if a ray of it sees something.
 #define COST_CLASSES 48u
@@ -216,6 +223,8 @@ typedef struct {
     u32 listed[COST_CLASSES];  // of them, those that have their place in the list, where class 0 has none
     u32 entries;               // of that list: blocks of all classes but 0, or parts of them
     u32 overflows;             // first hits: rays without room, in no order
+    u32 candidates;            // every partition: what its rays have, whether there was room for it or not
+    RayCount total;            // the same
 } TileTally;
 
 // An entry of the list: a block's number, and above it 0, or 2 and 3 for its two halves, or 4 to 7 for its quarters. Work-items that
@@ -227,13 +236,6 @@ typedef struct {
 #define LOCKSTEP 32u
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
-
-// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.
-typedef struct {
-    u32 segments;  // of the ray
-    u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
-} RayCount;
-#define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
 
 // 1 count hits -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
 typedef struct {

@@ -1,5 +1,6 @@
 #include "device/opencl.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #ifdef __linux__
@@ -85,8 +86,20 @@ void wait_for(const Event& event) {
     check(clWaitForEvents(1, &one), "clWaitForEvents");
 }
 
+bool is_done(const Event& event) {
+    if (!event) return true;
+    cl_int status = CL_COMPLETE;
+    check(clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr), "clGetEventInfo");
+    return status <= CL_COMPLETE;
+}
+
 void wait_patiently(const Event& event) {
-    if (!event) return;
+    const Event* const one = &event;
+    wait_for_one({&one, 1});
+    wait_for(event);
+}
+
+void wait_for_one(std::span<const Event* const> events) {
 #ifdef __linux__
     struct Slack {  // else a sleep takes 50 microseconds more
         const int before = prctl(PR_GET_TIMERSLACK);
@@ -94,12 +107,8 @@ void wait_patiently(const Event& event) {
         ~Slack() { prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(before)); }
     } slack;
 #endif
-    for (;;) {
-        cl_int status = CL_COMPLETE;
-        check(clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr), "clGetEventInfo");
-        if (status <= CL_COMPLETE) return wait_for(event);
+    while (std::ranges::none_of(events, [](const Event* event) { return is_done(*event); }))
         std::this_thread::sleep_for(std::chrono::microseconds(10));
-    }
 }
 
 void wait_until_done(const Event& event) noexcept {

@@ -1,6 +1,7 @@
 // The ground under src/device: OpenCL's handles freed by scope, its calls checked by name, its events timed.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,10 @@ void wait_for(const Event& event);
 /// The same by looking at it now and then: a thread that waits within NVIDIA's driver slows others that queue commands (measured:
 /// bench/NOTES.md). May return some ten microseconds late.
 void wait_patiently(const Event& event);
+/// Whether it is done, or has failed, which a wait for it then tells.
+bool is_done(const Event& event);
+/// Waits as patiently until one of several is_done().
+void wait_for_one(std::span<const Event* const> events);
 /// The same, whether it failed or not: the memory that it needs may go.
 void wait_until_done(const Event& event) noexcept;
 

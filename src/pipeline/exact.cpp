@@ -3,14 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernel_geometry.hpp"
-
 namespace csgrt {
-namespace kernel {
-#define CSGRT_LARGE_TERMS
-#include "../../kernels/boolean.h"
-}  // namespace kernel
-
 namespace {
 constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
 std::uint32_t blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
@@ -24,11 +17,11 @@ std::vector<std::string> files_of(bool packets) {
 }
 }  // namespace
 
-Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
+Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, bool ahead)
     : device_(device),
       scene_(scene),
       kernels_(kernels),
-      program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings),
+      program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings, ahead),
                settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
@@ -71,32 +64,64 @@ void Exact::release_counted() {
     for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_}) buffer->release();
 }
 
-void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums) {
+void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed) {
     sums.reserve(blocks_of(size) * sizeof(kernel::RayCount));
-    timed_.emplace_back(&PipelineCounts::scan,
-                        scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries, sums, size));
+    timed.emplace_back(&PipelineCounts::scan,
+                       scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries, sums, size));
 }
 
-void Exact::queue_scan(Buffer& counts, std::uint32_t rays) {
+void Exact::queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed) {
     counts.queue_fill(0, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
     std::vector<std::uint32_t> sizes{rays + 1};
     while (sizes.back() > 1) sizes.push_back(blocks_of(sizes.back()));
     while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
     const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) sum_blocks(level(i), sizes[i], level(i + 1));
+    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) sum_blocks(level(i), sizes[i], level(i + 1), timed);
     for (std::size_t i = sizes.size() - 1; i-- > 1;)
-        timed_.emplace_back(&PipelineCounts::scan,
-                            scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
+        timed.emplace_back(&PipelineCounts::scan,
+                           scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
     device_.flush();
 }
 
 // A read that stands behind kernels keeps all copies waiting for them, those of other queues, too: NVIDIA's GPUs make copies to the
 // host one after another. So it is asked for only when they are done.
-kernel::RayCount Exact::sum_of(const Buffer& counts, std::uint32_t rays) {
-    wait_for(timed_.back().second);
-    sum_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
+kernel::RayCount Exact::sum_of(const Buffer& counts, const Run& run) {
+    wait_for(run.timed.back().second);
+    sum_.start(counts, sizeof(kernel::RayCount), run.rays * sizeof(kernel::RayCount));
     sum_.fetch();
     return sum_.wait<kernel::RayCount>(1).front();
+}
+
+std::vector<std::pair<Buffer*, std::uint64_t>> Exact::bytes_of_rays(std::uint32_t rays) {
+    const std::uint64_t entries = std::uint64_t{rays} + 1;
+    return {{&places_, entries * sizeof(kernel::RayCount)},
+            {&counts_, entries * sizeof(kernel::RayCount)},
+            {&firsts_, rays * sizeof(cl_uint)},
+            {&tally_sums_, blocks_of(rays) * sizeof(kernel::RayTally)}};
+}
+
+Exact::Needs Exact::room() const {
+    const auto holding = [](const Buffer& buffer, std::size_t bytes) {
+        return static_cast<std::uint32_t>(std::min<std::size_t>(buffer.size() / bytes, NONE / 2));
+    };
+    const std::size_t segment = 2 * kernels_.end_bytes();
+    return {.candidates = std::min(holding(candidates_, sizeof(kernel::Candidate)), holding(found_, segment)),
+            .total = {.segments = std::min(holding(ends_, segment), holding(found_, 2 * sizeof(kernel::PartitionNode))),
+                      .words = holding(bits_, sizeof(std::uint32_t))}};
+}
+
+// Room for candidates, and for what is found of each.
+bool Exact::reserve_candidates(std::uint32_t candidates) {
+    const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
+    const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
+    if (candidates == COUNT_MAX || found_bytes > device_.max_buffer()) return false;
+    if (candidate_bytes <= candidates_.size() && found_bytes <= found_.size()) return true;
+    const std::uint64_t bytes = candidate_bytes + found_bytes, held = candidates_.size() + found_.size();
+    if (bytes > device_.available() + held) release_counted();
+    if (bytes > device_.available() + candidates_.size() + found_.size()) return false;
+    candidates_.reserve(candidate_bytes);
+    found_.reserve(found_bytes);
+    return true;
 }
 
 // Makes room for the segments and, beside the candidates' or in place of them, the partitions. Buffers only grow, unless that
@@ -122,116 +147,149 @@ bool Exact::reserve_counted(const kernel::RayCount& total) {
     return true;
 }
 
-bool Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
-                  const std::function<void()>& beside) {
-    if (try_weave(scene, tile, rays, kind, counts, beside)) return true;
-    for (const auto& [time, kernel] : timed_) wait_for(kernel);  // a fault is not a lack of memory
+std::optional<Exact::Needs> Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind,
+                                         TimedKernels& timed) {
+    if (auto needs = try_weave({scene, tile, rays, kind, timed})) return needs;
+    for (const auto& [time, kernel] : timed) wait_for(kernel);  // a fault is not a lack of memory
     release_counted();  // a smaller tile is not to be kept from its own
-    return false;
+    return {};
 }
 
-bool Exact::try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
-                      const std::function<void()>& beside) {
-    const SceneBuffers& s = scene;
-    const std::size_t entries = std::size_t{rays} + 1;
-    const std::pair<Buffer*, std::uint64_t> wanted[] = {{&places_, entries * sizeof(kernel::RayCount)},
-                                                        {&counts_, entries * sizeof(kernel::RayCount)},
-                                                        {&firsts_, rays * sizeof(cl_uint)},
-                                                        {&tally_sums_, blocks_of(rays) * sizeof(kernel::RayTally)}};
+std::optional<Exact::Needs> Exact::try_weave(const Run& run) {
+    const auto wanted = bytes_of_rays(run.rays);
     std::uint64_t more = 0;
     for (const auto& [buffer, bytes] : wanted) more += bytes > buffer->size() ? bytes : 0;
     if (more > device_.available()) release_counted();
-    if (more > device_.available()) return false;
+    if (more > device_.available()) return {};
     for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
-    const auto run = [&](double PipelineCounts::*time, Event event) { timed_.emplace_back(time, std::move(event)); };
-    const Buffer none(device_, "nothing");
-    const Buffer& lists = kind == Rays::blocks ? tile.lists : none;
-    const std::size_t group = uneven_group(device_);
-    // Only a picture's blocks hold rays that lie side by side.
-    const bool packets = kind == Rays::blocks && packet_candidates_;
-    run(&PipelineCounts::count_hits,
-        packets ? packet_candidates_->count.launch(rays / packet_rays, group, tile.frame, s.nodes, lists, tile.rays, places_)
-                : find_candidates_.launch(rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
-    queue_scan(places_, rays);
-    const cl_uint candidates = sum_of(places_, rays).segments;
-    const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
-    const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
-    if (candidates == COUNT_MAX || found_bytes > device_.max_buffer()) return false;
-    if (candidate_bytes > candidates_.size() || found_bytes > found_.size()) {
-        const std::uint64_t bytes = candidate_bytes + found_bytes, held = candidates_.size() + found_.size();
-        if (bytes > device_.available() + held) release_counted();
-        if (bytes > device_.available() + candidates_.size() + found_.size()) return false;
-        candidates_.reserve(candidate_bytes);
-        found_.reserve(found_bytes);
-    }
-    const std::size_t listed = candidates ? rays : 0;
-    run(&PipelineCounts::count_hits,
-        packets ? packet_candidates_->list.launch(listed / packet_rays, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
-                                                  s.words, s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, found_)
-                : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
-    device_.flush();
-    run(&PipelineCounts::count_hits, count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                                        s.inner_nodes, tile.rays, candidates, candidates_, found_));
-    run(&PipelineCounts::count_hits, sum_hits_.launch(rays, work_group, tile.frame, places_, candidates_, counts_));
-    queue_scan(counts_, rays);
-    if (beside) beside();
-    total_ = sum_of(counts_, rays);
-    if (!reserve_counted(total_)) return false;
+    Needs needs;
+    queue_places(run);
+    needs.candidates = sum_of(places_, run).segments;
+    if (!reserve_candidates(needs.candidates)) return {};
+    queue_counts(run, needs, needs.candidates);
+    needs.total = total_ = sum_of(counts_, run);
+    if (!reserve_counted(total_)) return {};
+    queue_partitions(run, needs, needs.candidates, 2 * std::size_t{total_.segments});
+    return needs;
+}
 
-    const cl_uint nodes = 2 * total_.segments;
-    run(&PipelineCounts::store_segments,
-        store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                               s.inner_nodes, tile.rays, candidates, candidates_, found_, counts_, ends_, bits_));
+std::optional<Exact::Needs> Exact::weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays,
+                                               TimedKernels& timed) {
+    for (const auto& [buffer, bytes] : bytes_of_rays(rays))
+        if (bytes > buffer->size()) return {};
+    const auto of_rays = [rays](double a_ray) { return static_cast<std::uint64_t>(a_ray * rays); };
+    const std::uint64_t candidates = of_rays(candidates_a_ray_), segments = of_rays(segments_a_ray_);
+    const Needs there = room();
+    // What earlier rays needed says little of these: where half of it is there, it may do.
+    if (there.candidates == 0 || there.total.segments == 0 || candidates / 2 > there.candidates ||
+        segments / 2 > there.total.segments || of_rays(words_a_ray_) / 2 > there.total.words)
+        return {};
+    // Where there is more than that, work-items take several candidates or ends: as many items as any device has at a time do as well
+    // as more.
+    const auto items = [](std::uint64_t expected, std::uint64_t most) {
+        constexpr std::uint64_t enough = 1 << 18;
+        return std::min(std::max(expected + expected / 8, enough), most);
+    };
+    const Run run{scene, tile, rays, Rays::blocks, timed};
+    const std::size_t listed = items(candidates, there.candidates);
+    queue_places(run);
+    queue_counts(run, there, listed);
+    queue_partitions(run, there, listed, 2 * items(segments, there.total.segments));
+    device_.flush();
+    return there;
+}
+
+void Exact::queue_places(const Run& run) {
+    const SceneBuffers& s = run.scene;
+    const TileBuffers& tile = run.tile;
+    const Buffer none(device_, "nothing");
+    const Buffer& lists = run.kind == Rays::blocks ? tile.lists : none;
+    const std::size_t group = uneven_group(device_);
+    run.timed.emplace_back(
+        &PipelineCounts::count_hits,
+        by_packets(run) ? packet_candidates_->count.launch(run.rays / packet_rays, group, tile.frame, s.nodes, lists, tile.rays, places_)
+                        : find_candidates_.launch(run.rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none, kernel::RayCount{}));
+    queue_scan(places_, run.rays, run.timed);
+}
+
+// `candidates`: about so many, of what there is room for at most.
+void Exact::queue_counts(const Run& run, const Needs& room, std::size_t candidates) {
+    const SceneBuffers& s = run.scene;
+    const TileBuffers& tile = run.tile;
+    const Buffer none(device_, "nothing");
+    const Buffer& lists = run.kind == Rays::blocks ? tile.lists : none;
+    const std::size_t group = uneven_group(device_), listed = candidates ? run.rays : 0;
+    const auto timed = [&](Event event) { run.timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
+    places_room_ = {.segments = room.candidates, .words = 0};
+    timed(by_packets(run)
+              ? packet_candidates_->list.launch(listed / packet_rays, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                                s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, places_room_, found_)
+              : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_, places_room_));
+    device_.flush();
+    timed(count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays,
+                             places_, places_room_, candidates_, found_));
+    timed(sum_hits_.launch(run.rays, work_group, tile.frame, places_, places_room_, candidates_, counts_));
+    queue_scan(counts_, run.rays, run.timed);
+}
+
+// `candidates`, `nodes`: about so many, of what there is room for at most.
+void Exact::queue_partitions(const Run& run, const Needs& room, std::size_t candidates, std::size_t nodes) {
+    const SceneBuffers& s = run.scene;
+    const TileBuffers& tile = run.tile;
+    const auto timed = [&](double PipelineCounts::*time, Event event) { run.timed.emplace_back(time, std::move(event)); };
+    room_ = room.total;
+    timed(&PipelineCounts::store_segments,
+          store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                 s.inner_nodes, tile.rays, places_, places_room_, candidates_, found_, counts_, room_, ends_, bits_));
     device_.flush();
     Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
-    run(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, counts_, ends_, bits_, nodes, partitions));
-    run(&PipelineCounts::weave,
-        weave_.launch(rays, group, tile.frame, tile.rays, counts_, ends_, partitions, bits_, firsts_, places_));
-    run(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, s.solids, s.starts, s.leaves, s.trees, counts_, ends_, bits_,
-                                                    nodes, partitions));
-
-    counts.segments += total_.segments;
-    counts.hits += nodes;
-    counts.partitions_allocated += nodes;
-    counts.segment_bytes += std::uint64_t{nodes} * kernels_.end_bytes() + candidate_bytes + found_bytes;
-    counts.partition_bytes +=
-        std::uint64_t{nodes} * sizeof(kernel::PartitionNode) + std::uint64_t{total_.words} * sizeof(std::uint32_t);
-    return true;
+    timed(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, tile.frame, counts_, ends_, bits_, room_, partitions));
+    timed(&PipelineCounts::weave, weave_.launch(run.rays, uneven_group(device_), tile.frame, tile.rays, counts_, room_, ends_, partitions,
+                                                bits_, firsts_, places_));
+    timed(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees, counts_, ends_,
+                                                      bits_, room_, partitions));
 }
 
-void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {
-    timed_.emplace_back(&PipelineCounts::shade,
-                        shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
-                                      s.regions, s.materials, s.lights, counts_, ends_, found_, firsts_, places_, tile.rays,
-                                      tile.tally, picture));
+void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& counts) {
+    const std::uint64_t nodes = 2 * std::uint64_t{needs.total.segments};
+    counts.segments += needs.total.segments;
+    counts.hits += nodes;
+    counts.partitions_allocated += nodes;
+    counts.segment_bytes += nodes * kernels_.end_bytes() +
+                            needs.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
+    counts.partition_bytes += nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needs.total.words} * sizeof(std::uint32_t);
+    candidates_a_ray_ = double(needs.candidates) / rays;
+    segments_a_ray_ = double(needs.total.segments) / rays;
+    words_a_ray_ = double(needs.total.words) / rays;
+}
+
+void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed) {
+    timed.emplace_back(&PipelineCounts::shade,
+                       shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
+                                     s.regions, s.materials, s.lights, counts_, room_, ends_, found_, firsts_, places_, tile.rays,
+                                     tile.tally, picture));
 }
 
 // The first step of a scan leaves the sums of blocks, so that not every ray's tally has to come to the host.
-void Exact::tally(std::uint32_t rays) {
-    sum_blocks(places_, rays, tally_sums_);
+void Exact::tally(std::uint32_t rays, TimedKernels& timed) {
+    sum_blocks(places_, rays, tally_sums_, timed);
     tallies_ = blocks_of(rays);
     read_.start(tally_sums_, tallies_ * sizeof(kernel::RayTally));
 }
 
-void Exact::fetch() {
-    read_.fetch();
-    for (auto& kernel : timed_) done_.push_back(std::move(kernel));
-    timed_.clear();
-}
+void Exact::fetch() { read_.fetch(); }
 
-void Exact::settle(std::uint32_t rays, bool tallied, PipelineCounts& counts) {
-    if (tallied) tally(rays);
+void Exact::settle(std::uint32_t rays, bool tallied, TimedKernels& timed, PipelineCounts& counts) {
+    if (tallied) tally(rays, timed);
     device_.finish();
     fetch();
     if (tallied) add_tallies(counts);
-    add_times(counts);
+    add_times(timed, counts);
 }
 
-void Exact::forget() noexcept {
-    timed_.clear();
-    done_.clear();
-    read_.forget();
+void Exact::add_times(const TimedKernels& timed, PipelineCounts& counts) {
+    for (const auto& [time, kernel] : timed) counts.*time += milliseconds(kernel);
 }
 
 void Exact::add_tallies(PipelineCounts& counts) {
@@ -239,68 +297,6 @@ void Exact::add_tallies(PipelineCounts& counts) {
         counts.partitions_used += tally.partitions;
         counts.overlaps += tally.overlaps;
     }
-}
-
-void Exact::add_times(PipelineCounts& counts) {
-    for (const auto& [time, kernel] : std::exchange(done_, {})) counts.*time += milliseconds(kernel);
-}
-
-std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {
-    const auto offsets = counts_.read<kernel::RayCount>(std::size_t{rays} + 1);
-    const auto firsts = firsts_.read<std::uint32_t>(rays);
-    const auto ends = kernels_.ends(ends_.read<std::byte>(2 * std::size_t{total_.segments} * kernels_.end_bytes()));
-    const auto nodes = found_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
-    const auto bits = bits_.read<std::uint32_t>(total_.words);
-    std::vector<std::vector<ClaimedPartition>> claims(rays);
-    for (std::uint32_t i = 0; i < rays; ++i)
-        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], firsts[i]);
-    return claims;
-}
-
-// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
-std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments,
-                                            const std::uint32_t* bits) const {
-    const kernel::cover cover{
-        ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(), scene_.trees.data()};
-    kernel::covered_solids covered;
-    kernel::list_covered(cover, &covered);
-    std::vector<std::uint32_t> claimants;
-    for (std::uint32_t segment = 0; segment < segments; ++segment) {
-        if (!kernel::covers(cover, segment)) continue;
-        const kernel::SolidRecord& solid = scene_.solids[ends[2 * segment].solid];
-        for (std::uint32_t i = 0; i < solid.start_count; ++i) {
-            const kernel::StartRecord& start = scene_.starts[solid.first_start + i];
-            if (kernel::term_holds(cover, &covered, start)) claimants.push_back(start.region);
-        }
-    }
-    std::sort(claimants.begin(), claimants.end());
-    claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
-    return claimants;
-}
-
-std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends,
-                                               const std::vector<kernel::PartitionNode>& nodes,
-                                               const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
-                                               const kernel::RayCount& end, std::uint32_t first_node) const {
-    std::vector<ClaimedPartition> claims;
-    const std::uint32_t segments = end.segments - begin.segments;
-    const std::size_t base = 2 * std::size_t{begin.segments};
-    for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
-        const kernel::PartitionNode& partition = nodes[base + node];
-        const std::uint32_t region = partition.owner & ~OVERLAP;
-        if (region == NONE) continue;
-        ClaimedPartition claim;
-        claim.in = ends[base + partition.in_end];
-        claim.out = ends[base + partition.out_end];
-        claim.in_leaves = partition.in_end % 2 == 1;
-        claim.out_enters = partition.out_end % 2 == 0;
-        claim.region = region;
-        if (partition.owner & OVERLAP)
-            claim.claimants =
-                claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
-        claims.push_back(std::move(claim));
-    }
-    return claims;
 }
 
 }  // namespace csgrt

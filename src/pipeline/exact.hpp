@@ -2,13 +2,14 @@
 //
 //   count hits -> store segments -> weave -> evaluate -> shade
 //
-// Memory is counted, then allocated, never guessed.
+// Memory is counted, then allocated; or, while other rays are under way, what there is is taken to do, and where it does not, nothing
+// is written and the host, once it is told, has the rays counted.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "compile/claims.hpp"
 #include "device/queued.hpp"
@@ -16,32 +17,51 @@
 
 namespace csgrt {
 
+/// Kernels that run or have run, each with what its time counts as.
+using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
+
 /// How a tile's rays are given: blocks of a picture's that kernel 0 has looked at, single ones of a picture's, or a
 /// list.
 enum class Rays { blocks, picked, listed };
 
 class Exact {
 public:
-    Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+    /// `ahead`: weave_ahead() may be called.
+    Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, bool ahead);
 
-    /// Runs the kernels on the tile's rays, but the last one; waits for counts only. False: the rays' segments do not fit the
-    /// memory; nothing is lost then, the caller takes a smaller tile. `beside` is called while most of them run.
-    bool weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
-               const std::function<void()>& beside = nullptr);
+    /// What rays need, or have room for.
+    struct Needs {
+        std::uint32_t candidates = 0;
+        kernel::RayCount total{};
+
+        bool have_room(const Needs& room) const {
+            return candidates <= room.candidates && total.segments <= room.total.segments && total.words <= room.total.words;
+        }
+    };
+
+    /// Runs the kernels on the tile's rays, but the last one; waits for counts only. None: the rays' segments do not fit the
+    /// memory; nothing is lost then, the caller takes a smaller tile.
+    std::optional<Needs> weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, TimedKernels& timed);
+    /// The same in the memory that there is, of a picture's blocks; does not wait, not even for what runs. What the rays need, and so
+    /// whether that was enough, stands in the tile's tally once they are shaded. Returns what there is room for; none: by what earlier
+    /// rays needed it would hardly do, and nothing is queued.
+    std::optional<Needs> weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, TimedKernels& timed);
     /// Runs the last one on the last run's rays, if they are a picture's. Does not wait.
-    void shade(const SceneBuffers& scene, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
+    void shade(const SceneBuffers& scene, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed);
     /// Has the last run's partitions and overlaps summed, once it is shaded. Does not wait.
-    void tally(std::uint32_t rays);
-    /// Has the sums copied; see QueuedRead. When the last run's kernels are done, and before those of the next one.
+    void tally(std::uint32_t rays, TimedKernels& timed);
+    /// Has the sums copied; see QueuedRead. When that is done, and before the next call of tally().
     void fetch();
     /// Adds them up, once fetch() was called. Waits.
     void add_tallies(PipelineCounts& counts);
-    /// Adds up how long kernels took, those up to the last fetch().
-    void add_times(PipelineCounts& counts);
-    /// All that at once, the sums only if they are `tallied`. Waits.
-    void settle(std::uint32_t rays, bool tallied, PipelineCounts& counts);
+    /// Adds up how long kernels took. Waits.
+    static void add_times(const TimedKernels& timed, PipelineCounts& counts);
+    /// Adds up what rays needed, and tells what the next ones may need.
+    void add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& counts);
+    /// Sums the last run's partitions and overlaps, if they are `tallied`, and adds up how long its kernels took. Waits.
+    void settle(std::uint32_t rays, bool tallied, TimedKernels& timed, PipelineCounts& counts);
     /// Leaves aside what the last runs have yet to tell.
-    void forget() noexcept;
+    void forget() noexcept { read_.forget(); }
 
     /// The claimed partitions of each ray of the last run, from the first that is seen on.
     std::vector<std::vector<ClaimedPartition>> claims(std::uint32_t rays) const;
@@ -53,14 +73,29 @@ public:
     void release();  ///< gives that back: another use of the budget wants it
 
 private:
-    bool try_weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts,
-                   const std::function<void()>& beside);
+    /// One tile's kernels, of which steps are queued.
+    struct Run {
+        const SceneBuffers& scene;
+        const TileBuffers& tile;
+        std::uint32_t rays;
+        Rays kind;
+        TimedKernels& timed;
+    };
+    /// Only a picture's blocks hold rays that lie side by side.
+    bool by_packets(const Run& run) const { return run.kind == Rays::blocks && packet_candidates_; }
+    std::optional<Needs> try_weave(const Run& run);
+    void queue_places(const Run& run);  // where each ray's candidates stand
+    void queue_counts(const Run& run, const Needs& room, std::size_t candidates);
+    void queue_partitions(const Run& run, const Needs& room, std::size_t candidates, std::size_t nodes);
     /// A step of the scan: of each block of entries the sum; the entries become sums within their block.
-    void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums);
+    void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set.
-    void queue_scan(Buffer& counts, std::uint32_t rays);
-    kernel::RayCount sum_of(const Buffer& counts, std::uint32_t rays);  // the last one of them, once queue_scan() was called; waits
-    void release_counted();  // what holds segments and partitions
+    void queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed);
+    kernel::RayCount sum_of(const Buffer& counts, const Run& run);  // the last one of them, once queue_scan() was called; waits
+    std::vector<std::pair<Buffer*, std::uint64_t>> bytes_of_rays(std::uint32_t rays);
+    Needs room() const;  // in what holds candidates, segments and partitions
+    void release_counted();  // that
+    bool reserve_candidates(std::uint32_t candidates);
     bool reserve_counted(const kernel::RayCount& total);
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends,
                                             const std::vector<kernel::PartitionNode>& nodes,
@@ -87,8 +122,9 @@ private:
     Buffer found_;             // the candidates' only segments; once they are stored, the partitions
     Buffer ends_, bits_;
     std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
-    kernel::RayCount total_{};                              // of the last run
-    std::vector<std::pair<double PipelineCounts::*, Event>> timed_, done_;  // kernels that run, and those that have
+    kernel::RayCount total_{};                              // of the last run that was counted
+    kernel::RayCount places_room_{}, room_{};               // of the last run
+    double candidates_a_ray_ = 0, segments_a_ray_ = 0, words_a_ray_ = 0;  // of the last rays whose needs are known
     Buffer tally_sums_;        // read while the next run's kernels run
     std::size_t tallies_ = 0;  // how many sums
     QueuedRead read_, sum_;

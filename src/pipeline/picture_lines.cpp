@@ -12,23 +12,25 @@ PictureLines::PictureLines(Device& device) : device_(device), copies_(device) {
     for (std::size_t i = 0; i < most_lines; ++i) lines_.push_back({Buffer(device, "lines"), {}});
 }
 
-PictureLines::Lines* PictureLines::next(std::size_t bytes, std::size_t count, const Lines* held, bool is_drawn_later) {
-    if (&lines_[next_lines_ % count] == held) ++next_lines_;
-    Lines& lines = lines_[next_lines_ % count];
-    const bool grows = bytes > lines.buffer.size();
-    if (&lines == held && (grows || !is_drawn_later)) return nullptr;
-    if (grows) {
+PictureLines::Lines* PictureLines::take(std::size_t bytes, std::size_t count) {
+    const auto last = lines_.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto rank = [](const Lines& lines) { return std::pair(lines.is_held, lines.put); };
+    Lines& lines = *std::min_element(lines_.begin(), last, [&](const Lines& a, const Lines& b) { return rank(a) < rank(b); });
+    if (lines.is_held) return nullptr;
+    if (bytes > lines.buffer.size()) {
         wait(lines);
         if (bytes > std::min(device_.available() + lines.buffer.size(), device_.max_buffer())) return nullptr;
         lines.buffer.reserve(bytes);
     }
-    ++next_lines_;
+    lines.is_held = true;
     return &lines;
 }
 
 void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
                        const RenderTarget& target) {
     const std::uint32_t first = tile.first_block(), end = tile.end_block();
+    lines.is_held = false;
+    lines.put = ++tiles_put_;
     if (target.planes.empty()) return;
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, shown, target);
     hold_shown(frame, first, end, shown, target);
@@ -137,6 +139,7 @@ void PictureLines::abandon() noexcept {
     for (Lines& lines : lines_) {
         if (lines.copied.valid()) lines.copied.wait();
         lines.copied = {};
+        lines.is_held = false;
     }
 }
 
@@ -148,8 +151,11 @@ std::uint64_t PictureLines::held() const {
 
 void PictureLines::release(const Lines* but) {
     finish();
-    for (Lines& lines : lines_)
-        if (&lines != but) lines.buffer.release();
+    for (Lines& lines : lines_) {
+        if (&lines == but) continue;
+        lines.is_held = false;
+        lines.buffer.release();
+    }
 }
 
 }  // namespace csgrt

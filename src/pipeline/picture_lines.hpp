@@ -22,15 +22,17 @@ public:
     struct Lines {
         Buffer buffer;
         std::shared_future<void> copied;
+        bool is_held = false;    ///< by a tile that is not put yet
+        std::uint64_t put = 0;   ///< the tile that was put last, by its number; 0: none
     };
 
     static constexpr std::size_t most_lines = 8;  ///< Lines
 
     explicit PictureLines(Device& device);
 
-    /// Memory for lines, one of `count` that are taken in turn. `held`, if not null: those that are not put yet, taken again only if
-    /// nothing is drawn into them before they are. Null: there is no room on the device.
-    Lines* next(std::size_t bytes, std::size_t count, const Lines* held, bool is_drawn_later);
+    /// Memory for a tile's lines, which holds it until it is put: of `count` the one whose tile was put first. Null: tiles hold all of
+    /// them, or there is no room on the device.
+    Lines* take(std::size_t bytes, std::size_t count);
     /// Returns when the lines that were there are in the picture.
     static void wait(Lines& lines) {
         if (lines.copied.valid()) std::exchange(lines.copied, {}).get();
@@ -47,7 +49,7 @@ public:
     void abandon() noexcept;
 
     std::uint64_t held() const;  ///< bytes on the device
-    void release(const Lines* but = nullptr);  ///< gives its memory there back, once all is done
+    void release(const Lines* but = nullptr);  ///< gives its memory there back, once all is done; no tile but that of `but` has any
 
 private:
     /// Memory that the device copies to at full speed.
@@ -64,7 +66,7 @@ private:
 
     Device& device_;
     std::vector<Lines> lines_;
-    std::size_t next_lines_ = 0;
+    std::uint64_t tiles_put_ = 0;
     CopyFeed copies_;  ///< to be gone before the lines
     std::array<Slot, 2> slots_;
     std::size_t next_ = 0;  ///< the slot that has waited longest

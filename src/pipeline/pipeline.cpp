@@ -1,7 +1,6 @@
 #include "pipeline/pipeline.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "clock.hpp"
@@ -13,20 +12,6 @@ constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay sho
 
 // Rays of a row of the window's blocks.
 std::uint64_t row_of(const kernel::Frame& frame) { return std::uint64_t{kernel::blocks_across(frame.window)} * block_rays; }
-
-// The range's first tile, of at most `most` rays: whole blocks, or parts of one; and whole rows of the window's blocks if they are
-// many, for what a GPU copies of them is in few pieces then.
-Tile first_tile(RayRange range, std::uint64_t most, std::uint64_t row) {
-    std::uint64_t end = std::min(range.first + most, range.end);
-    const std::uint64_t in_block = range.first % block_rays;
-    if (in_block != 0) {
-        end = std::min(end, range.first - in_block + block_rays);
-    } else if (end < range.end && most >= block_rays) {
-        const std::uint64_t unit = most >= 4 * row ? row : block_rays;
-        end = std::max(end / unit * unit, range.first + block_rays);
-    }
-    return {static_cast<std::uint32_t>(range.first), static_cast<std::uint32_t>(end - range.first)};
-}
 
 }  // namespace
 
@@ -47,7 +32,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
 Exact& Pipeline::exact() {
     if (!exact_) {
         const auto start = Clock::now();
-        exact_.emplace(device_, scene_, kernels_, settings_);
+        exact_.emplace(device_, scene_, kernels_, settings_, by_lines_.has_value());
         build_ms_ += milliseconds_since(start);
     }
     return *exact_;
@@ -94,28 +79,17 @@ std::uint64_t Pipeline::largest_tile(const kernel::Frame& frame) const {
 void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= device_.available() + reused) return;
     tile_.release_rays();
-    if (by_lines_) release_lines();
+    if (by_lines_) by_lines_->release();
     if (exact_) exact_->release();
 }
 
-// `tile_of`: the first one of a range's, of at most so many rays. `work` is told the following one, too.
-void Pipeline::for_each_tile(RayRange range, std::uint64_t size, const FirstTile& tile_of, const Progress& progress,
-                             const std::function<bool(const Tile&, const Tile&)>& work) {
-    std::uint64_t first = range.first;
-    while (first < range.end) {
-        const Tile tile = tile_of({first, range.end}, size);
-        if (!work(tile, tile_of({first + tile.rays, range.end}, size))) {
-            if (tile.rays == 1)
-                throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
-                                                       std::to_string(device_.budget() >> 20) +
-                                                       " MiB): raise --max-memory, or use --reference");
-            size = tile.rays / 2;
-            continue;
+void Pipeline::for_each_tile(TileSource& source, const Told& told, const std::function<bool(const Tile&)>& work) {
+    for (Tile tile = source.next(); tile.rays > 0; tile = source.next()) {
+        if (!work(tile)) {
+            source.halve(tile, device_.budget());
+        } else if (told) {
+            told(tile.rays);
         }
-        first += tile.rays;
-        if (progress &&
-            !progress(static_cast<double>(first - range.first) / static_cast<double>(range.end - range.first)))
-            throw Error(Status::interrupted, "interrupted");
     }
 }
 
@@ -129,37 +103,28 @@ void Pipeline::upload_lights(const PreparedFrame& prepared) {
     if (!lights.empty()) buffers_.lights.upload(lights);
 }
 
-void Pipeline::render(const PreparedFrame& prepared, RayRange range, const std::function<RayRange()>& next,
-                      const RenderTarget& target, const Progress& progress, PipelineCounts& counts) {
+void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
+                      PipelineCounts& counts) {
     const bool every = prepared.frame.every_partition;
-    if (!by_lines_ || !by_lines_->ahead) upload_lights(prepared);  // else the frame's are there
+    upload_lights(prepared);
     prepare(every);
     if (by_lines_ && std::exchange(drew_every_partition_, every) != every) {  // there is memory for one way at a time
-        release_lines();
+        by_lines_->release();
         if (exact_) exact_->release();
     }
-    const std::uint64_t bytes = bytes_a_ray(prepared.frame, target);
-    const std::uint64_t row = row_of(prepared.frame), largest = largest_tile(prepared.frame);
-    const FirstTile tile_of = [&](RayRange r, std::uint64_t size) { return first_tile(r, size, row); };
-    for_each_tile(range, std::min(fitting(bytes), largest), tile_of, progress, [&](const Tile& tile, const Tile& following) {
-        ++counts.tiles;
-        if (tile.rays % block_rays != 0) {
-            std::vector<std::uint32_t> numbers(tile.rays);
-            std::iota(numbers.begin(), numbers.end(), tile.first);
-            draw_exactly(prepared.frame, numbers, target, counts);
-            return true;
-        }
-        if (!by_lines_) return draw_in_place(prepared.frame, tile, target, counts);
-        const Tile after = following.rays > 0 ? following : tile_of(next(), std::min(fitting(bytes), largest));
-        return draw_by_lines(prepared.frame, tile, after, target, counts);
+    const std::uint64_t bytes = bytes_a_ray(prepared.frame, target), largest = largest_tile(prepared.frame);
+    TileSource source(take, [&] { return std::min(fitting(bytes), largest); }, row_of(prepared.frame));
+    const Drawing d{prepared.frame, source, target, told, counts};
+    if (by_lines_) return every ? partitions_by_lines(d) : first_hits_by_lines(d);
+    for_each_tile(source, [&](std::uint64_t rays) { d.tell(static_cast<std::uint32_t>(rays)); }, [&](const Tile& tile) {
+        if (tile.rays % block_rays == 0) return draw_in_place(d, tile);
+        draw_part_of_block(d, tile);
+        return true;
     });
 }
 
 void Pipeline::finish() {
-    if (!by_lines_) return;
-    put_drawn();
-    by_lines_->begin();
-    by_lines_->lines.finish();
+    if (by_lines_) by_lines_->lines.finish();
 }
 
 void Pipeline::abandon() noexcept {
@@ -169,29 +134,33 @@ void Pipeline::abandon() noexcept {
         device_.finish();  // what was queued ahead draws into lines that a frame may take next
     } catch (...) {
     }
-    by_lines_->begin();
+    by_lines_->give_up();
     by_lines_->lines.abandon();
 }
 
-void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers,
-                     const Progress& progress, PipelineCounts& counts) {
-    const std::vector<std::byte> list = kernels_.rays(rays);
+void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers,
+                     const Told& told, PipelineCounts& counts) {
     const std::size_t bytes = kernels_.ray_bytes();
     if (exact_) exact_->forget();  // what a call that threw has left
     picture_.release();
     exact();
-    for_each_tile({0, rays.size()}, fitting(bytes + Exact::ray_bytes), first_rays, progress, [&](const Tile& tile, const Tile&) {
+    TileSource source(take, [&] { return fitting(bytes + Exact::ray_bytes); }, 0);
+    for_each_tile(source, told, [&](const Tile& tile) {
+        const std::span<const Ray> some = rays.subspan(tile.first, tile.rays);
         make_room(tile.rays * (bytes + Exact::ray_bytes), tile_.rays.size());
         tile_.rays.reserve(tile.rays * bytes);
-        tile_.rays.upload(list.data() + tile.first * bytes, tile.rays * bytes);
+        tile_.rays.upload(kernels_.rays(some));
         kernel::Frame frame = prepared.frame;
         frame.ray_count = tile.rays;
         upload(frame);
-        if (!weave(tile_, tile.rays, Rays::listed, counts)) return false;
-        exact().settle(tile.rays, true, counts);
+        TimedKernels timed;
+        const auto needs = weave(tile.rays, Rays::listed, timed);
+        if (!needs) return false;
+        exact().add_needs(*needs, tile.rays, counts);
+        exact().settle(tile.rays, true, timed, counts);
         const auto claims = exact().claims(tile.rays);
         for (std::uint32_t i = 0; i < tile.rays; ++i) {
-            answers[tile.first + i] = to_partitions(kernels_, prepared.frame, rays[tile.first + i], claims[i]);
+            answers[tile.first + i] = to_partitions(kernels_, prepared.frame, some[i], claims[i]);
             for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
         }
         ++counts.tiles;

@@ -1,7 +1,7 @@
 // CompiledScene + Frame -> a picture or partitions. Rays go through in tiles (ranges of their numbers): of a picture the
 // blocks that see nothing are left out (cull.hpp), the rays of the others go the short way (first_hits.hpp) if only the first
 // hits are wanted, else the exact way (exact.hpp), and their pixels into the image: in place (picture.hpp), or by lines from a GPU,
-// which is given the next tile before the host looks at this one (by_lines.hpp). A tile that does not fit the memory is halved, down
+// which is given the next tiles before the host looks at this one (by_lines.hpp). A tile that does not fit the memory is halved, down
 // to one ray. Nothing a ray computes depends on its tile.
 #pragma once
 
@@ -12,12 +12,10 @@
 #include "pipeline/by_lines.hpp"
 #include "pipeline/exact.hpp"
 #include "pipeline/first_hits.hpp"
-#include "pipeline/frame_parts.hpp"
 #include "pipeline/picture.hpp"
+#include "pipeline/tile_source.hpp"
 
 namespace csgrt {
-
-using Progress = std::function<bool(double)>;
 
 /// How pixels come to the host: by lines, as from a GPU, also from another device?
 enum class Readback { by_device, lines };
@@ -34,17 +32,19 @@ public:
 
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition);
-    /// Draws the frame, so far as the range goes; it begins with a block. Some of it may come into the target until finish().
-    /// `next`: the range of the frame that the next call will have; empty: this is the frame's last.
-    /// Throws Error (out_of_memory, device_fault; interrupted if `progress` says so).
-    void render(const PreparedFrame& prepared, RayRange range, const std::function<RayRange()>& next,
-                const RenderTarget& target, const Progress& progress, PipelineCounts& counts);
+    /// Is told how many more rays are done. What it throws ends the work.
+    using Told = std::function<void(std::uint64_t rays)>;
+
+    /// Draws the frame's rays, so far as `take` gives them; each range begins with a block. Some of it may come into the target until
+    /// finish(). Throws Error (out_of_memory, device_fault).
+    void render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
+                PipelineCounts& counts);
     /// Returns when the target holds all that was drawn. Throws what kept it from doing so.
     void finish();
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
-    /// An answer for each ray.
-    void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, RayPartitions* answers, const Progress& progress,
+    /// An answer for each ray that `take` gives.
+    void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers, const Told& told,
                PipelineCounts& counts);
 
     /// Does its device draw a tile while it copies another's pixels?
@@ -58,32 +58,50 @@ private:
     std::uint64_t fitting(std::uint64_t bytes_a_ray) const;
     std::uint64_t largest_tile(const kernel::Frame& frame) const;
     void make_room(std::uint64_t bytes, std::uint64_t reused);
-    using FirstTile = std::function<Tile(RayRange, std::uint64_t)>;
-    void for_each_tile(RayRange range, std::uint64_t size, const FirstTile& tile_of, const Progress& progress,
-                       const std::function<bool(const Tile&, const Tile&)>& work);
-    /// Of single rays.
-    static Tile first_rays(RayRange range, std::uint64_t most) {
-        return {static_cast<std::uint32_t>(range.first), static_cast<std::uint32_t>(std::min(most, range.end - range.first))};
-    }
+    void for_each_tile(TileSource& source, const Told& told, const std::function<bool(const Tile&)>& work);
     void upload(const kernel::Frame& frame);
     void upload_lights(const PreparedFrame& prepared);
     bool list_rays(kernel::Frame& frame, const std::vector<std::uint32_t>& numbers, std::uint32_t rays_each,
                    std::uint64_t pixel_bytes, std::uint64_t ray_bytes);
-    bool weave(const TileBuffers& tile, std::uint32_t rays, Rays kind, PipelineCounts& counts);
+    std::optional<Exact::Needs> weave(std::uint32_t rays, Rays kind, TimedKernels& timed);
 
+    /// What a frame's tiles have in common.
+    struct Drawing {
+        const kernel::Frame& frame;
+        TileSource& source;
+        const RenderTarget& target;
+        const Told& told;
+        PipelineCounts& counts;
+
+        /// A tile is done.
+        void tell(std::uint32_t rays) const {
+            ++counts.tiles;
+            if (told) told(rays);
+        }
+    };
+    static std::uint64_t pixel_bytes_of(const RenderTarget& target);
+    static std::uint64_t cull_bytes(const Tile& tile);
     std::uint64_t bytes_a_ray(const kernel::Frame& frame, const RenderTarget& target) const;
-    bool draw_in_place(kernel::Frame frame, const Tile& tile, const RenderTarget& target, PipelineCounts& counts);
-    bool draw_by_lines(const kernel::Frame& frame, const Tile& tile, const Tile& next, const RenderTarget& target,
-                       PipelineCounts& counts);
-    bool queue(QueuedTile& queued, kernel::Frame frame, const Tile& tile, const RenderTarget& target, const QueuedTile* before);
+    bool draw_in_place(const Drawing& d, const Tile& tile);
+    void draw_part_of_block(const Drawing& d, const Tile& tile);
+    void draw_exactly(const Drawing& d, const std::vector<std::uint32_t>& numbers);
+
+    void first_hits_by_lines(const Drawing& d);
+    void partitions_by_lines(const Drawing& d);
+    QueuedTile* queue_next(const Drawing& d);
+    bool queue(QueuedTile& queued, const Drawing& d, const Tile& tile);
     void put_background(QueuedTile& queued, const RenderTarget& target);
-    bool weave_queued(QueuedTile& queued, const RenderTarget& target, PipelineCounts& counts);
-    void put_drawn();
+    void put(QueuedTile& tile, const Drawing& d);
     void read_overflown(QueuedTile& tile);
-    void draw_overflown(const kernel::Frame& frame, const RenderTarget& target, PipelineCounts& counts);
-    void release_lines(const QueuedTile* but = nullptr);
-    void draw_exactly(kernel::Frame frame, const std::vector<std::uint32_t>& numbers, const RenderTarget& target,
-                      PipelineCounts& counts);
+    std::uint32_t take_list(QueuedTile& tile);
+    PictureLines::Lines* take_lines(const QueuedTile& tile, const Drawing& d);
+    bool weave_alone(QueuedTile& tile, const Drawing& d);
+    bool draw_alone(QueuedTile& tile, const Drawing& d);
+    void shade(QueuedTile& tile, const Drawing& d);
+    static const Event& end_of(const QueuedTile& tile);
+    bool settle(QueuedTile& tile, const Drawing& d);
+    static void give_up(QueuedTile& tile);
+    static void give_back(QueuedTile& tile, const Drawing& d);
 
     Device& device_;
     const CompiledScene& scene_;

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <optional>
+#include <utility>
 
 #include "device/choice.hpp"
 #include "parallel.hpp"
@@ -49,60 +49,47 @@ std::uint64_t Pipelines::parts_of(const RayCosts& costs, bool every_partition) c
     return !every_partition ? parts_of_first_hits : is_alone ? 1 + costs.total() / large : parts_of_partitions;
 }
 
-// A thread for each device. What the foremost part of those that were taken threw is thrown, once all threads have stopped.
+// A thread for each device. What the first of the devices threw is thrown, once all threads have stopped.
 void Pipelines::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work) {
     const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
+    const bool is_one = parts_each == 1 || rays <= block_rays;
+    const std::size_t devices = is_one ? 1 : pipelines_.size();
     Parts parts(costs, pipelines_.size(), parts_each, !every_partition);
-    if (parts_each == 1 || rays <= block_rays) {
-        work(*pipelines_.front(), {0, rays}, [] { return RayRange{}; }, progress, counts);
-        if (rays == 0 && progress && !progress(1)) throw Error(Status::interrupted, "interrupted");  // no tile has asked
-        return;
-    }
-    std::atomic<std::size_t> joined{0};
     std::mutex mutex;
-    std::uint64_t done = 0, thrown_by = rays;
-    std::exception_ptr thrown;
-    const auto next = [&] {
+    std::uint64_t done = 0;
+    bool is_taken = false;
+    std::vector<std::exception_ptr> thrown(devices);
+    const TakeRays take = [&] {
         const std::lock_guard lock(mutex);
-        return parts.take();
+        if (!is_one) return parts.take();
+        return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, rays};
     };
-    on_threads(static_cast<unsigned>(pipelines_.size()), [&] {
-        Pipeline& pipeline = *pipelines_[joined++];
+    const auto tell = [&] {
+        if (progress && !progress(rays == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(rays)))
+            throw Error(Status::interrupted, "interrupted");
+    };
+    const Pipeline::Told told = [&](std::uint64_t more) {
+        const std::lock_guard lock(mutex);
+        done += more;
+        tell();
+    };
+    if (rays == 0) tell();
+    std::atomic<std::size_t> joined{0};
+    on_threads(static_cast<unsigned>(devices), [&] {
+        const std::size_t own_number = joined++;
         PipelineCounts own;
-        std::optional<RayRange> ahead;
-        const auto peek = [&] {
-            if (!ahead) ahead = next();
-            return *ahead;
-        };
-        const auto take = [&] {
-            const RayRange part = peek();
-            ahead.reset();
-            return part;
-        };
-        for (RayRange part = take(); part.first < part.end; part = take()) {
-            const Progress told = [&](double fraction) {
-                const std::lock_guard lock(mutex);
-                const double here = fraction * static_cast<double>(part.end - part.first);
-                return !progress || progress((static_cast<double>(done) + here) / static_cast<double>(rays));
-            };
-            try {
-                work(pipeline, part, peek, told, own);
-            } catch (...) {
-                const std::lock_guard lock(mutex);
-                parts.stop();
-                if (part.first < thrown_by) {
-                    thrown_by = part.first;
-                    thrown = std::current_exception();
-                }
-                break;
-            }
+        try {
+            work(*pipelines_[own_number], take, told, own);
+        } catch (...) {
             const std::lock_guard lock(mutex);
-            done += part.end - part.first;
+            parts.stop();
+            thrown[own_number] = std::current_exception();
         }
         const std::lock_guard lock(mutex);
         counts += own;
     });
-    if (thrown) std::rethrow_exception(thrown);
+    for (const std::exception_ptr& error : thrown)
+        if (error) std::rethrow_exception(error);
 }
 
 void Pipelines::prepare(bool every_partition) {
@@ -178,8 +165,8 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
         }
     } if_thrown{pipelines_};
     share(RayCosts(prepared.frame, target), prepared.frame.every_partition, progress, counts,
-          [&](Pipeline& pipeline, RayRange part, const Next& next, const Progress& told, PipelineCounts& own) {
-              pipeline.render(prepared, part, next, shared, told, own);
+          [&](Pipeline& pipeline, const TakeRays& take, const Pipeline::Told& told, PipelineCounts& own) {
+              pipeline.render(prepared, take, shared, told, own);
           });
     clear_around(prepared.frame, target);  // while the last tiles' pixels are on their way
     for (const auto& pipeline : pipelines_) pipeline->finish();
@@ -190,9 +177,8 @@ std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const
     forget();
     std::vector<RayPartitions> answers(rays.size());
     share(RayCosts(rays.size()), true, progress, counts,
-          [&](Pipeline& pipeline, RayRange part, const Next&, const Progress& told, PipelineCounts& own) {
-              pipeline.shoot(prepared, std::span(rays).subspan(part.first, part.end - part.first), answers.data() + part.first, told,
-                             own);
+          [&](Pipeline& pipeline, const TakeRays& take, const Pipeline::Told& told, PipelineCounts& own) {
+              pipeline.shoot(prepared, rays, take, answers.data(), told, own);
           });
     return answers;
 }

@@ -12,6 +12,9 @@
 
 namespace csgrt {
 
+/// Is told which part of the work is done, 0 to 1, and says whether to go on.
+using Progress = std::function<bool(double)>;
+
 class Pipelines {
 public:
     /// `settings.device` says which. The scene and the kernels must outlive this.
@@ -24,7 +27,7 @@ public:
     std::shared_ptr<KnownPicture> make_known(std::span<const ChannelPlane> planes, std::size_t pixels);
     /// Before a frame: where devices hold more than they should, of all, fewer of its planes are known to them. That is made known anew.
     void keep_small(KnownPicture& known);
-    /// As Pipeline's. Progress is told by one thread at a time.
+    /// As Pipeline's. Progress is told by one thread at a time. Throws Error (interrupted) if it says not to go on, too.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
     std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, const Progress& progress,
@@ -35,8 +38,7 @@ public:
     double build_ms() const;              ///< of the device that took longest to compile its kernels
 
 private:
-    using Next = std::function<RayRange()>;
-    using Work = std::function<void(Pipeline&, RayRange, const Next&, const Progress&, PipelineCounts&)>;
+    using Work = std::function<void(Pipeline&, const TakeRays&, const Pipeline::Told&, PipelineCounts&)>;
     std::uint64_t parts_of(const RayCosts& costs, bool every_partition) const;
     void share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work);
 

@@ -28,6 +28,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     segment_bytes += other.segment_bytes;
     partition_bytes += other.partition_bytes;
     tiles += other.tiles;
+    drawn_again += other.drawn_again;
     count_hits += other.count_hits;
     scan += other.scan;
     store_segments += other.store_segments;
@@ -43,10 +44,11 @@ bool in_packets(const Device& device, const Settings& settings) {
     return device.info().type == "cpu" && settings.precision == Precision::double_;
 }
 
-std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
+std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings, bool ahead) {
     std::vector<std::string> defines = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
                                         "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
     if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
+    if (ahead) defines.push_back("CSGRT_AHEAD");
     if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
     if (in_packets(device, settings)) defines.push_back("CSGRT_PACKETS");
     if (scene.has_large_terms) defines.push_back("CSGRT_LARGE_TERMS");

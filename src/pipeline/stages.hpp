@@ -67,7 +67,7 @@ struct TileBuffers {
 struct PipelineCounts {
     std::uint64_t hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
     std::uint64_t segment_bytes = 0, partition_bytes = 0;  ///< of all tiles together
-    std::uint32_t tiles = 0;
+    std::uint32_t tiles = 0, drawn_again = 0;  ///< and, of them, those for which memory did not do at first
     double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
     double cull_blocks = 0, first_hits = 0;
 
@@ -78,7 +78,7 @@ struct PipelineCounts {
 bool in_packets(const Device& device, const Settings& settings);
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet.h
 
-/// The options that a program for this scene is compiled with.
-std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings);
+/// The options that a program for this scene is compiled with. `ahead`: its kernels may be queued before it is known what they need.
+std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings, bool ahead = false);
 
 }  // namespace csgrt

@@ -33,7 +33,7 @@ using namespace csgrt;
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
     FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) \
-    RECORD(TileTally) FIELD(TileTally, blocks) FIELD(TileTally, listed) \
+    RECORD(TileTally) FIELD(TileTally, candidates) FIELD(TileTally, total) FIELD(TileTally, blocks) FIELD(TileTally, listed) \
     FIELD(TileTally, entries) FIELD(TileTally, overflows) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \

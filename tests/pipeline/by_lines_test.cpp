@@ -19,6 +19,19 @@
 
 using namespace csgrt;
 
+namespace {
+
+/// All rays, so many at a time.
+TakeRays ranges_of(std::uint64_t rays, std::uint64_t each) {
+    return [=, first = std::uint64_t{0}]() mutable {
+        const std::uint64_t begin = first;
+        first = std::min(begin + each, rays);
+        return RayRange{begin, first};
+    };
+}
+
+}  // namespace
+
 TEST_CASE("lines make the picture, whatever was there before and however many tiles there are") {
     Scene scene = bench::scene_of_parts(20);
     scene.background = {0.2, 0, 0.4};
@@ -76,7 +89,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
         const RenderTarget target{.planes = planes, .drawn = drawn, .known = &*known};
-        pipeline.render(prepared, {0, prepared.rays}, [] { return RayRange{}; }, target, nullptr, counts);
+        pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), target, nullptr, counts);
         clear_around(prepared.frame, target);
         pipeline.finish();
         most_tiles = std::max(most_tiles, counts.tiles);
@@ -97,7 +110,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     std::vector<std::uint8_t> blocks(25, 1);
     PipelineCounts counts;
     const RenderTarget nothing{.planes = {}, .drawn = blocks};
-    pipeline.render(prepared, {0, prepared.rays}, [] { return RayRange{}; }, nothing, nullptr, counts);
+    pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), nothing, nullptr, counts);
     pipeline.finish();
     CHECK(renderer.render(none).channels.empty());
 }
@@ -137,13 +150,15 @@ struct Lined {
         std::vector<std::uint8_t> drawn((width + BLOCK - 1) / BLOCK * ((height + BLOCK - 1) / BLOCK), 1);
         const RenderTarget target{.planes = planes, .drawn = drawn};
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
-        const auto range_at = [&](std::uint64_t first) {
-            return RayRange{std::min(first, prepared.rays), std::min(first + rays, prepared.rays)};
-        };
         PipelineCounts counts;
+        std::uint64_t done = 0;
+        const auto told = [&](std::uint64_t more) {
+            done += more;
+            if (progress && !progress(double(done) / double(prepared.rays))) throw Error(Status::interrupted, "interrupted");
+        };
         try {
-            for (RayRange range = range_at(0); range.first < range.end; range = range_at(range.end))
-                pipeline.render(prepared, range, [&] { return range_at(range.end); }, target, progress, counts);
+            pipeline.render(prepared, ranges_of(prepared.rays, rays), target, told, counts);
+            CHECK(done == prepared.rays);
             clear_around(prepared.frame, target);
             pipeline.finish();
         } catch (...) {
@@ -204,7 +219,7 @@ TEST_CASE("a picture in place after a list of rays, in little memory") {
         const PreparedFrame prepared = prepare_rays(lined.compiled, 20'000, lined.renderer.statistics().tolerance);
         std::vector<RayPartitions> answers(rays.size());
         PipelineCounts counts;
-        lined.pipeline.shoot(prepared, rays, answers.data(), nullptr, counts);
+        lined.pipeline.shoot(prepared, rays, ranges_of(rays.size(), rays.size()), answers.data(), nullptr, counts);
         lined.draw(300, 300, false, 1 << 20);
     }
 }
@@ -240,6 +255,44 @@ TEST_CASE("pixels by lines: frames that are interrupted while tiles are queued, 
         lined.azimuth += 100;
         lined.draw(400, 180 + 8 * i, false, 1 << 20);
     }
+}
+
+TEST_CASE("pixels by lines: every partition of tiles that need more than those before") {
+    Scene scene = bench::scene_of_parts(20);
+    for (int i = 0; i < 40; ++i) {  // a pile that a side shows one in front of the other
+        Solid ball{"pile" + std::to_string(i), stress::ball({20.0 + 3 * i, 0, 0}, 2), {}};
+        scene.top.push_back(ball.name);
+        scene.objects.push_back(std::move(ball));
+    }
+    Lined lined(scene, 0, 8192);
+    std::uint32_t again = 0, tiles = 0;
+    for (const double azimuth : {90.0, 88.0, 0.0, 1.0, 0.0, 0.0, 90.0}) {
+        INFO("azimuth " << azimuth);
+        lined.azimuth = azimuth;
+        const PipelineCounts counts = lined.draw(403, 361, true, 1 << 20);
+        CHECK(counts.tiles > 2);
+        tiles += counts.tiles;
+        again += counts.drawn_again;
+        lined.draw(250, 300, true, 300 * block_rays);
+    }
+    CHECK(again > 0);
+    CHECK(again < tiles / 4);
+    lined.azimuth = 0;
+    CHECK(lined.draw(403, 361, true, 1 << 20).drawn_again == 0);  // there is room for all by now
+}
+
+TEST_CASE("pixels by lines: every partition of tiles that need more than those before, in little memory") {
+    const Scene scene = bench::scene_of_parts(20);
+    std::uint32_t again = 0;
+    for (std::uint64_t room = 500'000; room < 40'000'000; room += test::sanitized ? 2 * room : room / 2) {
+        INFO("room " << room);
+        Lined lined(scene, room, 4096);
+        for (const double azimuth : {35, 120, 90}) {
+            lined.azimuth = azimuth;
+            again += lined.draw(203, 161, true, 1 << 20).drawn_again;
+        }
+    }
+    CHECK(again > 0);
 }
 
 namespace {
@@ -340,7 +393,7 @@ TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and 
         const PreparedFrame prepared = prepare_rays(lined.compiled, 300, lined.renderer.statistics().tolerance);
         std::vector<RayPartitions> answers(rays.size());
         PipelineCounts counts;
-        lined.pipeline.shoot(prepared, rays, answers.data(), nullptr, counts);
+        lined.pipeline.shoot(prepared, rays, ranges_of(rays.size(), rays.size()), answers.data(), nullptr, counts);
         test::require_same(answers, lined.renderer.shoot(rays));
     }
 }

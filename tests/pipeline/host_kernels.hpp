@@ -23,6 +23,7 @@ using std::size_t;
 #define __kernel [[maybe_unused]] static inline
 #define __global
 #define CSGRT_LARGE_TERMS
+#define CSGRT_AHEAD
 // NOLINTBEGIN
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -44,6 +45,7 @@ inline u32 atomic_inc(u32* place) { return (*place)++; }
 #undef __kernel
 #undef __global
 #undef CSGRT_LARGE_TERMS
+#undef CSGRT_AHEAD
 
 }  // namespace csgrt::kernel
 
@@ -129,20 +131,23 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     const HostBlocks blocks = frame.listed ? HostBlocks{} : cull(scene, frame);
     const BlockNode* lists = frame.listed ? nullptr : blocks.lists.data();
     std::vector<RayCount> places(count + 1);
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr, {}); });
     std::vector<Candidate> candidates(scan(places).segments);
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), candidates.data()); });
+    const RayCount most{static_cast<u32>(candidates.size()), 0};
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), candidates.data(), most); });
     std::vector<End> found(2 * candidates.size());
-    const auto each_of = [&](std::size_t size, const auto& work) {
-        for (global_id = 0; global_id < size; ++global_id) work(static_cast<u32>(size));
+    // A kernel whose items may take several candidates or ends: here one takes all.
+    const auto at_once = [](const auto& work) {
+        global_id = 0;
+        work();
     };
-    each_of(candidates.size(), [&](u32 size) {
-        count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), found.data());
+    at_once([&] {
+        count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(), scene.words.data(),
+                   scene.inner_nodes.data(), listed, places.data(), most, candidates.data(), found.data());
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
-    each([&] { sum_hits(&frame, places.data(), candidates.data(), run.offsets.data()); });
+    each([&] { sum_hits(&frame, places.data(), most, candidates.data(), run.offsets.data()); });
     const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
@@ -150,28 +155,26 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.firsts.resize(count);
     run.tallies.resize(count);
     std::vector<float> values(13 * count);
-    each_of(candidates.size(), [&](u32 size) {
+    at_once([&] {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), listed, size, candidates.data(), found.data(), run.offsets.data(),
-                       run.ends.data(), run.bits.data());
+                       scene.words.data(), scene.inner_nodes.data(), listed, places.data(), most, candidates.data(), found.data(),
+                       run.offsets.data(), sum, run.ends.data(), run.bits.data());
     });
-    each_of(run.ends.size(), [&](u32 size) {
-        order_ends(run.offsets.data(), run.ends.data(), run.bits.data(), size, run.nodes.data());
-    });
+    at_once([&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), sum, run.nodes.data()); });
     each([&] {
-        kernel::weave(&frame, listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
+        kernel::weave(&frame, listed, run.offsets.data(), sum, run.ends.data(), run.nodes.data(), run.bits.data(),
                       run.firsts.data(), run.tallies.data());
     });
-    each_of(run.nodes.size(), [&](u32 size) {
-        evaluate(scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
-                 run.ends.data(), run.bits.data(), size, run.nodes.data());
+    at_once([&] {
+        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
+                 run.ends.data(), run.bits.data(), sum, run.nodes.data());
     });
     if (!frame.listed) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(), run.firsts.data(), run.tallies.data(), listed,
-                  nullptr, values.data());
+                  prepared.lights.data(), run.offsets.data(), sum, run.ends.data(), run.nodes.data(),
+                  run.firsts.data(), run.tallies.data(), listed, nullptr, values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
     }

@@ -30,10 +30,9 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     kernel::RayTally tally{};
     std::uint32_t first = 0;
     const std::vector<std::uint32_t> rays(ends.size());
-    for (kernel::global_id = 0; kernel::global_id < ends.size(); ++kernel::global_id)
-        kernel::order_ends(offsets.data(), ends.data(), rays.data(), static_cast<std::uint32_t>(ends.size()), nodes.data());
     kernel::global_id = 0;
-    kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &first, &tally);
+    kernel::order_ends(&frame, offsets.data(), ends.data(), rays.data(), offsets[1], nodes.data());
+    kernel::weave(&frame, &ray, offsets.data(), offsets[1], ends.data(), nodes.data(), bits.data(), &first, &tally);
     Woven woven;
     for (std::uint32_t n = first; n != NONE; n = nodes[n].next) {
         WovenPartition p;

@@ -1,0 +1,72 @@
+// What the exact way leaves on the device -> each ray's claimed partitions, on the host.
+#include <algorithm>
+#include <utility>
+
+#include "kernel_geometry.hpp"
+#include "pipeline/exact.hpp"
+
+namespace csgrt {
+namespace kernel {
+#define CSGRT_LARGE_TERMS
+#include "../../kernels/boolean.h"
+}  // namespace kernel
+
+std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {
+    const auto offsets = counts_.read<kernel::RayCount>(std::size_t{rays} + 1);
+    const auto firsts = firsts_.read<std::uint32_t>(rays);
+    const auto ends = kernels_.ends(ends_.read<std::byte>(2 * std::size_t{total_.segments} * kernels_.end_bytes()));
+    const auto nodes = found_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
+    const auto bits = bits_.read<std::uint32_t>(total_.words);
+    std::vector<std::vector<ClaimedPartition>> claims(rays);
+    for (std::uint32_t i = 0; i < rays; ++i)
+        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], firsts[i]);
+    return claims;
+}
+
+// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
+std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments,
+                                            const std::uint32_t* bits) const {
+    const kernel::cover cover{
+        ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(), scene_.trees.data()};
+    kernel::covered_solids covered;
+    kernel::list_covered(cover, &covered);
+    std::vector<std::uint32_t> claimants;
+    for (std::uint32_t segment = 0; segment < segments; ++segment) {
+        if (!kernel::covers(cover, segment)) continue;
+        const kernel::SolidRecord& solid = scene_.solids[ends[2 * segment].solid];
+        for (std::uint32_t i = 0; i < solid.start_count; ++i) {
+            const kernel::StartRecord& start = scene_.starts[solid.first_start + i];
+            if (kernel::term_holds(cover, &covered, start)) claimants.push_back(start.region);
+        }
+    }
+    std::sort(claimants.begin(), claimants.end());
+    claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+    return claimants;
+}
+
+std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends,
+                                               const std::vector<kernel::PartitionNode>& nodes,
+                                               const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
+                                               const kernel::RayCount& end, std::uint32_t first_node) const {
+    std::vector<ClaimedPartition> claims;
+    const std::uint32_t segments = end.segments - begin.segments;
+    const std::size_t base = 2 * std::size_t{begin.segments};
+    for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
+        const kernel::PartitionNode& partition = nodes[base + node];
+        const std::uint32_t region = partition.owner & ~OVERLAP;
+        if (region == NONE) continue;
+        ClaimedPartition claim;
+        claim.in = ends[base + partition.in_end];
+        claim.out = ends[base + partition.out_end];
+        claim.in_leaves = partition.in_end % 2 == 1;
+        claim.out_enters = partition.out_end % 2 == 0;
+        claim.region = region;
+        if (partition.owner & OVERLAP)
+            claim.claimants =
+                claimants(ends.data() + base, segments, bits.data() + begin.words + node * kernel::words_of(segments));
+        claims.push_back(std::move(claim));
+    }
+    return claims;
+}
+
+}  // namespace csgrt
