@@ -1,11 +1,17 @@
 // Between kernels 1 and 2: exclusive prefix sums over RayCount, in place. A group of SCAN_GROUP items sums SCAN_BLOCK
-// entries; the blocks' sums are scanned the same way, one level up, and added. Sums saturate at COUNT_MAX, which tells
+// entries; one group sums the blocks' sums, which are added to their entries. Sums saturate at COUNT_MAX, which tells
 // the host that the tile is too large.
+//
+//   scan blocks -> scan sums -> scan add
 #include "shared/layout.h"
 
 #define SCAN_GROUP 64
 #define SCAN_EACH 16
 #define SCAN_BLOCK (SCAN_GROUP * SCAN_EACH)
+
+// Where an entry of a block stands in local memory: items that each go through SCAN_EACH of them must not all come to the same bank.
+#define SCAN_PLACE(i) ((i) + (i) / SCAN_EACH)
+#define SCAN_PLACES SCAN_PLACE(SCAN_BLOCK)
 
 static RayCount plus(RayCount a, RayCount b) {
     a.segments = add_sat(a.segments, b.segments);
@@ -13,37 +19,55 @@ static RayCount plus(RayCount a, RayCount b) {
     return a;
 }
 
-__kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u32 size) {
-    __local RayCount entries[SCAN_BLOCK];  // neighbours in memory are read by neighbours
-    __local RayCount partial[SCAN_GROUP];
-    u32 item = (u32)get_local_id(0), block = (u32)get_group_id(0);
-    u32 base = block * SCAN_BLOCK, first = item * SCAN_EACH;
+// Of a block's `size` entries, by one group: each becomes the sum of those before it, and of `before`. Returns that of all.
+static RayCount scan_block(__global RayCount* counts, u32 size, RayCount before, __local RayCount* entries, __local RayCount* partial) {
+    const u32 item = (u32)get_local_id(0), first = item * SCAN_EACH;
     RayCount sum;
     u32 i;
     sum.segments = sum.words = 0;
-    for (i = item; i < SCAN_BLOCK; i += SCAN_GROUP) entries[i] = base + i < size ? counts[base + i] : sum;
+    for (i = item; i < SCAN_BLOCK; i += SCAN_GROUP)  // neighbours in memory are read by neighbours
+        entries[SCAN_PLACE(i)] = i < size ? counts[i] : sum;
     barrier(CLK_LOCAL_MEM_FENCE);
-    for (i = first; i < first + SCAN_EACH; ++i) sum = plus(sum, entries[i]);
+    for (i = first; i < first + SCAN_EACH; ++i) sum = plus(sum, entries[SCAN_PLACE(i)]);
     partial[item] = sum;
     barrier(CLK_LOCAL_MEM_FENCE);
     for (i = 1; i < SCAN_GROUP; i <<= 1) {
-        RayCount before;
-        before.segments = before.words = 0;
-        if (item >= i) before = partial[item - i];
+        RayCount left;
+        left.segments = left.words = 0;
+        if (item >= i) left = partial[item - i];
         barrier(CLK_LOCAL_MEM_FENCE);
-        partial[item] = plus(partial[item], before);
+        partial[item] = plus(partial[item], left);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
-    if (item == SCAN_GROUP - 1) sums[block] = partial[item];
-    sum.segments = sum.words = 0;
-    if (item > 0) sum = partial[item - 1];
+    sum = item > 0 ? plus(before, partial[item - 1]) : before;
     for (i = first; i < first + SCAN_EACH; ++i) {
-        RayCount own = entries[i];
-        entries[i] = sum;
+        const RayCount own = entries[SCAN_PLACE(i)];
+        entries[SCAN_PLACE(i)] = sum;
         sum = plus(sum, own);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    for (i = item; i < SCAN_BLOCK && base + i < size; i += SCAN_GROUP) counts[base + i] = entries[i];
+    for (i = item; i < SCAN_BLOCK && i < size; i += SCAN_GROUP) counts[i] = entries[SCAN_PLACE(i)];
+    sum = plus(before, partial[SCAN_GROUP - 1]);
+    barrier(CLK_LOCAL_MEM_FENCE);  // the next block takes the same memory
+    return sum;
+}
+
+__kernel void scan_blocks(__global RayCount* counts, __global RayCount* sums, u32 size) {
+    __local RayCount entries[SCAN_PLACES], partial[SCAN_GROUP];
+    const u32 block = (u32)get_group_id(0), base = block * SCAN_BLOCK;
+    RayCount sum;
+    sum.segments = sum.words = 0;
+    sum = scan_block(counts + base, size - base, sum, entries, partial);
+    if (get_local_id(0) == 0) sums[block] = sum;
+}
+
+// By one group.
+__kernel void scan_sums(__global RayCount* sums, u32 size) {
+    __local RayCount entries[SCAN_PLACES], partial[SCAN_GROUP];
+    RayCount sum;
+    u32 base;
+    sum.segments = sum.words = 0;
+    for (base = 0; base < size; base += SCAN_BLOCK) sum = scan_block(sums + base, size - base, sum, entries, partial);
 }
 
 __kernel void scan_add(__global RayCount* counts, __global const RayCount* sums, u32 size) {

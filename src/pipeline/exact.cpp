@@ -28,6 +28,7 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       count_hits_(program_.kernel("count_hits")),
       sum_hits_(program_.kernel("sum_hits")),
       scan_blocks_(program_.kernel("scan_blocks")),
+      scan_sums_(program_.kernel("scan_sums")),
       scan_add_(program_.kernel("scan_add")),
       store_segments_(program_.kernel("store_segments")),
       order_ends_(program_.kernel("order_ends")),
@@ -41,6 +42,7 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       found_(device, "candidates' segments, then partitions"),
       ends_(device, "segments"),
       bits_(device, "partitions' bits"),
+      sums_(device, "sums of counts"),
       tally_sums_(device, "sums of tallies"),
       read_(device, "sums of tallies"),
       sum_(device, "sum of counts") {
@@ -71,15 +73,12 @@ void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, 
 }
 
 void Exact::queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed) {
-    counts.queue_fill(0, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
-    std::vector<std::uint32_t> sizes{rays + 1};
-    while (sizes.back() > 1) sizes.push_back(blocks_of(sizes.back()));
-    while (sums_.size() < sizes.size()) sums_.push_back(std::make_unique<Buffer>(device_, "sums of counts"));
-    const auto level = [&](std::size_t i) -> Buffer& { return i == 0 ? counts : *sums_[i]; };
-    for (std::size_t i = 0; i + 1 < sizes.size(); ++i) sum_blocks(level(i), sizes[i], level(i + 1), timed);
-    for (std::size_t i = sizes.size() - 1; i-- > 1;)
-        timed.emplace_back(&PipelineCounts::scan,
-                           scan_add_.launch(sizes[i - 1], work_group, level(i - 1), level(i), sizes[i - 1]));
+    const std::uint32_t entries = rays + 1, blocks = blocks_of(entries);
+    sum_blocks(counts, entries, sums_, timed);
+    if (blocks > 1) {
+        timed.emplace_back(&PipelineCounts::scan, scan_sums_.launch(work_group, work_group, sums_, blocks));
+        timed.emplace_back(&PipelineCounts::scan, scan_add_.launch(entries, work_group, counts, sums_, entries));
+    }
     device_.flush();
 }
 

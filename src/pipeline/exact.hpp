@@ -6,7 +6,6 @@
 // is written and the host, once it is told, has the rays counted.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -89,7 +88,7 @@ private:
     void queue_partitions(const Run& run, const Needs& room, std::size_t candidates, std::size_t nodes);
     /// A step of the scan: of each block of entries the sum; the entries become sums within their block.
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
-    /// Exclusive prefix sums over the first rays + 1 entries, the last of which need not be set.
+    /// Exclusive prefix sums over the first rays + 1 entries, the last of which, which need not be set, has a part in none.
     void queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount sum_of(const Buffer& counts, const Run& run);  // the last one of them, once queue_scan() was called; waits
     std::vector<std::pair<Buffer*, std::uint64_t>> bytes_of_rays(std::uint32_t rays);
@@ -114,14 +113,14 @@ private:
         Kernel count, list;
     };
     std::optional<PacketCandidates> packet_candidates_;  // on processors
-    Kernel count_hits_, sum_hits_, scan_blocks_, scan_add_, store_segments_, order_ends_, weave_,
+    Kernel count_hits_, sum_hits_, scan_blocks_, scan_sums_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
     Buffer places_;            // of the rays' candidates; from weaving on their tallies
     Buffer counts_, firsts_;   // one entry a ray, too
     Buffer candidates_;        // this and the others: by what was counted
     Buffer found_;             // the candidates' only segments; once they are stored, the partitions
     Buffer ends_, bits_;
-    std::vector<std::unique_ptr<Buffer>> sums_;             // of the scan, a level each
+    Buffer sums_;              // of the scan's blocks
     kernel::RayCount total_{};                              // of the last run that was counted
     kernel::RayCount places_room_{}, room_{};               // of the last run
     double candidates_a_ray_ = 0, segments_a_ray_ = 0, words_a_ray_ = 0;  // of the last rays whose needs are known
