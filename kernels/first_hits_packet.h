@@ -32,7 +32,8 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     u32 hit, lost;
     packet p;
     start_packet(&p, f, first);
-    hit = first_hits_of(&p, f, s, list, within, &lost);
+    hit = first_hits_of(&p, f, s, a.regions, list, within, &lost);
+    fetch_materials(&p, a, hit);
     put_pixels(&p, f, s.g, a, picture, within & ~lost, hit);
     *seen = hit;
     return lost;

@@ -1,4 +1,5 @@
 // On a processor first hits go by packets of eight rays: pictures that no packet fits, and rays that part ways in one.
+#include <random>
 #include <string>
 
 #include <csgrt/csgrt.hpp>
@@ -7,6 +8,7 @@
 #include "formats/parse_text.hpp"
 #include "pipeline/same_answers.hpp"
 #include "sanitized.hpp"
+#include "stress/build.hpp"
 
 using namespace csgrt;
 
@@ -69,4 +71,37 @@ TEST_CASE("first hits agree at every width, where cones are steep and where rays
                 overflows += device.statistics().segments > 0;  // which the exact way alone counts
             }
     CHECK(overflows > 0);
+}
+
+// Its solids wait for one another: more meet a packet than may wait, and of some rays more than there is room for.
+TEST_CASE("first hits of a scene larger than a processor's caches agree", "[agreement]") {
+    constexpr int balls = 140'000;
+    Scene parsed = scene_of(scene());
+    std::mt19937 random(7);
+    const auto between = [&](double low, double high) { return low + (high - low) * double(random() >> 8) / double(1u << 24); };
+    for (int i = 0; i < balls; ++i) {  // a cloud, dense in its middle
+        const double spread = i % 4 == 0 ? 2 : 30;
+        const Vec3 at{10 + between(-spread, spread), between(-spread, spread), 22 + between(-spread, spread) / 4};
+        Solid ball{"drop" + std::to_string(i), stress::ball(at, between(0.02, 0.1)), {}};
+        parsed.top.push_back(ball.name);
+        parsed.objects.push_back(std::move(ball));
+    }
+    Settings by_reference;
+    by_reference.reference = true;
+    Renderer reference(parsed, {}, by_reference), device(parsed, {}, test::on_device());
+    View view;
+    view.every_partition = false;
+    view.width = test::sanitized ? 12 : 61;
+    view.height = test::sanitized ? 9 : 37;
+    int overflows = 0;
+    for (const double azimuth : {35.0, 200.0})
+        for (const double elevation : {90.0, 12.0}) {
+            INFO("azimuth " << azimuth << ", elevation " << elevation);
+            view.camera.azimuth = azimuth;
+            view.camera.elevation = elevation;
+            const Image image = reference.render(view);
+            test::require_same(device.render(view), image);
+            overflows += device.statistics().segments > 0;
+        }
+    if (!test::sanitized) CHECK(overflows > 0);
 }

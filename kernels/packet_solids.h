@@ -1,0 +1,54 @@
+// What a packet's rays meet of a solid, taken up by each of them: first_hit.h's work, but the closed-form solids are put to all of
+// them at once.
+//
+// Some of the rays (`which`, `lost`) are a word whose bit k stands for ray k.
+#ifndef CSGRT_PACKET_SOLIDS_H
+#define CSGRT_PACKET_SOLIDS_H
+
+#include "first_hit.h"
+#include "packet.h"
+
+// The rays of a packet on their way through the scene.
+typedef struct {
+    packet_ray3 rays;
+    packet_lanes lanes;
+    packet_slab_ray slabs;
+    real t_min, tolerance;
+    wide offset;  // of distances in the block's list
+    float due[PACKET];  // about where the first event of each is complete
+    front fronts[PACKET];
+} packet;
+
+// What the rays of `which` meet of a solid. Returns those that have no room for it.
+FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 which) {
+    const SolidRecord solid = g.solids[index];
+    u32 alone = which, lost = 0;
+    if ((which & (which - 1u)) && takes_packets(solid)) {
+        const packet_hits h = packet_intersect(g, solid, p->rays);
+        u32 found = bits_of(h.count == 1 && h.out0 >= p->t_min) & which;
+        alone &= bits_of(h.count == UNDECIDED);
+        if (found) {
+            real in[PACKET], out[PACKET];
+            ulong in_surface[PACKET], out_surface[PACKET];
+            vstore8(h.in0, 0, in);
+            vstore8(h.out0, 0, out);
+            vstore8(h.in0_surface, 0, in_surface);
+            vstore8(h.out0_surface, 0, out_surface);
+            for (; found; found &= found - 1u) {
+                const u32 k = lowest(found);
+                End ends[2];
+                put_segment(ends, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
+                if (!take_segment(p->fronts + k, solid, ends[0], ends[1])) lost |= 1u << k;
+                p->due[k] = due_at(p->fronts + k, p->tolerance, p->offset);
+            }
+        }
+    }
+    for (; alone; alone &= alone - 1u) {
+        const u32 k = lowest(alone);
+        if (!take_solid(p->fronts + k, g, index, lane(&p->lanes, k), p->t_min)) lost |= 1u << k;
+        p->due[k] = due_at(p->fronts + k, p->tolerance, p->offset);
+    }
+    return lost;
+}
+
+#endif
