@@ -176,18 +176,21 @@ std::optional<Exact::Needs> Exact::weave_ahead(const SceneBuffers& scene, const 
                                                TimedKernels& timed) {
     for (const auto& [buffer, bytes] : bytes_of_rays(rays))
         if (bytes > buffer->size()) return {};
-    const auto of_rays = [rays](double a_ray) { return static_cast<std::uint64_t>(a_ray * rays); };
-    const std::uint64_t candidates = of_rays(candidates_a_ray_), segments = of_rays(segments_a_ray_);
+    // The more of two: a picture may well have two tiles that differ.
+    const auto expected = [&](double RayNeeds::*what) {
+        return static_cast<std::uint64_t>(std::max(needed_.*what, needed_before_.*what) * rays);
+    };
+    const std::uint64_t candidates = expected(&RayNeeds::candidates), segments = expected(&RayNeeds::segments);
     const Needs there = room();
     // What earlier rays needed says little of these: where half of it is there, it may do.
     if (there.candidates == 0 || there.total.segments == 0 || candidates / 2 > there.candidates ||
-        segments / 2 > there.total.segments || of_rays(words_a_ray_) / 2 > there.total.words)
+        segments / 2 > there.total.segments || expected(&RayNeeds::words) / 2 > there.total.words)
         return {};
     // Where there is more than that, work-items take several candidates or ends: as many items as any device has at a time do as well
     // as more.
-    const auto items = [](std::uint64_t expected, std::uint64_t most) {
+    const auto items = [](std::uint64_t entries, std::uint64_t most) {
         constexpr std::uint64_t enough = 1 << 18;
-        return std::min(std::max(expected + expected / 8, enough), most);
+        return std::min(std::max(entries + entries / 8, enough), most);
     };
     const Run run{scene, tile, rays, Rays::blocks, timed};
     const std::size_t listed = items(candidates, there.candidates);
@@ -258,9 +261,9 @@ void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& co
     counts.segment_bytes += nodes * kernels_.end_bytes() +
                             needs.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
     counts.partition_bytes += nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needs.total.words} * sizeof(std::uint32_t);
-    candidates_a_ray_ = double(needs.candidates) / rays;
-    segments_a_ray_ = double(needs.total.segments) / rays;
-    words_a_ray_ = double(needs.total.words) / rays;
+    needed_before_ = std::exchange(needed_, {.candidates = double(needs.candidates) / rays,
+                                             .segments = double(needs.total.segments) / rays,
+                                             .words = double(needs.total.words) / rays});
 }
 
 void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed) {

@@ -80,6 +80,10 @@ private:
         Rays kind;
         TimedKernels& timed;
     };
+    /// What a ray needs, on average.
+    struct RayNeeds {
+        double candidates = 0, segments = 0, words = 0;
+    };
     /// Only a picture's blocks hold rays that lie side by side.
     bool by_packets(const Run& run) const { return run.kind == Rays::blocks && packet_candidates_; }
     std::optional<Needs> try_weave(const Run& run);
@@ -123,7 +127,7 @@ private:
     Buffer sums_;              // of the scan's blocks
     kernel::RayCount total_{};                              // of the last run that was counted
     kernel::RayCount places_room_{}, room_{};               // of the last run
-    double candidates_a_ray_ = 0, segments_a_ray_ = 0, words_a_ray_ = 0;  // of the last rays whose needs are known
+    RayNeeds needed_, needed_before_;                       // by the last rays whose needs are known, and by those before
     Buffer tally_sums_;        // read while the next run's kernels run
     std::size_t tallies_ = 0;  // how many sums
     QueuedRead read_, sum_;
