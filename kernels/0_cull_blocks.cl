@@ -2,13 +2,6 @@
 // the hierarchy each of them meets: found once for 64 rays, which are put to little else.
 #include "blocks.h"
 
-static BlockNode entry_of(beam b, __global const BvhNode* nodes, u32 node) {
-    BlockNode e;
-    e.node = node;
-    e.entry = beam_entry(b, nodes[node]);
-    return e;
-}
-
 // From the root down, level by level, as long as there is room: a node gives way to those of its two children that the
 // beam meets. The entries are the hierarchy's parameter yet.
 static u32 list_nodes(beam b, __global const BvhNode* nodes, BlockNode* list) {

@@ -58,6 +58,13 @@ FN float beam_entry(beam b, BvhNode node) {
     return box_entry(b.slabs, node);
 }
 
+FN BlockNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
+    BlockNode e;
+    e.node = node;
+    e.entry = beam_entry(b, nodes[node]);
+    return e;
+}
+
 // A box that is entered before t_min may hold a segment that begins even earlier.
 FN float entry_from_center(beam b, float at) {
     if (at <= b.slabs.t_min) return -BOX_MISSED;

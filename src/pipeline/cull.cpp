@@ -24,8 +24,8 @@ void for_each_seen(std::span<const unsigned char> costs, const Work& work) {
 
 }  // namespace
 
-Cull::Cull(Device& device, const Program& program)
-    : device_(device), cull_blocks_(program.kernel("cull_blocks")) {}
+Cull::Cull(Device& device, const Program& program, bool together)
+    : device_(device), cull_blocks_(program.kernel(together ? "cull_blocks_together" : "cull_blocks")), together_(together) {}
 
 // Measured (bench/NOTES.md): a GPU finds a ray's candidates as soon without.
 bool Cull::is_listed(const kernel::Frame& frame) const {
@@ -52,7 +52,11 @@ void Cull::reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64
 Event Cull::launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame) {
     reserve(buffers, frame, frame.ray_count);
     if (frame.lines) buffers.tally.reserve(Tile{0, frame.ray_count}.tally_bytes());
-    const std::uint32_t blocks = frame.ray_count / block_rays, items = items_a_block(blocks);
+    const std::uint32_t blocks = frame.ray_count / block_rays;
+    if (together_)
+        return cull_blocks_.launch(std::size_t{blocks} * CULL_ITEMS, LOCKSTEP, buffers.frame, scene.nodes, buffers.costs, buffers.lists,
+                                   buffers.tally);
+    const std::uint32_t items = items_a_block(blocks);
     return cull_blocks_.launch(blocks * items, uneven_group(device_), buffers.frame, scene.nodes, buffers.costs, buffers.lists,
                                buffers.tally, cl_uint{items});
 }

@@ -16,15 +16,15 @@ std::vector<std::string> defines(const Device& device, const CompiledScene& scen
 
 }  // namespace
 
-FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings)
+FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings& settings, bool by_lines)
     : device_(device),
       rays_an_item_(in_packets(device, settings) ? packet_rays : 1),
       program_(device,
-               assemble_program({"0_cull_blocks.cl", rays_an_item_ == 1 ? "first_hits_ray.h" : "first_hits_packet.h",
+               assemble_program({by_lines ? "0_cull_together.cl" : "0_cull_blocks.cl", rays_an_item_ == 1 ? "first_hits_ray.h" : "first_hits_packet.h",
                                  "first_hits.cl"}),
                defines(device, scene, settings),
                settings.precision != Precision::double_),
-      cull_(device, program_),
+      cull_(device, program_, by_lines),
       first_hits_(program_.kernel("first_hits")) {}
 
 Event FirstHits::launch(const SceneBuffers& s, TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {

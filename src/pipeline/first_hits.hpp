@@ -7,7 +7,8 @@ namespace csgrt {
 
 class FirstHits {
 public:
-    FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
+    /// `by_lines`: so pixels come to the host.
+    FirstHits(Device& device, const CompiledScene& scene, const Settings& settings, bool by_lines);
 
     /// Draws the tile's rays, whose blocks were culled before, into `picture`. Does not wait.
     Event launch(const SceneBuffers& scene, TileBuffers& tile, const Buffer& picture, std::uint32_t rays);

@@ -41,7 +41,7 @@ Exact& Pipeline::exact() {
 FirstHits& Pipeline::first_hits() {
     if (!first_hits_) {
         const auto start = Clock::now();
-        first_hits_.emplace(device_, scene_, settings_);
+        first_hits_.emplace(device_, scene_, settings_, by_lines_.has_value());
         build_ms_ += milliseconds_since(start);
     }
     return *first_hits_;

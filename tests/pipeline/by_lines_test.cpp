@@ -330,7 +330,7 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     prepared.frame.ray_count = rays;
     prepared.frame.lines = prepared.frame.window.bottom - prepared.frame.window.top;
     Device device(lined.settings.device);
-    FirstHits first_hits(device, lined.compiled, lined.settings);
+    FirstHits first_hits(device, lined.compiled, lined.settings, true);
     const SceneBuffers scene(device, lined.compiled, lined.kernels->tables());
     TileBuffers tile(device);
     BlockList list(device);
