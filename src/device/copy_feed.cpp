@@ -8,8 +8,8 @@
 namespace csgrt {
 namespace {
 
-// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause.
-constexpr std::size_t piece = std::size_t{1} << 20;  // floats
+// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause (bench/NOTES.md).
+constexpr std::size_t piece = std::size_t{1} << 21;  // floats
 constexpr std::size_t most_underway = 2 * piece * sizeof(float);
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
