@@ -130,3 +130,23 @@ TEST_CASE("rectangles join where that spares copies, and begin with lines of the
     CHECK(both[1].columns() == 4096);
     CHECK(both[1].lines() == BLOCK);
 }
+
+TEST_CASE("rectangles leave out what is between two things that are far apart, not what is between near ones") {
+    Picture picture(4096, 4096);
+    std::vector<std::uint8_t> shown(std::size_t{picture.across} * picture.down, 0);
+    const auto show = [&](std::uint32_t left, std::uint32_t right) {
+        for (std::uint32_t row = 40; row < 80; ++row)
+            for (std::uint32_t column = left; column < right; ++column) shown[row * picture.across + column] = 1;
+    };
+    const auto found = [&] { return find_rectangles(picture.frame, 0, picture.across * picture.down, shown, picture.target()); };
+    show(10, 20);
+    show(23, 30);
+    CHECK(found().size() == 1);
+    show(100, 110);
+    const auto two = found();
+    REQUIRE(two.size() == 2);
+    CHECK(two[0].right < 30 * BLOCK + 16);
+    CHECK(two[1].left > 100 * BLOCK - 16);
+    show(300, 301);
+    CHECK(found().size() == 3);
+}
