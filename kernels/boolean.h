@@ -102,8 +102,6 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
         u32 word = c.trees[--end], op = word >> TREE_SHIFT;
         if (op == OP_LEAF) {
             values = values << 1 | is_covered(c, list, word & TREE_MASK);
-        } else if (op == OP_NOT) {
-            values ^= 1u;
         } else {
             values = (values >> 1 & ~1u) | (TRUTHS >> (4 * op + (values & 3u)) & 1u);
         }

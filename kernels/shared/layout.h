@@ -66,16 +66,15 @@ typedef struct {
 typedef u32 PlaneRef;
 
 // ---- Regions and their trees ----
-// Depth-first order, one word a node: 3 high bits the operator, 29 low bits the right child's position in `trees`
-// (for OP_NOT: unused; its child is the next word) or, for a leaf, the solid. The left child is the next word.
+// Depth-first order, one word a node: 3 high bits the operator, 29 low bits the right child's position in `trees` or, for a leaf, the
+// solid. The left child is the next word. There are no complements: the compiler has them vanish in differences.
 
 #define OP_LEAF 0
 #define OP_UNION 1
 #define OP_INTERSECTION 2
 #define OP_DIFFERENCE 3          // left and not right
 #define OP_XOR 4
-#define OP_NOT 5
-#define OP_REVERSE_DIFFERENCE 6  // right and not left: the compiler puts the deeper child second
+#define OP_REVERSE_DIFFERENCE 5  // right and not left: the compiler puts the deeper child second
 #define TREE_SHIFT 29
 #define TREE_MASK 0x1fffffffu
 

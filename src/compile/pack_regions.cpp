@@ -123,8 +123,7 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         for (std::size_t i = first; i < last; ++i) compiled.regions[i].first_word += chunk.first_word;
         std::transform(chunk.words.begin(), chunk.words.end(), compiled.trees.begin() + chunk.first_word,
                        [&](std::uint32_t word) {
-                           const std::uint32_t op = word >> TREE_SHIFT;
-                           return op == OP_LEAF || op == OP_NOT ? word : word + chunk.first_word;
+                           return word >> TREE_SHIFT == OP_LEAF ? word : word + chunk.first_word;
                        });
     });
 }

@@ -272,8 +272,6 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
         const std::uint32_t op = trees[node] >> TREE_SHIFT, right = trees[node] & TREE_MASK;
         if (op == OP_LEAF) {
             std::atomic_ref(solids[right].begins).fetch_or(same, std::memory_order_relaxed);
-        } else if (op == OP_NOT) {
-            rest.push_back({node + 1, node_end, opposite, same});
         } else if (op == OP_XOR) {
             rest.push_back({node + 1, right, same | opposite, same | opposite});
             rest.push_back({right, node_end, same | opposite, same | opposite});

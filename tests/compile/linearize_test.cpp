@@ -60,11 +60,6 @@ struct Walk {
         bool negate = false;
         for (;;) {
             const std::uint32_t word = trees[i], op = word >> TREE_SHIFT;
-            if (op == OP_NOT) {
-                negate = !negate;
-                ++i;
-                continue;
-            }
             if (op != OP_LEAF) {
                 stack.push_back({i, negate});
                 deepest = std::max(deepest, stack.size());
@@ -184,7 +179,7 @@ void check_all_assignments(const FlatTree& tree, std::uint32_t solids) {
     for (std::size_t i = linear.first_word; i < words.size(); ++i)
         if (words[i] >> TREE_SHIFT != OP_LEAF) operators |= 1u << (words[i] >> TREE_SHIFT);
     CHECK(linear.operators == operators);
-    CHECK((operators & 1u << OP_NOT) == 0);  // complements always vanish
+    CHECK(operators < 2u << OP_REVERSE_DIFFERENCE);
 }
 
 /// A chain x0 op x1 op x2 ... of `count` operators; `right` nests it the other way.
