@@ -1,5 +1,5 @@
 // Kernel 0: which blocks of a picture can see anything at all; the rays of the others are never made. And which nodes of
-// the hierarchy each of them meets: found once for 64 rays, which are put to little else.
+// the hierarchy each of them meets: found once for 64 rays, which are put to little else. (First hits on a GPU: 0_cull_together.cl.)
 #include "blocks.h"
 
 // From the root down, level by level, as long as there is room: a node gives way to those of its two children that the

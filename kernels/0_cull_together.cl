@@ -69,7 +69,8 @@ static void split_level(__local shared_list* own, u32 level, beam b, __global co
     both &= split;
     for (i = 0; i < ITEM_NODES; ++i) {
         const u32 k = i * CULL_ITEMS + lane;
-        if (stay & bit_of(k)) next[how_many_before(stay, k)] = !(split & bit_of(k)) ? e[i].node : is_met(e[i].first) ? e[i].first : e[i].second;
+        if (stay & bit_of(k))
+            next[how_many_before(stay, k)] = !(split & bit_of(k)) ? e[i].node : is_met(e[i].first) ? e[i].first : e[i].second;
         if (both & bit_of(k)) next[popcount(stay) + how_many_before(both, k)] = e[i].second;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -7,9 +7,10 @@ namespace csgrt {
 
 class Cull {
 public:
-    /// `program` holds the kernel. `together`: several work-items take a block, so it is that of 0_cull_together.cl, for first hits
-    /// whose pixels come by lines; else that of 0_cull_blocks.cl.
-    Cull(Device& device, const Program& program, bool together = false);
+    /// `program` holds the kernel of file(together). `together`: several work-items take a block, of first hits whose pixels come by
+    /// lines.
+    Cull(Device& device, const Program& program, bool together);
+    static const char* file(bool together) { return together ? "0_cull_together.cl" : "0_cull_blocks.cl"; }
 
     /// Looks what the frame's tile's blocks may see, and clears the tally of one that comes by lines; does not wait. Lists every
     /// block's nodes, too: by distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).

@@ -9,7 +9,7 @@ constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl s
 std::uint32_t blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
 
 std::vector<std::string> files_of(bool packets) {
-    std::vector<std::string> files = {"0_cull_blocks.cl"};
+    std::vector<std::string> files = {Cull::file(false)};
     if (packets) files.push_back("1_packet_candidates.cl");
     files.insert(files.end(),
                  {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
@@ -23,7 +23,7 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       kernels_(kernels),
       program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings, ahead),
                settings.precision != Precision::double_),
-      cull_(device, program_),
+      cull_(device, program_, false),
       find_candidates_(program_.kernel("find_candidates")),
       count_hits_(program_.kernel("count_hits")),
       sum_hits_(program_.kernel("sum_hits")),

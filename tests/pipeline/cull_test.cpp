@@ -26,7 +26,7 @@ Culled cull(const CompiledScene& compiled, const PreparedFrame& prepared, bool t
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
     Device device(settings.device);
     const SceneBuffers scene(device, compiled, kernels->tables());
-    const Program program(device, assemble_program({together ? "0_cull_together.cl" : "0_cull_blocks.cl"}), defines_of(device, compiled, settings));
+    const Program program(device, assemble_program({Cull::file(together)}), defines_of(device, compiled, settings));
     Cull kernel_0(device, program, together);
     TileBuffers tile(device);
     kernel::Frame frame = prepared.frame;
