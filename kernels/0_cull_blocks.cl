@@ -85,8 +85,8 @@ static void clear_tally(__global TileTally* tally, u32 blocks, u32 id) {
 // do nothing: those that go in lockstep would wait for each other, and a picture has fewer blocks than a GPU has room for.
 // `lists` 0: they are not wanted.
 __kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global BlockNode* lists, __global TileTally* tally, u32 items_a_block) {
-    const u32 item = (u32)get_global_id(0), id = item / items_a_block, blocks = frame->ray_count / (BLOCK * BLOCK);
+                          __global BlockNode* lists, __global TileTally* tally, u32 items_a_block, u32 first) {
+    const u32 item = first + (u32)get_global_id(0), id = item / items_a_block, blocks = frame->ray_count / (BLOCK * BLOCK);
     u32 cost = 0;
     beam b;
     if (frame->lines) clear_tally(tally, blocks, item);

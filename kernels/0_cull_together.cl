@@ -98,16 +98,16 @@ static void store_by_distance(__local const BlockNode* list, u32 count, u32 lane
 // is counted of the tile yet.
 __kernel __attribute__((reqd_work_group_size(LOCKSTEP, 1, 1))) void cull_blocks_together(
     __global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs, __global BlockNode* lists,
-    __global TileTally* tally) {
+    __global TileTally* tally, u32 first) {
     __local shared_list all[GROUP_BLOCKS];
     __local u32 goes_on;
     const u32 item = (u32)get_local_id(0), lane = item % CULL_ITEMS, blocks = frame->ray_count / (BLOCK * BLOCK);
-    const u32 id = (u32)get_global_id(0) / CULL_ITEMS;
+    const u32 number = first + (u32)get_global_id(0), id = number / CULL_ITEMS;
     const int is_block = id < blocks;
     __local shared_list* const own = all + item / CULL_ITEMS;
     const beam b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + (is_block ? id : 0));
     u32 level = 0, going = 1, i;
-    for (i = (u32)get_global_id(0); i < sizeof(TileTally) / sizeof(u32); i += (u32)get_global_size(0)) ((__global u32*)tally)[i] = 0;
+    for (i = number; i < sizeof(TileTally) / sizeof(u32); i += (u32)get_global_size(0)) ((__global u32*)tally)[i] = 0;
     if (lane == 0) {
         own->count = own->both = own->split = own->stay = own->cost = 0;
         if (is_block) ((__global unsigned char*)(tally + 1))[id] = 0;  // it shows nothing yet

@@ -58,11 +58,11 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
 __kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                          __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                          __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
-                         RayCount room, __global Candidate* candidates, __global End* found) {
+                         RayCount room, __global Candidate* candidates, __global End* found, u32 first) {
     const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
     const u32 size = entries_of(frame, places, room);
     u32 id;
-    FOR_ENTRIES(id, size)
+    FOR_ENTRIES_FROM(first, id, size)
         count_segments(frame, g, rays, candidates + id, found + 2 * (size_t)id);
 }
 

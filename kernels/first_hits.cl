@@ -19,8 +19,8 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
                          __global const u32* trees, __global const MaterialRecord* materials,
                          __global const LightRecord* lights, __global const BlockNode* block_nodes,
                          __global const RayRecord* rays, __global TileTally* tally, __global u32* overflown,
-                         __global float* picture) {
-    const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
+                         __global float* picture, u32 first) {
+    const u32 id = (first + (u32)get_global_id(0)) * RAYS_AN_ITEM;
     u32 number, lost, sees;
     pixel_position at;
     scene_tables s;

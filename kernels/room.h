@@ -16,11 +16,12 @@ FN u32 has_room(__global const Frame* frame, __global const RayCount* sums, RayC
 FN u32 entries_of(__global const Frame* frame, __global const RayCount* sums, RayCount room) {
     return has_room(frame, sums, room) ? sums[frame->ray_count].segments : 0;
 }
-#define FOR_ENTRIES(id, size) for (id = (u32)get_global_id(0); id < (size); id += (u32)get_global_size(0))
+#define FOR_ENTRIES_FROM(first, id, size) for (id = (first) + (u32)get_global_id(0); id < (size); id += (u32)get_global_size(0))
 #else
 #define has_room(frame, sums, room) 1
 #define entries_of(frame, sums, room) (room).segments
-#define FOR_ENTRIES(id, size) if ((id = (u32)get_global_id(0)) < (size))
+#define FOR_ENTRIES_FROM(first, id, size) if ((id = (first) + (u32)get_global_id(0)) < (size))
 #endif
+#define FOR_ENTRIES(id, size) FOR_ENTRIES_FROM(0, id, size)
 
 #endif

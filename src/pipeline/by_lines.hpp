@@ -25,9 +25,8 @@ struct QueuedTile {
     QueuedUpload upload;                   ///< of its frame
     QueuedRead answer;                     ///< its tally, and its blocks' bytes if they are drawn
     std::vector<Event> culled;             ///< kernel 0, the blocks' list, the background
-    TimedKernels kernels;                  ///< of every partition
-    Exact::Needs room;                     ///< of those
-    Event drawn;                           ///< the last kernel
+    TimedKernels kernels;                  ///< that draw
+    Exact::Needs room;                     ///< of those, of every partition
 
     const kernel::TileTally& tally() { return answer.wait<kernel::TileTally>(1).front(); }
     /// Of each block, not 0 if it shows something.

@@ -49,15 +49,15 @@ void Cull::reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64
         buffers.lists.release();
 }
 
-Event Cull::launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame) {
+std::vector<Event> Cull::launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame) {
     reserve(buffers, frame, frame.ray_count);
     if (frame.lines) buffers.tally.reserve(Tile{0, frame.ray_count}.tally_bytes());
     const std::uint32_t blocks = frame.ray_count / block_rays;
     if (together_)
-        return cull_blocks_.launch(std::size_t{blocks} * CULL_ITEMS, LOCKSTEP, buffers.frame, scene.nodes, buffers.costs, buffers.lists,
+        return cull_blocks_.launch_in_parts(std::size_t{blocks} * CULL_ITEMS, LOCKSTEP, buffers.frame, scene.nodes, buffers.costs, buffers.lists,
                                    buffers.tally);
     const std::uint32_t items = items_a_block(blocks);
-    return cull_blocks_.launch(blocks * items, uneven_group(device_), buffers.frame, scene.nodes, buffers.costs, buffers.lists,
+    return cull_blocks_.launch_in_parts(blocks * items, uneven_group(device_), buffers.frame, scene.nodes, buffers.costs, buffers.lists,
                                buffers.tally, cl_uint{items});
 }
 

@@ -14,7 +14,7 @@ public:
 
     /// Looks what the frame's tile's blocks may see, and clears the tally of one that comes by lines; does not wait. Lists every
     /// block's nodes, too: by distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).
-    Event launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame);
+    std::vector<Event> launch(const SceneBuffers& scene, TileBuffers& buffers, const kernel::Frame& frame);
     /// Makes room for as many rays of such a frame.
     void reserve(TileBuffers& buffers, const kernel::Frame& frame, std::uint64_t rays);
     /// The numbers of those of the frame's tile's blocks that may see a solid, those that cost most first. Waits.

@@ -47,9 +47,9 @@ bool Pipeline::draw_in_place(const Drawing& d, const Tile& tile) {
     frame.ray_count = tile.rays;
     make_room(cull_bytes(tile), tile_.costs.size() + tile_.lists.size());
     upload(frame);
-    const Event culled = cull(frame).launch(buffers_, tile_, frame);
+    const std::vector<Event> culled = cull(frame).launch(buffers_, tile_, frame);
     const std::vector<std::uint32_t> seen = Cull::seen(tile, tile_);
-    d.counts.cull_blocks += milliseconds(culled);
+    for (const Event& event : culled) d.counts.cull_blocks += milliseconds(event);
 
     const std::uint64_t pixel_bytes = pixel_bytes_of(d.target);
     const bool sees =
@@ -65,10 +65,10 @@ bool Pipeline::draw_in_place(const Drawing& d, const Tile& tile) {
     } else if (sees) {
         tile_.tally.reserve(sizeof(kernel::TileTally));
         tile_.tally.queue_fill(0, sizeof(kernel::TileTally));
-        const Event drawn = first_hits().launch(buffers_, tile_, picture_, frame.ray_count);
+        const TimedKernels timed = first_hits().launch(buffers_, tile_, picture_, frame.ray_count);
         const std::uint32_t overflows = tile_.tally.read<kernel::TileTally>(1).front().overflows;
         overflown = tile_.overflown.read<std::uint32_t>(overflows);
-        d.counts.first_hits += milliseconds(drawn);
+        add_times(timed, d.counts);
     }
     {
         const Buffer::Mapping picture = picture_.map(seen.size() * block_rays * pixel_bytes);

@@ -80,15 +80,14 @@ bool Pipeline::queue(QueuedTile& queued, const Drawing& d, const Tile& tile) {
     const Device::Lane lane(device_, every ? 1 : by_lines_->lane_of(queued));
     queued.is_under_way = true;
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
-    queued.culled.clear();
-    queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers, frame));
+    queued.culled = cull(frame).launch(buffers_, queued.buffers, frame);
     const std::uint32_t most_in_parts = every ? 0 : BlockList::most_in_parts(device_);  // its kernels take whole blocks
     for (Event& event : by_lines_->list.list(tile, queued.buffers, most_in_parts)) queued.culled.push_back(std::move(event));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : tile.tally_bytes());
     if (!every) {
         PictureLines::wait(*queued.lines);
         put_background(queued, d.target);
-        queued.drawn = first_hits().launch(buffers_, queued.buffers, queued.lines->buffer, tile.rays);
+        queued.kernels = first_hits().launch(buffers_, queued.buffers, queued.lines->buffer, tile.rays);
     }
     device_.flush();
     return true;
@@ -141,13 +140,13 @@ void Pipeline::read_overflown(QueuedTile& tile) {
 void Pipeline::first_hits_by_lines(const Drawing& d) {
     std::vector<QueuedTile*> running;
     for (;;) {
-        const auto drawn = std::ranges::find_if(running, [](const QueuedTile* tile) { return is_done(tile->drawn); });
+        const auto drawn = std::ranges::find_if(running, [](const QueuedTile* tile) { return is_done(end_of(*tile)); });
         if (drawn != running.end()) {
             QueuedTile& tile = **drawn;
             running.erase(drawn);
-            wait_for(tile.drawn);
+            wait_for(end_of(tile));
             tile.answer.fetch();
-            d.counts.first_hits += milliseconds(tile.drawn);
+            add_times(tile.kernels, d.counts);
             read_overflown(tile);
             put(tile, d);
         } else if (QueuedTile* const tile = queue_next(d)) {
@@ -155,10 +154,10 @@ void Pipeline::first_hits_by_lines(const Drawing& d) {
         } else if (running.empty()) {
             break;
         } else if (running.size() == 1 && d.source.is_empty()) {
-            wait_for(running.front()->drawn);
+            wait_for(end_of(*running.front()));
         } else {
             std::vector<const Event*> events;
-            for (const QueuedTile* other : running) events.push_back(&other->drawn);
+            for (const QueuedTile* other : running) events.push_back(&end_of(*other));
             wait_for_one(events);
         }
     }
@@ -198,9 +197,9 @@ void Pipeline::shade(QueuedTile& tile, const Drawing& d) {
     device_.flush();
 }
 
-// The last kernel of a tile that is shaded.
+// The last kernel of a tile that is drawn.
 const Event& Pipeline::end_of(const QueuedTile& tile) {
-    return tile.frame.ray_count > 0 ? tile.kernels.back().second : tile.culled.back();
+    return tile.kernels.empty() ? tile.culled.back() : tile.kernels.back().second;
 }
 
 // When a tile is shaded. False: there was no room for what its rays need.
@@ -215,7 +214,7 @@ bool Pipeline::settle(QueuedTile& tile, const Drawing& d) {
         exact().fetch();
         exact().add_needs(needs, tile.frame.ray_count, d.counts);
         exact().add_tallies(d.counts);
-        Exact::add_times(tile.kernels, d.counts);
+        add_times(tile.kernels, d.counts);
     }
     put(tile, d);
     return true;

@@ -228,8 +228,9 @@ void Exact::queue_counts(const Run& run, const Needs& room, std::size_t candidat
                                                 s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, places_room_, found_)
               : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_, places_room_));
     device_.flush();
-    timed(count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays,
-                             places_, places_room_, candidates_, found_));
+    add_events(run.timed, &PipelineCounts::count_hits,
+               count_hits_.launch_in_parts(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
+                                           tile.rays, places_, places_room_, candidates_, found_));
     timed(sum_hits_.launch(run.rays, work_group, tile.frame, places_, places_room_, candidates_, counts_));
     queue_scan(counts_, run.rays, run.timed);
 }
@@ -241,16 +242,16 @@ void Exact::queue_partitions(const Run& run, const Needs& room, std::size_t cand
     const auto timed = [&](double PipelineCounts::*time, Event event) { run.timed.emplace_back(time, std::move(event)); };
     room_ = room.total;
     timed(&PipelineCounts::store_segments,
-          store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                 s.inner_nodes, tile.rays, places_, places_room_, candidates_, found_, counts_, room_, ends_, bits_));
+          store_segments_.launch_as_many(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                         s.inner_nodes, tile.rays, places_, places_room_, candidates_, found_, counts_, room_, ends_, bits_));
     device_.flush();
     Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
-    timed(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, tile.frame, counts_, ends_, bits_, room_, partitions));
+    timed(&PipelineCounts::weave, order_ends_.launch_as_many(nodes, work_group, tile.frame, counts_, ends_, bits_, room_, partitions));
     timed(&PipelineCounts::weave, weave_.launch(run.rays, uneven_group(device_), tile.frame, tile.rays, counts_, room_, ends_, partitions,
                                                 bits_, firsts_, places_));
-    timed(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees, counts_, ends_,
-                                                      bits_, room_, partitions));
+    timed(&PipelineCounts::evaluate, evaluate_.launch_as_many(nodes, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees, counts_,
+                                                              ends_, bits_, room_, partitions));
 }
 
 void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& counts) {
@@ -288,10 +289,6 @@ void Exact::settle(std::uint32_t rays, bool tallied, TimedKernels& timed, Pipeli
     fetch();
     if (tallied) add_tallies(counts);
     add_times(timed, counts);
-}
-
-void Exact::add_times(const TimedKernels& timed, PipelineCounts& counts) {
-    for (const auto& [time, kernel] : timed) counts.*time += milliseconds(kernel);
 }
 
 void Exact::add_tallies(PipelineCounts& counts) {

@@ -16,9 +16,6 @@
 
 namespace csgrt {
 
-/// Kernels that run or have run, each with what its time counts as.
-using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
-
 /// How a tile's rays are given: blocks of a picture's that kernel 0 has looked at, single ones of a picture's, or a
 /// list.
 enum class Rays { blocks, picked, listed };
@@ -53,8 +50,6 @@ public:
     void fetch();
     /// Adds them up, once fetch() was called. Waits.
     void add_tallies(PipelineCounts& counts);
-    /// Adds up how long kernels took. Waits.
-    static void add_times(const TimedKernels& timed, PipelineCounts& counts);
     /// Adds up what rays needed, and tells what the next ones may need.
     void add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& counts);
     /// Sums the last run's partitions and overlaps, if they are `tallied`, and adds up how long its kernels took. Waits.

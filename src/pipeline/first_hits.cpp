@@ -27,11 +27,14 @@ FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings&
       cull_(device, program_, by_lines),
       first_hits_(program_.kernel("first_hits")) {}
 
-Event FirstHits::launch(const SceneBuffers& s, TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {
+TimedKernels FirstHits::launch(const SceneBuffers& s, TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {
     tile.overflown.reserve(rays * ray_bytes);
-    return first_hits_.launch(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes, s.plane_refs,
-                              s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees, s.materials, s.lights,
-                              tile.lists, tile.rays, tile.tally, tile.overflown, picture);
+    TimedKernels timed;
+    add_events(timed, &PipelineCounts::first_hits,
+               first_hits_.launch_in_parts(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes,
+                                           s.plane_refs, s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees,
+                                           s.materials, s.lights, tile.lists, tile.rays, tile.tally, tile.overflown, picture));
+    return timed;
 }
 
 }  // namespace csgrt

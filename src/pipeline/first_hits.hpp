@@ -11,7 +11,7 @@ public:
     FirstHits(Device& device, const CompiledScene& scene, const Settings& settings, bool by_lines);
 
     /// Draws the tile's rays, whose blocks were culled before, into `picture`. Does not wait.
-    Event launch(const SceneBuffers& scene, TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
+    TimedKernels launch(const SceneBuffers& scene, TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
 
     Cull& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes = 4;  ///< of the tile's buffers that it needs itself, at most

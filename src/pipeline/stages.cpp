@@ -40,6 +40,14 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     return *this;
 }
 
+void add_events(TimedKernels& timed, double PipelineCounts::*time, std::vector<Event> events) {
+    for (Event& event : events) timed.emplace_back(time, std::move(event));
+}
+
+void add_times(const TimedKernels& timed, PipelineCounts& counts) {
+    for (const auto& [time, kernel] : timed) counts.*time += milliseconds(kernel);
+}
+
 bool in_packets(const Device& device, const Settings& settings) {
     return device.info().type == "cpu" && settings.precision == Precision::double_;
 }

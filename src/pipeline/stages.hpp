@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compile/frame.hpp"
@@ -73,6 +74,12 @@ struct PipelineCounts {
 
     PipelineCounts& operator+=(const PipelineCounts& other);
 };
+
+/// Kernels that run or have run, each with what its time counts as.
+using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
+void add_events(TimedKernels& timed, double PipelineCounts::*time, std::vector<Event> events);
+/// Adds up how long kernels took. Waits.
+void add_times(const TimedKernels& timed, PipelineCounts& counts);
 
 /// Do a picture's rays go side by side in a processor's vectors, `packet_rays` a work-item?
 bool in_packets(const Device& device, const Settings& settings);

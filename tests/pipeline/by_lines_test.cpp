@@ -336,7 +336,7 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     BlockList list(device);
     list.build();
     tile.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
-    wait_for(first_hits.cull().launch(scene, tile, prepared.frame));
+    for (const Event& event : first_hits.cull().launch(scene, tile, prepared.frame)) wait_for(event);
     for (const Event& event : list.list({0, rays}, tile, BlockList::most_in_parts(device))) wait_for(event);
     const auto entries = tile.rays.read<std::uint32_t>(tile.tally.read<kernel::TileTally>(1).front().entries);
     return static_cast<std::size_t>(std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));

@@ -33,7 +33,7 @@ Culled cull(const CompiledScene& compiled, const PreparedFrame& prepared, bool t
     frame.ray_count = static_cast<std::uint32_t>(prepared.rays);
     frame.lines = together ? frame.window.bottom - frame.window.top : 0;
     tile.frame = Buffer(device, "frame", kernels->frame(frame));
-    wait_for(kernel_0.launch(scene, tile, frame));
+    for (const Event& event : kernel_0.launch(scene, tile, frame)) wait_for(event);
     const std::uint32_t blocks = frame.ray_count / block_rays;
     Culled culled{tile.costs.read<unsigned char>(blocks), {}};
     const auto nodes = tile.lists.read<kernel::BlockNode>(blocks * LISTED_NODES);

@@ -99,7 +99,7 @@ inline HostBlocks cull(const CompiledScene& scene, const kernel::Frame& frame) {
     blocks.costs.resize(frame.ray_count / (BLOCK * BLOCK));
     blocks.lists.resize(blocks.costs.size() * LISTED_NODES);
     for (global_id = 0; global_id < blocks.costs.size(); ++global_id)
-        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr, 1);
+        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr, 1, 0);
     return blocks;
 }
 
@@ -143,7 +143,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     };
     at_once([&] {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(), scene.words.data(),
-                   scene.inner_nodes.data(), listed, places.data(), most, candidates.data(), found.data());
+                   scene.inner_nodes.data(), listed, places.data(), most, candidates.data(), found.data(), 0);
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
@@ -199,7 +199,7 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
                    scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.lists.data(),
-                   reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data());
+                   reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data(), 0);
     picture = picture_of(frame, numbers, values, 10);
     return tally.overflows;
 }
