@@ -4,7 +4,7 @@
 //   level      a        b        c        an item each: which children the beam meets
 //            a0  a1   b0  -    -  -
 //   next     a0  b0  a1                   first those that take their parent's place, then second children
-#include "blocks.h"
+#include "tally.h"
 
 #define GROUP_BLOCKS (LOCKSTEP / CULL_ITEMS)
 #define ITEM_NODES (LISTED_NODES / CULL_ITEMS)
@@ -94,8 +94,8 @@ static void store_by_distance(__local const BlockNode* list, u32 count, u32 lane
     }
 }
 
-// CULL_ITEMS work-items are a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES, nearest first. And nothing
-// is counted of the tile yet.
+// CULL_ITEMS work-items are a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES, nearest first. `first`: as
+// cull_blocks() has it.
 __kernel __attribute__((reqd_work_group_size(LOCKSTEP, 1, 1))) void cull_blocks_together(
     __global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs, __global BlockNode* lists,
     __global TileTally* tally, u32 first) {
@@ -107,10 +107,9 @@ __kernel __attribute__((reqd_work_group_size(LOCKSTEP, 1, 1))) void cull_blocks_
     __local shared_list* const own = all + item / CULL_ITEMS;
     const beam b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + (is_block ? id : 0));
     u32 level = 0, going = 1, i;
-    for (i = number; i < sizeof(TileTally) / sizeof(u32); i += (u32)get_global_size(0)) ((__global u32*)tally)[i] = 0;
+    clear_tally(tally, blocks, number);
     if (lane == 0) {
         own->count = own->both = own->split = own->stay = own->cost = 0;
-        if (is_block) ((__global unsigned char*)(tally + 1))[id] = 0;  // it shows nothing yet
         if (is_block && b.slabs.hits_sphere && frame->node_count > 0) {
             own->nodes[0][0] = entry_of(b, nodes, 0);
             own->count = is_met(own->nodes[0][0]);

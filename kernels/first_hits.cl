@@ -2,6 +2,7 @@
 // comes before this: a ray at a time (first_hits_ray.h), or on processors eight (first_hits_packet.h).
 //
 // Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
+// `first`: of the launches before this one, how many items.
 
 // The number that item `id` has by the list of blocks, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {

@@ -1,7 +1,7 @@
 // Memory for what a tile's rays need. The host counts it (kernel 1), then allocates exactly that, and has kernels run by as many
 // work-items as there are entries. Or, while other tiles are under way (CSGRT_AHEAD), it has all kernels queued before it knows, and
 // tells them what room there is: each looks whether that does, and its work-items take several entries, or none. What the rays need
-// stands behind the sums over them, and in the tile's tally (kernel 5).
+// stands behind the sums over them, and in the tile's tally (kernel 5). `first`: of the launches before this one, how many items.
 #ifndef CSGRT_ROOM_H
 #define CSGRT_ROOM_H
 

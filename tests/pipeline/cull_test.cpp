@@ -8,7 +8,6 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "pipeline/same_answers.hpp"
-#include "pipeline/scenes.hpp"
 #include "reference/reference.hpp"
 #include "stress/build.hpp"
 
