@@ -1,0 +1,68 @@
+// Scenes as others make them, before the oracle: a generator makes a scene and rays from a seed, the device and the
+// reference answer them to the same bits, and the oracle decides which answers are right.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+
+#include "catch.hpp"
+#include "oracle/print.hpp"
+#include "pipeline/same_answers.hpp"
+#include "stress/check.hpp"
+
+namespace csgrt::test {
+
+/// Sums over the scenes of one generator.
+struct FieldTally {
+    std::size_t scenes = 0, rays = 0;
+    std::size_t ties = 0;      ///< rays that rounding of their own numbers decides: not judged
+    std::size_t wrong = 0;     ///< decided rays with other regions, gaps included
+    std::size_t overlaps = 0;  ///< decided rays with the right regions and other overlaps
+    double worst = 0;          ///< an end's distance from the truth, in units of the documented accuracy
+    std::string first;         ///< the first wrong ray
+};
+
+/// Shoots the rays of a scene on the device and on the reference, requires the same bits, and adds what the oracle
+/// says to `tally`.
+inline void judge_field(const stress::StressScene& made, FieldTally& tally) {
+    Renderer reference(made.scene, made.objects, on_reference());
+    Renderer device(made.scene, made.objects, on_device());
+    std::vector<RayPartitions> found = reference.shoot(made.rays);
+    {
+        INFO("seed " << made.seed);
+        require_same(device.shoot(made.rays), found);
+    }
+    const Renumbering renumbering(reference, made.objects);
+    const ExpectedAnswers answers(made);
+    ++tally.scenes;
+    tally.rays += made.rays.size();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Expected expected = answers(i);
+        if (expected.tie) {
+            ++tally.ties;
+            continue;
+        }
+        renumbering.apply(found[i]);
+        const Compared compared = compare(found[i], expected, made.rays[i], reference.statistics().tolerance);
+        if (compared.regions) tally.worst = std::max(tally.worst, compared.worst);
+        if (compared.regions && !compared.overlaps) ++tally.overlaps;
+        if (!compared.regions && tally.wrong++ == 0) {
+            keep_finding("wrong", made, made.scene, made.rays[i]);
+            tally.first = "seed " + std::to_string(made.seed) + ", ray " + std::to_string(i) + ": " +
+                          oracle::describe(made.rays[i]);
+        }
+    }
+}
+
+/// Nothing decided is wrong; and, so that a generator cannot go blind, at least one ray in `one_in` is decided.
+inline void require_all_right(const FieldTally& tally, std::size_t one_in = 2) {
+    INFO(tally.scenes << " scenes, " << tally.rays << " rays, " << tally.ties << " ties, worst end " << tally.worst
+                      << "; first wrong: " << tally.first);
+    CHECK(tally.wrong == 0);
+    CHECK(tally.overlaps == 0);
+    CHECK(tally.worst <= 1);
+    CHECK((tally.rays - tally.ties) * one_in >= tally.rays);
+}
+
+}  // namespace csgrt::test
