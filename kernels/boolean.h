@@ -16,13 +16,15 @@ typedef struct {
     ENDS const End* ends;
     ENDS const u32* bits;
     u32 segments;
+    u32 missed;  // MISSED_...: segments whose ends have any of these do not cover it
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
 } cover;
 
-FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 31u) & 1u; }
+FN u32 is_missed(cover c, u32 segment) { return (c.ends[2 * segment].surface & c.missed) != 0; }
+FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
 // The solids that cover a partition: all of them if they are few, and a filter that most others do not pass.
 #ifdef CSGRT_FEW
@@ -33,6 +35,7 @@ FN u32 covers(cover c, u32 segment) { return c.bits[segment >> 5] >> (segment & 
 typedef struct {
     u32 count;      // more than FEW: they are not listed
     u32 even, odd;  // the filter
+    u32 missed;     // MISSED_... of all their segments
     u32 solids[FEW];
 } covered_solids;
 
@@ -44,21 +47,24 @@ FN SolidFilter filter_of_covered(const covered_solids* list) {
     return f;
 }
 
-// The next solid of those whose segments' bits are given, from the first of a word on.
-FN u32 take_solid_of(cover c, u32 word, u32* bits) {
+// The segment of the lowest of a word's bits, which is taken away.
+FN u32 take_segment_of(u32 word, u32* bits) {
     u32 lowest = *bits & (0u - *bits);
     *bits ^= lowest;
-    return c.ends[2 * (32 * word + 31u - clz(lowest))].solid;
+    return 32 * word + 31u - clz(lowest);
 }
 
 FN void list_covered(cover c, covered_solids* list) {
     u32 word, words = words_of(c.segments), count = 0;
     SolidFilter filter;
     filter.even = filter.odd = 0;
+    list->missed = 0;
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 solid = take_solid_of(c, word, &bits);
+            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
+            if (is_missed(c, segment)) continue;
+            list->missed |= c.ends[2 * segment].surface & MISSED;
             filter = with(filter, filter_of(solid));
             if (count < FEW) list->solids[count] = solid;
             if (count <= FEW) ++count;
@@ -140,7 +146,7 @@ FN void fill_window(window* w, cover c, u32 from, u32 end) {
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 solid = take_solid_of(c, word, &bits);
+            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
             u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
             while (low < high) {  // to the first at or after `from`
                 u32 middle = (low + high) >> 1;
@@ -150,7 +156,7 @@ FN void fill_window(window* w, cover c, u32 from, u32 end) {
                     high = middle;
                 }
             }
-            for (; low < last; ++low) {
+            for (; low < last && !is_missed(c, segment); ++low) {
                 u32 node = c.leaves[low];
                 if (node >= end || !keep(w, node)) break;
             }
@@ -287,9 +293,9 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
     for (word = 0; word < words; ++word) {
         u32 bits = c.bits[word];
         while (bits) {
-            u32 solid = take_solid_of(c, word, &bits);
+            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
             u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
-            for (; i < end; ++i) {
+            for (; i < end && !is_missed(c, segment); ++i) {
                 const StartRecord start = c.starts[i];
                 const u32 wanted = start.region < found.least || (other && found.other == NONE && start.region != found.least);
                 if (wanted && meet(start.solids, changed) && term_holds(c, list, start)) {
@@ -298,6 +304,27 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
                 }
             }
         }
+    }
+    return found;
+}
+
+// The same where the ray runs in a face of a covering solid. Moved to either side of the face's plane it is within one of the
+// solids that meet there, and claimed as that is: parts that touch do not overlap, and of a contact the first region has the
+// partition. Regions overlap if they do so on one side. A ray that runs along an edge of a solid may miss it on both sides: then it
+// is within what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in
+// an edge, of which some part holds either side.
+NOINLINE_FN claim find_claim_of_contact(cover c, u32 other, SolidFilter changed) {
+    claim found;
+    u32 step;
+    found.least = found.other = NONE;
+    for (step = 0; step < 2 || (step == 2 && found.least == NONE); ++step) {
+        covered_solids list;
+        claim side;
+        c.missed = step == 0 ? MISSED_ABOVE : step == 1 ? MISSED_BELOW : 0;
+        list_covered(c, &list);
+        side = find_claim(c, &list, other && step < 2, changed);
+        if (side.other != NONE) found.other = side.other;
+        if (side.least < found.least) found.least = side.least;
     }
     return found;
 }

@@ -114,13 +114,18 @@ FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
         c.ends = w->ends;
         c.bits = w->open;
         c.segments = PENDING;
+        c.missed = 0;
         c.solids = s.g.solids;
         c.starts = s.starts;
         c.leaves = s.leaves;
         c.trees = s.trees;
         list_covered(c, &covered);
-        c.bits = starting;
-        region = find_claim(c, &covered, 0, changed).least;
+        if (covered.missed) {
+            region = find_claim_of_contact(c, 0, changed).least;
+        } else {
+            c.bits = starting;
+            region = find_claim(c, &covered, 0, changed).least;
+        }
     }
     return region;
 }

@@ -114,7 +114,8 @@ FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     l = quartic_ray(p[16] == 0 ? QUARTIC_BRACKETED : QUARTIC_OF(g), p, r);
     if (p[16] == 0) {
         const quadratic f = round_side(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z);
-        return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
+        const hits h = quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
+        return mark(mark_touched_side(p, r, l, f, h), s.missed);
     }
     s = tapered_piece(QUARTIC_OF(g), p, l, s);
     return undecided_where(s.low < s.high, no_hits());
@@ -191,6 +192,7 @@ FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
 
 // Along the outward normals where rays hit the same surface of such a solid at t; 0: it is a plane.
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
+    surface &= ~MISSED;
     if (surface != 0 || solid.type == SOLID_ARB || solid.type == SOLID_HALF) return 0;
 #if HAS_SOLID(SOLID_ELL)
     if (solid.type == SOLID_ELL) *n = ell_normal(g.reals + solid.first_real, r, t);

@@ -11,6 +11,7 @@
 #include "clock.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
+#include "compile/linear.hpp"
 #include "kernel_geometry.hpp"
 #include "parallel.hpp"
 #include "pipeline/pipelines.hpp"
@@ -81,7 +82,8 @@ double tolerance_of(const CompiledScene& scene, const Settings& settings) {
         if (settings.tolerance >= 0) return settings.tolerance;
         if (scene.tolerance > 0) return scene.tolerance;
     }
-    return rounding_tolerance(settings.precision) * 2 * scene.radius;
+    const double of_size = rounding_tolerance(settings.precision) * 2 * scene.radius;
+    return std::max(of_size, coordinate_rounding * largest_coordinate(scene.center, scene.radius));
 }
 
 std::string hexadecimal(std::uint64_t value) {

@@ -12,7 +12,7 @@ FN hits arb_intersect(Geometry g, SolidRecord solid, ray3 r) {
         s = clip_to_face(s, g, solid.first_plane + i, r, i);
         if (none(s.low < s.high)) return no_hits();
     }
-    return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+    return append_span(no_hits(), s);
 }
 
 #endif

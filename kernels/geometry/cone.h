@@ -16,9 +16,9 @@ FN span between_ends(Geometry g, SolidRecord solid, ray3 r) {
     return clip_to_face(clip_to_face(whole_line(), g, solid.first_plane, r, TGC_BASE), g, solid.first_plane + 1, r, TGC_TOP);
 }
 
-// a u^2 + 2 b u + c, and b^2 - a c.
+// a u^2 + 2 b u + c, and b^2 - a c; `most`: what that is at most, for a ray through the axis.
 typedef struct {
-    real a, b, c, discriminant;
+    real a, b, c, discriminant, most;
 } quadratic;
 
 // x^2 + y^2 - m^2 with m = m0 + m1 u, the radius along the ray. Its discriminant b^2 - a c equals
@@ -34,7 +34,21 @@ FN quadratic round_side(local_ray l, real m0, real m1) {
     f.b = real_fma(l.o.x, l.d.x, l.o.y * l.d.y) - m0 * m1;
     f.c = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - m0 * m0;
     f.discriminant = (w - real_abs(cross)) * (w + real_abs(cross));
+    f.most = w * w;
     return f;
+}
+
+// The same segment, marked where the ray touches the side along it: crosses it no deeper than rounding, or runs in it.
+FN hits mark_touched_side(GLOBAL const parameter* p, ray3 r, local_ray l, quadratic f, hits h) {
+    const truth may_touch = f.discriminant <= TOUCHED * f.most || real_abs(f.a) <= TOUCHED * TOUCHED * dot3(l.d, l.d);
+    if (none(may_touch && h.count == 1)) return h;
+    {
+        const vec3 at = local_point(l, REAL(0.5) * (h.in0 + h.out0));
+        const real radius = real_fma(p[13], at.z, p[12]), rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
+        const truth touches = may_touch && radius - rho <= local_rounding(p, r);
+        const vec3 n = affine_normal(p, make_vec3(at.x, at.y, -radius * p[13]));
+        return mark(h, touches ? missed_side(n) : TAG(0));
+    }
 }
 
 // The piece of `s` on which a side that is not round may be met, with u in units of the direction's length: everything lies

@@ -24,6 +24,7 @@ typedef struct {
     u32 behind, ahead;  // crossings before t_min, and the others
     real last;          // the last one before t_min
     u32 last_surface;
+    u32 missed;  // set in the ends' surfaces: MISSED_...
 } crossings;
 
 FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
@@ -31,13 +32,14 @@ FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
     c.ends = ends;
     c.solid = solid;
     c.t_min = t_min;
-    c.behind = c.ahead = c.last_surface = 0;
+    c.behind = c.ahead = c.last_surface = c.missed = 0;
     c.last = 0;
     return c;
 }
 
 // One more crossing. Crossings at one t are ordered by surface, so the order in which they are found does not matter.
 FN crossings cross(crossings c, real t, u32 surface) {
+    surface |= c.missed;
     if (t < c.t_min) {
         if (c.behind == 0 || t > c.last || (t == c.last && surface > c.last_surface)) {
             c.last = t;

@@ -145,6 +145,7 @@ FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     ends = clip_to_face(ends, g, solid.first_plane, r, 0);
     ends = clip_to_face(ends, g, solid.first_plane + 1, r, 1);
     if (!(ends.low < ends.high)) return c;
+    c.missed = ends.missed;
     w = to_sketch(g.reals + solid.first_real, r);
     k = start_cut(ends, 1, c);
     k = meet_lines(k, w, g, solid, s, r);

@@ -6,7 +6,7 @@
 
 FN hits half_intersect(Geometry g, SolidRecord solid, ray3 r) {
     span s = clip_to_face(whole_line(), g, solid.first_plane, r, 0);
-    return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+    return append_span(no_hits(), s);
 }
 
 #endif

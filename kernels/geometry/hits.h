@@ -19,6 +19,7 @@ typedef struct {
 typedef struct {
     real low, high;
     tag low_surface, high_surface;
+    tag missed;  // MISSED_... of the planes that the ray runs in
 } span;
 
 FN hits no_hits(void) {
@@ -33,7 +34,7 @@ FN span whole_line(void) {
     span s;
     s.low = -REAL_INFINITY;
     s.high = REAL_INFINITY;
-    s.low_surface = s.high_surface = 0;
+    s.low_surface = s.high_surface = s.missed = 0;
     return s;
 }
 
@@ -50,6 +51,19 @@ FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
     h.out1_surface = second ? out_surface : h.out1_surface;
     h.count = first || second ? h.count + TAG(1) : h.count;
     return h;
+}
+
+// What is found in a span, with what is known of the span's planes.
+FN hits mark(hits h, tag missed) {
+    h.in0_surface = h.in0_surface | missed;
+    h.out0_surface = h.out0_surface | missed;
+    h.in1_surface = h.in1_surface | missed;
+    h.out1_surface = h.out1_surface | missed;
+    return h;
+}
+
+FN hits append_span(hits h, span s) {
+    return append(h, s.low, s.low_surface | s.missed, s.high, s.high_surface | s.missed);
 }
 
 #endif

@@ -50,7 +50,10 @@ FN hits part_intersect(GLOBAL const real* p, ray3 r) {
         } else if (!(l.o.z > p[18] && l.o.z < p[19])) {
             s.high = s.low;
         }
-        if (s.low < s.high) all = hull_of(all, cone_inside(l, real_fma(p[17], l.o.z, p[16]), p[17] * l.d.z, s));
+        if (s.low < s.high) {
+            const real m0 = real_fma(p[17], l.o.z, p[16]), m1 = p[17] * l.d.z;
+            all = hull_of(all, cone_inside(l, round_side(l, m0, m1), m0, m1, s));
+        }
     }
     return append(no_hits(), all.low, 0, all.high, 0);
 }

@@ -14,7 +14,7 @@ FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, 
     real low, high;
     if (!(s.low < s.high)) return h;
     if (a == 0) {
-        if (b == 0) return c < 0 ? append(h, s.low, s.low_surface, s.high, s.high_surface) : h;
+        if (b == 0) return c < 0 ? append_span(h, s) : h;
         low = shift - c / (REAL(2) * b);
         if (b > 0) {
             if (low < s.high) {
@@ -25,10 +25,10 @@ FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, 
             s.low = low;
             s.low_surface = surface;
         }
-        return append(h, s.low, s.low_surface, s.high, s.high_surface);
+        return append_span(h, s);
     }
     if (a > 0) return between_roots(a, b, c, discriminant, shift, s, surface);
-    if (!(discriminant > 0)) return a < 0 ? append(h, s.low, s.low_surface, s.high, s.high_surface) : h;
+    if (!(discriminant > 0)) return a < 0 ? append_span(h, s) : h;
     {
         real root = real_sqrt(discriminant);
         real q = b > 0 ? -(b + root) : root - b;

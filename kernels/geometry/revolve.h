@@ -55,6 +55,7 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
         between.low = REAL_INFINITY;
         between.high = -REAL_INFINITY;
     }
+    c.missed = between.missed;
     k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
     for (i = 0; i < s.line_count; ++i) {
         u32 surface = REVOLVE_FACES + i;

@@ -61,6 +61,7 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
 FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 n = make_vec3(0, 0, 0);
     r = ray_at(solid, r);
+    surface &= ~MISSED;
 #if HAS_SOLID(SOLID_ELL)
     if (solid.type == SOLID_ELL) n = ell_normal(g.reals + solid.first_real, r, t);
 #endif

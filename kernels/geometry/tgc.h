@@ -13,8 +13,7 @@
 
 // The piece of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each, and m
 // changes sign between them: the piece on which m > 0 is the cone's.
-FN hits cone_inside(local_ray l, real m0, real m1, span s) {
-    const quadratic f = round_side(l, m0, m1);
+FN hits cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     if (f.a < 0) {
         real u = -m0 / m1;
         if (f.discriminant > 0) {
@@ -78,11 +77,16 @@ FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
 FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = g.reals + solid.first_real;
     span s = between_ends(g, solid, r);
+    quadratic f;
     local_ray l;
+    real m0, m1;
     if (!(s.low < s.high)) return no_hits();
-    if (p[16] != 0) return tapered_inside(QUARTIC_OF(g), p, quartic_ray(QUARTIC_OF(g), p, r), s);
+    if (p[16] != 0) return mark(tapered_inside(QUARTIC_OF(g), p, quartic_ray(QUARTIC_OF(g), p, r), s), s.missed);
     l = to_local(p, r);
-    return cone_inside(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z, s);
+    m0 = real_fma(p[13], l.o.z, p[12]);
+    m1 = p[13] * l.d.z;
+    f = round_side(l, m0, m1);
+    return mark(mark_touched_side(p, r, l, f, cone_inside(l, f, m0, m1, s)), s.missed);
 }
 
 #endif

@@ -87,7 +87,7 @@ FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     if (solid.plane_count == 0) return all;
     if (all.count > 0) h = append_within(h, s, all.in0, all.in0_surface, all.out0, all.out0_surface);
     if (all.count > 1) h = append_within(h, s, all.in1, all.in1_surface, all.out1, all.out1_surface);
-    return h;
+    return mark(h, s.missed);
 }
 
 #endif

@@ -91,6 +91,10 @@ FN single to_single(real x) { return (float)x; }
 #define BY_PRECISION(single, twofold, quadruple) \
     (sizeof(real) == 4 ? REAL(single) : sizeof(real) == 8 ? REAL(twofold) : REAL(quadruple))
 
+// By how much rounding of a point's, a direction's or a surface's own numbers may change a product of two of them, in units of
+// their sizes: some roundings of each. In 113 bits as in double, whose numbers they are.
+#define ROUNDING BY_PRECISION(0x1p-21, 0x1p-50, 0x1p-50)
+
 // The number of the lowest bit that is set; bits > 0.
 FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
 

@@ -62,6 +62,12 @@ typedef struct {
     wide nx, ny, nz, d;
 } PlaneRecord;
 
+// Above a surface is the side to which this direction points, which faces of models seldom contain: a ray that touches several
+// surfaces is moved to the same side of all.
+#define ABOVE_Y 0.6180339887498949
+#define ABOVE_Z 0.3472963553338607
+FN int faces_above(PlaneRecord p) { return p.nx + p.ny * ABOVE_Y + p.nz * ABOVE_Z >= 0; }  // its normal
+
 // A reference to a plane: index << 1 | flip. Flipped, inside is n . p >= d and the outward normal -n.
 typedef u32 PlaneRef;
 
@@ -248,8 +254,16 @@ typedef struct {
 typedef struct {
     real t;
     u32 solid;
-    u32 surface;  // which surface of the solid; see geometry/<solid>.h
+    u32 surface;  // which surface of the solid, see geometry/<solid>.h; and MISSED_...
 } End;
+
+// Set in End.surface of both ends of a segment along which the ray touches the solid, as far as rounding lets one say, because
+// it runs in a face of it or along its wall: moved a little above that surface, or below it, the ray misses the solid. boolean.h
+// tells what for.
+#define MISSED_ABOVE 0x40000000u
+#define MISSED_BELOW 0x20000000u
+#define MISSED (MISSED_ABOVE | MISSED_BELOW)
+#define SURFACE_MASK 0x1fffffffu  // the rest of End.surface; LEAVES (geometry/crossings.h) is the highest bit
 
 // 3 weave -> evaluate: linked lists by index into the ray's own 2 * segments nodes.
 typedef struct {

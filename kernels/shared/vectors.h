@@ -23,6 +23,7 @@ FN vec3 add_scaled(vec3 a, real s, vec3 b) {
     return make_vec3(real_fma(s, b.x, a.x), real_fma(s, b.y, a.y), real_fma(s, b.z, a.z));
 }
 FN real dot3(vec3 a, vec3 b) { return real_fma(a.z, b.z, real_fma(a.y, b.y, a.x * b.x)); }
+FN real sum_of_sizes(vec3 v) { return real_abs(v.x) + real_abs(v.y) + real_abs(v.z); }
 FN vec3 normalize3(vec3 a) { return scale(a, REAL(1) / real_sqrt(dot3(a, a))); }
 // The same where n has a direction, else against d.
 FN vec3 unit_or_against(vec3 n, vec3 d) {

@@ -14,9 +14,6 @@ constexpr std::uint32_t none = CellTable::none;
 
 // Cells have their centres at 0 and +-1, where most normals of models lie.
 constexpr double normal_cell = 1e-7;
-constexpr double offset_cell = 1.5e-8;  // of the scene's radius
-// Both boxes lie in the scene, where a tilt moves a plane by tilt x radius at most.
-constexpr double offset_reach = 3 * PlaneTable::tilt + PlaneTable::gap;
 
 Plane flipped(const Plane& p) { return {{0.0 - p.normal.x, 0.0 - p.normal.y, 0.0 - p.normal.z}, 0.0 - p.distance}; }
 
@@ -59,7 +56,12 @@ double PlaneTable::offset(const Plane& plane) const {
 /// How far the offsets of two planes across one axis may differ that are the same over `box`: of those nothing but their distance is
 /// to be compared. With a margin for what the normals differ by, anywhere in the scene, and for rounding.
 double PlaneTable::parallel_reach(const Key& key, const Box& box) const {
-    return 2 * gap * diagonal(box) + 10 * axis_tilt * radius_ + 1e-15 * std::fabs(key.offset);
+    return 2 * gap * diagonal(box) + 2 * rounding_ + 10 * axis_tilt * radius_ + 1e-15 * std::fabs(key.offset);
+}
+
+double PlaneTable::limit(const Box& a, const Box& b) const {
+    const double farthest = std::max(largest_coordinate(a), largest_coordinate(b));
+    return std::max(gap * std::min(diagonal(a), diagonal(b)), coordinate_rounding * farthest);
 }
 
 bool PlaneTable::same(const Entry& entry, const Plane& plane, const Box& box) const {
@@ -68,8 +70,8 @@ bool PlaneTable::same(const Entry& entry, const Plane& plane, const Box& box) co
     const Wide normal = wide(a) - wide(b);
     const long double distance = static_cast<long double>(entry.distance) - plane.distance;
     if (normal == Wide(0) && distance == 0) return true;
-    const double limit = gap * std::min(diagonal(box), diagonal(entry.box));
-    return separation(normal, distance, box) <= limit && separation(normal, distance, entry.box) <= limit;
+    const double most = limit(box, entry.box);
+    return separation(normal, distance, box) <= most && separation(normal, distance, entry.box) <= most;
 }
 
 PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
@@ -79,22 +81,21 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
     key.offset = offset(key.one);
     key.axis = axis_of(key.one.normal);
     const Vec3& n = key.one.normal;
-    const double reach = offset_reach * radius_, cell = offset_cell * radius_;
     const CellRange ranges[] = {cells_of(n.x, tilt, normal_cell), cells_of(n.y, tilt, normal_cell),
-                                cells_of(n.z, tilt, normal_cell), cells_of(key.offset, reach, cell)};
+                                cells_of(n.z, tilt, normal_cell), cells_of(key.offset, offset_reach_, offset_cell_)};
     key.alone = std::all_of(std::begin(ranges), std::end(ranges), [](const CellRange& r) { return r.first == r.last; });
     key.cell = cell_hash({cells_of(n.x, 0, normal_cell).first, cells_of(n.y, 0, normal_cell).first,
-                          cells_of(n.z, 0, normal_cell).first, cells_of(key.offset, 0, cell).first});
+                          cells_of(n.z, 0, normal_cell).first, cells_of(key.offset, 0, offset_cell_).first});
     return key;
 }
 
 void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const {
     // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay apart.
     const double part_of_radius =
-        std::max(1.0 / 8192, 4 * offset_reach * static_cast<double>(planes) / (Shards::count / 16));
+        std::max(1.0 / 8192, 4 * offset_reach_ / radius_ * static_cast<double>(planes) / (Shards::count / 16));
     // Of two planes it is enough that one looks into the cell of the other. So those across an axis, which crowd where solids stand
     // on one plate, look no farther than to each other, and the rest to them.
-    const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach * radius_;
+    const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach_;
     const auto cells = [&](const Vec3& n, double offset) {
         constexpr double normal = 0.25;
         return std::array<Shards::Chunk::Dimension, 4>{{{n.x, 2 * tilt, normal},
@@ -107,12 +108,11 @@ void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, st
 }
 
 std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const {
-    const double reach = offset_reach * radius_;
-    const double reach_across = key.axis ? parallel_reach(key, box) : reach;
+    const double reach_across = key.axis ? parallel_reach(key, box) : offset_reach_;
     std::uint32_t found = none;
     for (std::uint32_t record = cells_.find(cell); record != none; record = links_[record].next) {
         const Link& link = links_[record];
-        const bool is_near = std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? reach_across : reach);
+        const bool is_near = std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? reach_across : offset_reach_);
         if (is_near && record < found && same(entries_[record], key.one, box)) found = record;
     }
     return found;
@@ -124,7 +124,7 @@ std::uint32_t PlaneTable::find(const Key& key, const Box& box) const {
     const Vec3& n = key.one.normal;
     const CellRange x = cells_of(n.x, tilt, normal_cell), y = cells_of(n.y, tilt, normal_cell);
     const CellRange z = cells_of(n.z, tilt, normal_cell);
-    const CellRange d = cells_of(key.offset, offset_reach * radius_, offset_cell * radius_);
+    const CellRange d = cells_of(key.offset, offset_reach_, offset_cell_);
     std::uint32_t found = none;
     for (std::int64_t i = x.first; i <= x.last; ++i)
         for (std::int64_t j = y.first; j <= y.last; ++j)

@@ -9,6 +9,7 @@
 
 #include "compile/cells.hpp"
 #include "compile/compiled_scene.hpp"
+#include "compile/linear.hpp"
 #include "compile/shards.hpp"
 
 namespace csgrt {
@@ -17,12 +18,18 @@ class PlaneTable {
 public:
     /// Two planes are one when over the boxes of both their solids they lie no farther apart than this, relative to the
     /// smaller box's diagonal. Rounding of a model's own numbers and matrices stays below; a modelled gap is far above.
+    /// Far from the origin rounding moves planes by more, coordinate_rounding (linear.hpp): then that is the limit.
     static constexpr double gap = 1e-10;
     /// ... and when their unit normals differ by no more than this in any component, which keeps the search local.
     static constexpr double tilt = 1e-9;
 
     /// `around`: a sphere around the scene; distances are looked up relative to it.
-    PlaneTable(const Vec3& center, double radius) : center_(center), radius_(radius) {}
+    PlaneTable(const Vec3& center, double radius)
+        : center_(center),
+          radius_(radius),
+          rounding_(coordinate_rounding * largest_coordinate(center, radius)),
+          offset_reach_(offset_reach * radius + rounding_),
+          offset_cell_(offset_cell * radius + 4 * rounding_) {}
 
     /// Where a plane is looked up; depends on nothing else, so several threads may find it ahead.
     struct Key {
@@ -80,10 +87,17 @@ private:
     std::uint32_t find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const;
     bool same(const Entry& entry, const Plane& plane, const Box& box) const;
     double offset(const Plane& plane) const;
+    double limit(const Box& a, const Box& b) const;
     double parallel_reach(const Key& key, const Box& box) const;
+
+    // Offsets are looked up by cells of this size, in parts of the scene's radius. Both boxes lie in the scene, where a tilt moves
+    // a plane by tilt x radius at most.
+    static constexpr double offset_cell = 1.5e-8, offset_reach = 3 * tilt + gap;
 
     Vec3 center_;
     double radius_;
+    double rounding_;  ///< of coordinates in the scene
+    double offset_reach_, offset_cell_;
     std::vector<Entry> entries_;
     std::vector<Link> links_;  ///< one an entry
     CellTable cells_;  ///< the last record of each

@@ -113,23 +113,23 @@ std::optional<SurfaceTable::Surface> SurfaceTable::surface_of(std::uint32_t type
     return Surface{type,
                    {static_cast<double>(from_center.x), static_cast<double>(from_center.y),
                     static_cast<double>(from_center.z), static_cast<double>(std::log(key.size))},
-                   gap * diagonal(box)};
+                   std::max(gap * diagonal(box), coordinate_rounding * largest_coordinate(box))};
 }
 
 std::array<Shards::Chunk::Dimension, 5> SurfaceTable::coarse_cells(const Surface& surface) const {
     // What is found in a cell may lie anywhere in it.
     constexpr double of_point = 2 * (reach + point_cell), of_size = 2 * (reach + size_cell);
     const auto along = [&](int i) {
-        return Shards::Chunk::Dimension{surface.at[i], of_point * radius_, 0.25 * radius_};
+        return Shards::Chunk::Dimension{surface.at[i], of_point * radius_ + 10 * rounding_, 0.25 * radius_ + 640 * rounding_};
     };
     return {{along(0), along(1), along(2), {surface.at[3], of_size, 0.25}, {double(surface.type), 0, 1}}};
 }
 
 std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of,
                                 const AxesOf& axes_of) {
-    const double cell = point_cell * radius_;
+    const double cell = point_cell * radius_ + 4 * rounding_;
     const auto cells = [&](int i, double tolerance) {
-        return i < 3 ? cells_of(surface.at[i], tolerance * radius_, cell)
+        return i < 3 ? cells_of(surface.at[i], tolerance > 0 ? tolerance * radius_ + rounding_ : 0, cell)
                      : cells_of(surface.at[i], tolerance, size_cell);
     };
     const CellRange ranges[4] = {cells(0, reach), cells(1, reach), cells(2, reach), cells(3, reach)};

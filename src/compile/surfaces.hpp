@@ -20,11 +20,13 @@ namespace csgrt {
 
 class SurfaceTable {
 public:
-    /// One surface is another if nowhere on the smaller solid they lie farther apart than this, of its box's diagonal.
+    /// One surface is another if nowhere on the smaller solid they lie farther apart than this, of its box's diagonal; far
+    /// from the origin, than coordinate_rounding (linear.hpp).
     static constexpr double gap = 1e-10;
 
     /// `around`: a sphere around the scene.
-    SurfaceTable(const Vec3& center, double radius) : center_(center), radius_(radius) {}
+    SurfaceTable(const Vec3& center, double radius)
+        : center_(center), radius_(radius), rounding_(coordinate_rounding * largest_coordinate(center, radius)) {}
 
     /// A surface as it is looked up; depends on nothing else, so several threads may find it ahead.
     struct Surface {
@@ -62,6 +64,7 @@ private:
 
     Vec3 center_;
     double radius_;
+    double rounding_;  ///< of coordinates in the scene
     std::vector<Entry> entries_;
     CellTable cells_;  ///< the last entry of each
 };

@@ -1,5 +1,6 @@
 // What the exact way leaves on the device -> each ray's claimed partitions, on the host.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kernel_geometry.hpp"
@@ -23,25 +24,48 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) con
     return claims;
 }
 
-// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
-std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments,
-                                            const std::uint32_t* bits) const {
-    const kernel::cover cover{
-        ends, bits, segments, scene_.solids.data(), scene_.starts.data(), scene_.leaves.data(), scene_.trees.data()};
+namespace {
+
+/// All regions that claim what `cover` covers, ascending.
+std::vector<std::uint32_t> claimants_of(const CompiledScene& scene, const kernel::cover& cover) {
     kernel::covered_solids covered;
     kernel::list_covered(cover, &covered);
     std::vector<std::uint32_t> claimants;
-    for (std::uint32_t segment = 0; segment < segments; ++segment) {
+    for (std::uint32_t segment = 0; segment < cover.segments; ++segment) {
         if (!kernel::covers(cover, segment)) continue;
-        const kernel::SolidRecord& solid = scene_.solids[ends[2 * segment].solid];
+        const kernel::SolidRecord& solid = scene.solids[cover.ends[2 * segment].solid];
         for (std::uint32_t i = 0; i < solid.start_count; ++i) {
-            const kernel::StartRecord& start = scene_.starts[solid.first_start + i];
+            const kernel::StartRecord& start = scene.starts[solid.first_start + i];
             if (kernel::term_holds(cover, &covered, start)) claimants.push_back(start.region);
         }
     }
     std::sort(claimants.begin(), claimants.end());
     claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
     return claimants;
+}
+
+}  // namespace
+
+// Found again on the host, only for the few partitions that regions overlap in: on one side at least of a contact.
+std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments,
+                                            const std::uint32_t* bits) const {
+    kernel::cover cover{ends,
+                        bits,
+                        segments,
+                        0,
+                        scene_.solids.data(),
+                        scene_.starts.data(),
+                        scene_.leaves.data(),
+                        scene_.trees.data()};
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t missed : {MISSED_ABOVE, MISSED_BELOW}) {
+        cover.missed = missed;
+        const std::vector<std::uint32_t> side = claimants_of(scene_, cover);
+        std::vector<std::uint32_t> either;
+        if (side.size() > 1) std::set_union(all.begin(), all.end(), side.begin(), side.end(), std::back_inserter(either));
+        if (side.size() > 1) all = std::move(either);
+    }
+    return all;
 }
 
 std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends,

@@ -16,6 +16,7 @@ struct Reference::Claims {
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
     std::vector<std::uint32_t> solids, table, claimants;  ///< of a partition: its solids, their regions, those that claim it
+    std::vector<std::uint32_t> beside;  ///< ... on one side of a face that the ray runs in
     std::vector<std::uint8_t> values;  ///< of a tree's operands, while it is evaluated
     std::size_t woven = 0, overlaps = 0;
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
@@ -79,6 +80,30 @@ bool Reference::inside(std::uint32_t region, const std::vector<std::uint32_t>& s
     return !values.empty() && values.back() != 0;
 }
 
+bool Reference::in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends) {
+    return std::any_of(partition.segments.begin(), partition.segments.end(),
+                       [&](std::uint32_t segment) { return (ends[2 * segment].surface & MISSED) != 0; });
+}
+
+void Reference::find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
+                               std::vector<std::uint32_t>& claimants) const {
+    auto &solids = claims.solids, &table = claims.table;
+    solids.clear();
+    table.clear();
+    claimants.clear();
+    for (const std::uint32_t segment : partition.segments) {
+        const kernel::End& end = claims.ends[2 * segment];
+        if (!(end.surface & missed)) solids.push_back(end.solid);
+    }
+    std::sort(solids.begin(), solids.end());
+    for (const std::uint32_t solid : solids)
+        table.insert(table.end(), regions_of_[solid].begin(), regions_of_[solid].end());
+    std::sort(table.begin(), table.end());
+    table.erase(std::unique(table.begin(), table.end()), table.end());
+    for (const std::uint32_t region : table)
+        if (inside(region, solids, claims.values)) claimants.push_back(region);
+}
+
 void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const {
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
@@ -88,22 +113,31 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     claims.woven = woven.size();
     const double t_min = kernels_.t_min(frame, ray);
 
-    auto &solids = claims.solids, &table = claims.table, &claimants = claims.claimants;
+    auto &claimants = claims.claimants, &beside = claims.beside;
     for (const WovenPartition& partition : woven) {
-        solids.clear();
-        table.clear();
-        claimants.clear();
-        for (const std::uint32_t segment : partition.segments) solids.push_back(claims.ends[2 * segment].solid);
-        std::sort(solids.begin(), solids.end());
-        for (const std::uint32_t solid : solids)
-            table.insert(table.end(), regions_of_[solid].begin(), regions_of_[solid].end());
-        std::sort(table.begin(), table.end());
-        table.erase(std::unique(table.begin(), table.end()), table.end());
-        for (const std::uint32_t region : table)
-            if (inside(region, solids, claims.values)) claimants.push_back(region);
+        std::uint32_t region;
+        if (in_contact(partition, claims.ends)) {
+            // The region that comes first on either side has it; those that share a side overlap.
+            region = NONE;
+            claimants.clear();
+            for (const std::uint32_t missed : {MISSED_ABOVE, MISSED_BELOW}) {
+                find_claimants(partition, missed, claims, beside);
+                if (!beside.empty()) region = std::min(region, beside.front());
+                if (beside.size() > 1) claimants.insert(claimants.end(), beside.begin(), beside.end());
+            }
+            std::sort(claimants.begin(), claimants.end());
+            claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+            if (region == NONE) {
+                find_claimants(partition, 0, claims, beside);
+                if (!beside.empty()) region = beside.front();
+            }
+        } else {
+            find_claimants(partition, 0, claims, claimants);
+            region = claimants.empty() ? NONE : claimants.front();
+        }
 
         if (claimants.size() > 1) ++claims.overlaps;
-        if (claimants.empty()) continue;
+        if (region == NONE) continue;
 
         ClaimedPartition claim;
         claim.in = claims.ends[partition.in_end];
@@ -112,7 +146,7 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
         claim.out.t = partition.out;
         claim.in_leaves = partition.in_end % 2 == 1;
         claim.out_enters = partition.out_end % 2 == 0;
-        claim.region = claimants.front();
+        claim.region = region;
         if (claimants.size() > 1) claim.claimants = claimants;
         claims.partitions.push_back(std::move(claim));
         if (claims.first_seen == SIZE_MAX && partition.out > t_min) {
