@@ -3,14 +3,32 @@
 
 namespace csgrt::host {
 
+/// A number that the compiler knows nothing of. GCC (12 at least) takes -fma(a, b, c) for fma(-a, b, -c) where the processor has that as
+/// one instruction: where a b + c is 0, the sign of the zero is another one, and no option keeps it from that. In float no fma is an
+/// instruction of the reference's (double_fma.hpp).
+[[gnu::always_inline]] inline double opaque(double x) {
+#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__)
+    __asm__("" : "+x"(x));
+#elif defined(__aarch64__)
+    __asm__("" : "+w"(x));
+#else
+    __asm__("" : "+g"(x));
+#endif
+#endif
+    return x;
+}
+
 inline double root(double x) { return __builtin_sqrt(x); }
-inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+inline double fma(double a, double b, double c) { return opaque(__builtin_fma(a, b, c)); }
+inline double abs(double x) { return __builtin_fabs(x); }
 inline double floor(double x) { return __builtin_floor(x); }
 inline int exponent(double x) { return __builtin_ilogb(x); }
 inline double scaled(double x, int e) { return __builtin_ldexp(x, e); }
 
 inline float root(float x) { return __builtin_sqrtf(x); }
 inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+inline float abs(float x) { return __builtin_fabsf(x); }
 inline float floor(float x) { return __builtin_floorf(x); }
 inline int exponent(float x) { return __builtin_ilogbf(x); }
 inline float scaled(float x, int e) { return __builtin_ldexpf(x, e); }

@@ -40,6 +40,18 @@ FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 p
 
 FN u32 revolve_cut_faces(GLOBAL const real* p) { return p[REVOLVE_CUT] == REAL(REVOLVE_WHOLE) ? 0u : REVOLVE_FACES; }
 
+FN int runs_within(Geometry g, u32 index, ray3 r) {
+    PlaneRecord plane = g.planes[g.plane_refs[index] >> 1];
+    return plane_above(plane, r) == 0 && dot3(narrow(plane_normal(plane)), r.d) == 0;
+}
+
+// Nothing lies between the two sides of one plane, not even a ray that runs within it. A ray that runs within two planes runs along
+// the edge where they meet, and is not between them either.
+FN int nothing_between(Geometry g, u32 index, ray3 r) {
+    PlaneRef first = g.plane_refs[index], second = g.plane_refs[index + 1];
+    return (first ^ second) == 1u || (first != second && runs_within(g, index, r) && runs_within(g, index + 1, r));
+}
+
 FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     GLOBAL const real* p = g.reals + solid.first_real;
     sketch s = sketch_of(g, solid);
@@ -51,7 +63,8 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     if (faces) {
         between = clip_to_face(between, g, solid.first_plane, r, 0);
         between = clip_to_face(between, g, solid.first_plane + 1, r, 1);
-    } else {
+    }
+    if (!faces || nothing_between(g, solid.first_plane, r)) {
         between.low = REAL_INFINITY;
         between.high = -REAL_INFINITY;
     }

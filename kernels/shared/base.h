@@ -68,7 +68,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #define WHOLE_FN FN
 FN real real_sqrt(real x) { return host::root(x); }
 FN real real_fma(real a, real b, real c) { return host::fma(a, b, c); }
-FN real real_abs(real x) { return x < 0 ? -x : x; }
+FN real real_abs(real x) { return host::abs(x); }
 FN real real_floor(real x) { return host::floor(x); }
 FN int real_exponent(real x) { return host::exponent(x); }
 FN real real_scaled(real x, int e) { return host::scaled(x, e); }

@@ -124,6 +124,8 @@ private:
         compiled_.solid_boxes[number] = own;
         if (!is_finite(own) && !std::holds_alternative<Half>(shape))
             chunk.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
+        if (const auto* revolve = std::get_if<Revolve>(&shape))
+            if (std::string note = note_on(*revolve, solid.name); !note.empty()) chunk.notes.push_back(std::move(note));
 
         PackedChunk::Part part{};
         part.stands = static_cast<std::uint32_t>(number);

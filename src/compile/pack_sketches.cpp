@@ -1,7 +1,7 @@
 // Solids that outlines make.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <cstdio>
 
 #include "compile/axis_frame.hpp"
 #include "compile/cell_outline.hpp"
@@ -55,6 +55,14 @@ void Packer::operator()(const Ebm& s) {
             {cell_outline(s), {}}, &s);
 }
 
+std::string note_on(const Revolve& s, const std::string& name) {
+    if (turn_of(s) != Turn::none) return {};
+    char text[120];
+    std::snprintf(text, sizeof text, "is empty: its angle is %g, and ends of a turn that are no more than %g radians apart are one",
+                  s.angle, PlaneTable::gap);
+    return "revolve " + name + " " + text;
+}
+
 void Packer::operator()(const Revolve& s) {
     record.type = SOLID_REVOLVE;
     SketchParts parts = sketch_parts(turned_pieces(s.sketch));
@@ -68,17 +76,20 @@ void Packer::operator()(const Revolve& s) {
     const long double unit = sketch.unit;
     const Wide v = wide(s.v);
     frame(v + static_cast<long double>(sketch.v) * axes.z, {unit * axes.x, unit * axes.y, unit * axes.z});
-    const long double angle = s.angle;
-    const bool whole = s.angle >= 2 * std::numbers::pi, less = s.angle <= std::numbers::pi;
-    real(whole ? REVOLVE_WHOLE : less ? REVOLVE_LESS : REVOLVE_MORE);
+    const Turn turn = turn_of(s);
+    const bool less = turn == Turn::none || turn == Turn::less || turn == Turn::half;
+    real(turn == Turn::whole ? REVOLVE_WHOLE : less ? REVOLVE_LESS : REVOLVE_MORE);
 
     const WideMatrix normals = glm::transpose(glm::inverse(linear_part(matrix)));
-    if (!whole) {
+    if (turn != Turn::whole) {
         // Outward from what lies between the two: of the solid, or of what is missing.
         const Wide first = less ? -axes.y : axes.y;
-        const Wide turned = std::cos(angle) * axes.y - std::sin(angle) * axes.x;
+        Wide second = std::cos(static_cast<long double>(s.angle)) * axes.y - std::sin(static_cast<long double>(s.angle)) * axes.x;
+        if (!less) second = -second;
+        if (turn == Turn::none) second = -first;
+        if (turn == Turn::half) second = first;
         face(plane_through(transform_point(matrix, v), normals * first));
-        face(plane_through(transform_point(matrix, v), normals * (less ? turned : -turned)));
+        face(plane_through(transform_point(matrix, v), normals * second));
     }
     for (const StraightLine& line : parts.lines)
         if (flat(line)) face(plane_through(transform_point(matrix, v + line.v0 * axes.z), normals * axes.z));

@@ -1,6 +1,7 @@
 // Solids -> SolidRecord, reals and plane references, as geometry/<solid>.h reads them.
 #pragma once
 
+#include <string>
 #include <unordered_map>
 
 #include <csgrt/scene.hpp>
@@ -27,6 +28,9 @@ void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix
 /// done by several threads.
 void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
                  const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled);
+
+/// What is worth telling of a revolve's turn; usually nothing.
+std::string note_on(const Revolve& s, const std::string& name);
 
 /// Throws Error (scene) if so many numbers cannot be told apart by 32 bits.
 void check_numbers(std::size_t count);

@@ -79,7 +79,8 @@ Pieces pieces_of_pipe(const Pipe& pipe) {
             const Vec3 normal = cross(into, out);
             const double sine = length(normal), cosine = dot(into, out);
             if (sine > straight) {
-                const double tangent = q.bend * sine / (1 + cosine);  // bend x tan(half the angle)
+                // bend x tan(half the angle); of a pipe that turns nearly back 1 + cosine has few digits
+                const double tangent = q.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);
                 const Vec3 inward = cross(unit(normal), into);
                 to = q.position - tangent * into;
                 bend = Bend{to + q.bend * inward, unit(normal), q.bend, to, q.position + tangent * out, into, out};

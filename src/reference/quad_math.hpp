@@ -42,6 +42,9 @@ inline quad fma(quad a, quad b, quad c) {
     return sum + (((product - (sum - back)) + (c - back)) + lost);
 }
 
+/// Of either zero: 0.
+inline quad abs(quad x) { return x > 0 ? x : 0 - x; }
+
 inline quad floor(quad x) {
     if (!(x < quad(1e18) && x > quad(-1e18))) return x;
     const quad whole = static_cast<quad>(static_cast<long long>(x));

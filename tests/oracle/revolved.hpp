@@ -174,10 +174,14 @@ inline ExactSolid revolved(const Revolve& shape, const QAffine& place) {
     solid.placement = to_double(length(rounding.point({wide, wide, larger(absolute(low), absolute(high))})));
 
     const quad reach = wide + absolute(middle) + half;
-    const bool whole = shape.angle >= 6.283185307179586;
-    const QVec turned{cosl(shape.angle), sinl(shape.angle), 0};
+    // Two half planes that are less than the limit of coincidence apart, 1e-10, are one: the documented rule.
+    constexpr long double pi = 3.14159265358979323846264338327950288L, limit = 1e-10L;
+    const bool whole = shape.angle >= 2 * pi - limit, nothing = shape.angle <= limit;
+    const bool is_half = fabsl(shape.angle - pi) <= limit, at_most_half = is_half || shape.angle < pi;
+    const QVec turned = is_half ? QVec{-1, 0, 0} : QVec{cosl(shape.angle), sinl(shape.angle), 0};
     solid.along = [=, outline = std::make_shared<TurnedOutline>(shape.sketch)](const QVec& world_o,
                                                                                const QVec& world_d) -> ExactIntervals {
+        if (nothing) return {};
         const QVec o = to_local.point(world_o), d = to_local.direction(world_d);
         struct Event {
             ExactEnd end;
@@ -200,7 +204,7 @@ inline ExactSolid revolved(const Revolve& shape, const QAffine& place) {
         const auto in_turn = [&](const QVec& p) {
             if (whole) return true;
             const bool left = p.y > 0, right_of_end = turned.x * p.y - turned.y * p.x < 0;
-            return shape.angle <= 3.141592653589793 ? left && right_of_end : left || right_of_end;
+            return at_most_half ? left && right_of_end : left || right_of_end;
         };
         ExactIntervals intervals;
         bool odd = false, inside = false;
