@@ -88,14 +88,15 @@ Sets solve_curve(const Curve& f, std::size_t k, const ScaledRay& ray, const Chan
 
 /// f <= 0 along the ray for surface k.
 Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad delta) {
-    const auto change_with = [&](quad s, quad noise) {
+    const auto change_with = [&](quad s, bool noisy) {
         const QVec p = ray.origin + s * ray.direction;
+        const quad noise = noisy ? solid.noise(k, p) : quad(0);
         return quad(margin) * (solid.change(k, p, delta * (1 + ray.turn * absolute(s))) + noise);
     };
     if (const auto line = solid.surfaces[k]->line(ray.origin, ray.direction))
-        return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, solid.noise(k)); });
+        return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, true); });
     const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
-    const auto change_at = [&](quad s) { return change_with(s, f.degree > 2 ? solid.noise(k) : quad(0)); };
+    const auto change_at = [&](quad s) { return change_with(s, f.degree > 2); };
     const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
     if (f.degree == 1) {
         Sets sets;
