@@ -91,5 +91,8 @@ StressScene deep_trees(std::uint64_t seed, std::size_t times);
 StressScene depth(std::uint64_t seed, std::size_t times);
 StressScene overlaps(std::uint64_t seed, std::size_t times);
 StressScene nested(std::uint64_t seed, std::size_t times);
+StressScene pinch(std::uint64_t seed, std::size_t times);
+/// Its seeds go through so many kinds of solids.
+inline constexpr std::uint64_t pinch_kinds = 13;
 
 }  // namespace csgrt::stress

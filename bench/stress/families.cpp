@@ -11,7 +11,7 @@ struct Family {
     const char* name;
     StressScene (*make)(std::uint64_t seed, std::size_t times);
 };
-constexpr std::array<Family, 12> all{{
+constexpr std::array<Family, 13> all{{
     {"coplanar", coplanar},
     {"coincident", coincident},
     {"tangent", tangent},
@@ -24,6 +24,7 @@ constexpr std::array<Family, 12> all{{
     {"depth", depth},
     {"overlaps", overlaps},
     {"nested", nested},
+    {"pinch", pinch},
 }};
 
 }  // namespace

@@ -12,8 +12,7 @@
 // coefficients to the bit, and a value in between is computed once: so the number of changes is even exactly if the two
 // ends have one sign, whatever rounding does inside. Two changes closer than 2^-SIGN_DEPTH may both be missed: the
 // value between them is within rounding of zero, but where a piece of an outline that is turned ends on the axis. There
-// the value fades with the radius and keeps its digits, so a ray that passes the tip of a revolve's cone within 4e-9 of
-// the cone's length may miss the tip.
+// the value fades with the radius and keeps its digits, so next to both ends pieces are halved down to 2^-TIP_DEPTH.
 #ifndef CSGRT_BERNSTEIN_H
 #define CSGRT_BERNSTEIN_H
 
@@ -21,6 +20,8 @@
 
 #define BERNSTEIN_SIZE 25  // coefficients at most: degree 24
 #define SIGN_DEPTH (sizeof(real) == 4 ? 22u : 28u)
+#define TIP_DEPTH (sizeof(real) == 4 ? 22u : 52u)
+#define TIP_PIECES REAL(0x1p20)  // so many from either end, at any depth, are next to it
 
 // (1 - t) a + t b, exact at 0 and 1.
 FN real blend(real t, real a, real b) { return real_fma(t, b, (REAL(1) - t) * a); }
@@ -46,14 +47,17 @@ FN u32 coefficient_changes(const real* c, u32 degree) {
 }
 
 typedef struct {
-    u32 depth, index;  // the piece that comes next: [index, index + 1] / 2^depth
+    u32 depth;
+    real index, size;  // the piece that comes next: [index, index + 1] size; a whole number, and 2^-depth
     int positive;      // at its low end
     real low, high;    // the last one that was found to hold a change
 } sign_walk;
 
 FN sign_walk start_sign_walk(const real* c) {
     sign_walk w;
-    w.depth = w.index = 0;
+    w.depth = 0;
+    w.index = 0;
+    w.size = 1;
     w.positive = c[0] > 0;
     w.low = w.high = 0;
     return w;
@@ -62,23 +66,25 @@ FN sign_walk start_sign_walk(const real* c) {
 // Goes on to the next change, which w->low and w->high then enclose; w->positive is the sign after it. 0: no more.
 FN int next_sign_change(const real* c, u32 degree, sign_walk* w) {
     real q[BERNSTEIN_SIZE];
-    while (w->index < (1u << w->depth)) {
-        real size = REAL(1) / REAL(1u << w->depth);
-        real low = REAL(w->index) * size, high = REAL(w->index + 1u) * size;
+    while (w->index * w->size < 1) {
+        real low = w->index * w->size, high = (w->index + REAL(1)) * w->size;
+        int beside_end = real_min(low, REAL(1) - low) < TIP_PIECES * w->size;
         u32 changes;
         int before = w->positive;
         restrict_to(c, degree, low, high, q);
         if ((q[0] > 0) != before) q[0] = before ? REAL(1) : REAL(0);  // as it was when the piece before ended here
         changes = coefficient_changes(q, degree);
-        if (changes > 1 && w->depth < SIGN_DEPTH) {
+        if (changes > 1 && w->depth < (beside_end ? TIP_DEPTH : SIGN_DEPTH)) {
             ++w->depth;
-            w->index *= 2u;
+            w->index = REAL(2) * w->index;
+            w->size = REAL(0.5) * w->size;
             continue;
         }
         w->positive = q[degree] > 0;
-        ++w->index;
-        while (w->depth > 0 && (w->index & 1u) == 0) {
-            w->index /= 2u;
+        w->index = w->index + REAL(1);
+        while (w->depth > 0 && real_floor(REAL(0.5) * w->index) == REAL(0.5) * w->index) {
+            w->index = REAL(0.5) * w->index;
+            w->size = REAL(2) * w->size;
             --w->depth;
         }
         if (w->positive != before) {

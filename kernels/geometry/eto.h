@@ -5,6 +5,13 @@
 //
 // F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Written
 // in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each root is polished on F itself.
+//
+// Where the ellipse all but touches the axis, at z = beta / gamma, all that is left of these terms there is rounding. With h the
+// height above that point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, the same is
+//
+//   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2,   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1 + gap)
+//
+// whose terms vanish with it where the gap is 0. A ray that passes near is taken from its closest approach to that point.
 #ifndef CSGRT_ETO_H
 #define CSGRT_ETO_H
 
@@ -18,33 +25,86 @@ typedef struct {
     real value, slope;
 } eto_form;
 
-FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u) {
+// Of the point where the ellipse is nearest to the axis, as a ray that passes it sees it (tor.h).
+typedef struct {
+    vec3 o;      // the ray's closest approach, from there
+    real along;  // where that is on the ray
+    real gap;
+    int passes;  // the ray passes near
+} eto_pinch;
+
+#define ETO_PINCH_REACH REAL(0.2)
+#define ETO_PINCH_OUTER REAL(1.75)  // the least outer radius
+
+FN eto_pinch eto_pinch_of(GLOBAL const real* p, u32 method, vec3 o, vec3 d) {
+    eto_pinch pinch;
+    pinch.passes = 0;
+    pinch.along = pinch.gap = 0;
+    pinch.o = o;
+    if (p[16] > ETO_PINCH_OUTER && method != QUARTIC_UNSHIFTED) {
+        const real reach = p[16] - REAL(1);
+        pinch.o.z = o.z - p[13] / p[14];
+        pinch.along = -dot3(pinch.o, d);
+        pinch.o = add_scaled(pinch.o, pinch.along, d);
+        // An ellipse that touches the axis may pass it by rounding.
+        pinch.gap = real_max(REAL(0), (REAL(2) - p[16]) * p[16] / (reach * reach));
+        pinch.passes = dot3(pinch.o, pinch.o) < ETO_PINCH_REACH * ETO_PINCH_REACH;
+    }
+    return pinch;
+}
+
+FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch) {
     eto_form f;
-    vec3 at = add_scaled(o, u, d);
-    real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
-    real radial = rho - REAL(1);
-    real rate = real_fma(at.x, d.x, at.y * d.y) / rho;
-    real by_radial = real_fma(p[12], radial, p[13] * at.z), by_z = real_fma(p[13], radial, p[14] * at.z);
-    f.value = real_fma(by_radial, radial, by_z * at.z) - REAL(1);
-    f.slope = REAL(2) * real_fma(by_radial, rate, by_z * d.z);
+    vec3 at = add_scaled(pinch.passes ? pinch.o : o, u, d);
+    real across = real_fma(at.x, at.x, at.y * at.y), rho = real_sqrt(across);
+    real turn = real_fma(at.x, d.x, at.y * d.y);
+    if (pinch.passes) {
+        real odd = REAL(2) * (p[13] * at.z - (REAL(1) + pinch.gap));
+        f.value = real_fma(p[12], across, real_fma(p[14] * at.z, at.z, pinch.gap)) + rho * odd;
+        f.slope = REAL(2) * real_fma(p[12], turn, real_fma(p[14] * at.z, d.z, rho * (p[13] * d.z))) + turn / rho * odd;
+    } else {
+        real radial = rho - REAL(1);
+        real rate = turn / rho;
+        real by_radial = real_fma(p[12], radial, p[13] * at.z), by_z = real_fma(p[13], radial, p[14] * at.z);
+        f.value = real_fma(by_radial, radial, by_z * at.z) - REAL(1);
+        f.slope = REAL(2) * real_fma(by_radial, rate, by_z * d.z);
+    }
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube, a pinched one). A step
-// is taken if it is small and brings the point nearer to the surface.
-FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u) {
-    eto_form f = eto_at(p, o, d, u);
+// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube). A step is
+// taken if it is small and brings the point nearer to the surface.
+FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch) {
+    eto_form f = eto_at(p, o, d, u, pinch);
     int step;
     for (step = 0; step < 2; ++step) {
         real next = u - f.value / f.slope;
         eto_form g;
         if (!(real_abs(next - u) < POLISH_STEP)) return u;
-        g = eto_at(p, o, d, next);
+        g = eto_at(p, o, d, next, pinch);
         if (!(real_abs(g.value) < real_abs(f.value))) return u;
         u = next;
         f = g;
     }
     return u;
+}
+
+FN quartic eto_pinched(GLOBAL const real* p, eto_pinch pinch, vec3 d) {
+    // rho^2 = r0 + r1 u + r2 u^2, E = e0 + e1 u + e2 u^2, O = q0 + q1 u, O^2 = s0 + s1 u + s2 u^2
+    const vec3 o = pinch.o;
+    const real r0 = real_fma(o.x, o.x, o.y * o.y), r1 = REAL(2) * real_fma(o.x, d.x, o.y * d.y);
+    const real r2 = real_fma(d.x, d.x, d.y * d.y);
+    const real e0 = real_fma(p[12], r0, real_fma(p[14] * o.z, o.z, pinch.gap));
+    const real e1 = real_fma(p[12], r1, REAL(2) * p[14] * o.z * d.z), e2 = real_fma(p[12], r2, p[14] * d.z * d.z);
+    const real q0 = REAL(2) * (p[13] * o.z - (REAL(1) + pinch.gap)), q1 = REAL(2) * p[13] * d.z;
+    const real s0 = q0 * q0, s1 = REAL(2) * q0 * q1, s2 = q1 * q1, reached = real_sqrt(r0) * q0;
+    quartic g;
+    g.c[0] = (e0 - reached) * (e0 + reached);
+    g.c[1] = REAL(2) * e0 * e1 - real_fma(r0, s1, r1 * s0);
+    g.c[2] = real_fma(e1, e1, REAL(2) * e0 * e2) - real_fma(r0, s2, real_fma(r1, s1, r2 * s0));
+    g.c[3] = REAL(2) * e1 * e2 - real_fma(r1, s2, r2 * s1);
+    g.c[4] = real_fma(e2, e2, -r2 * s2);
+    return g;
 }
 
 FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
@@ -62,6 +122,7 @@ FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
     quartic g;
     real roots[4];
     int count, i;
+    eto_pinch pinch;
     if (!(reach2 > 0)) return no_hits();
     high = real_sqrt(reach2) * ETO_MARGIN;
     low = middle - high;
@@ -74,7 +135,12 @@ FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
         return no_hits();
     }
     if (!(low < high)) return no_hits();
-    {
+    pinch = eto_pinch_of(p, method, l.o, d);
+    if (pinch.passes) {
+        g = eto_pinched(p, pinch, d);
+        low = low - pinch.along;
+        high = high - pinch.along;
+    } else {
         // R = rho^2 - 1 = r0 + r1 u + r2 u^2, z = z0 + z1 u, G = gamma z^2 - 1 = g0 + g1 u + g2 u^2
         real r0 = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - REAL(1);
         real r1 = REAL(2) * real_fma(l.o.x, d.x, l.o.y * d.y);
@@ -97,7 +163,8 @@ FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
     }
     count = quartic_roots(method, g, low, high, roots);
     for (i = 0; i < count; ++i) {
-        roots[i] = l.shift + eto_polish(p, l.o, d, roots[i]) / length;
+        real u = eto_polish(p, l.o, d, roots[i], pinch);
+        roots[i] = l.shift + (pinch.passes ? u + pinch.along : u) / length;
         if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
     }
     return spans_between(s, 0, roots, count & ~1, 0);

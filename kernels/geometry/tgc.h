@@ -35,27 +35,90 @@ FN hits cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
 }
 
+// Where an end is an edge, or all but one, a ray that passes near it is taken from its closest approach to the edge: there its
+// coefficients vanish with the quartic, so near the edge it is as exact relative to its own size as elsewhere. From the usual
+// origin all that is left there is rounding. Near: in units of the larger semi-axis.
+#define EDGE_REACH REAL(0.125)
+
+// How the ray passes the line where a semi-axis m0 + m1 u, and the coordinate o + d u along it, are 0: nearest at u.
+typedef struct {
+    real u, distance2;
+} edge_pass;
+
+FN edge_pass edge_pass_of(real o, real d, real m0, real m1, span s) {
+    const real rate = real_fma(d, d, m1 * m1);
+    edge_pass e;
+    real x, m;
+    e.u = rate > 0 ? -real_fma(o, d, m0 * m1) / rate : REAL(0);
+    e.u = real_max(s.low, real_min(s.high, e.u));
+    x = real_fma(e.u, d, o);
+    m = real_fma(e.u, m1, m0);
+    e.distance2 = real_fma(x, x, m * m);
+    return e;
+}
+
+// How far along the unit direction d the origin is to be moved for that. `s`: where the ray is between the ends.
+NOINLINE_FN real edge_shift(GLOBAL const real* p, vec3 o, vec3 d, span s) {
+    const edge_pass a = edge_pass_of(o.x, d.x, real_fma(p[13], o.z, p[12]), p[13] * d.z, s);
+    const edge_pass b = edge_pass_of(o.y, d.y, real_fma(p[15], o.z, p[14]), p[15] * d.z, s);
+    const real least = real_min(a.distance2, b.distance2);
+    if (!(least < EDGE_REACH * EDGE_REACH)) return 0;
+    return a.distance2 <= b.distance2 ? a.u : b.u;
+}
+
+// What of `s` has a positive semi-axis m0 + m1 u. The ends' planes are computed in another way: by rounding a ray along an edge
+// could meet the mirrored body beyond it.
+FN span on_this_side(span s, real m0, real m1) {
+    const real u = -m0 / m1;
+    if (m1 > 0) s.low = real_max(s.low, u);
+    if (m1 < 0) s.high = real_min(s.high, u);
+    return s;
+}
+
+// Is a semi-axis next to nothing at an end?
+FN int has_edge(GLOBAL const real* p) {
+    return real_min(p[12] - real_abs(p[13]), p[14] - real_abs(p[15])) < EDGE_REACH;
+}
+
 // The quartic is solved on a bounded piece, with u in units of the direction's length.
 FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
-    real a0 = real_fma(p[13], l.o.z, p[12]), a1 = p[13] * l.d.z;
-    real b0 = real_fma(p[15], l.o.z, p[14]), b1 = p[15] * l.d.z;
-    real length = real_sqrt(dot3(l.d, l.d));
+    real length = real_sqrt(dot3(l.d, l.d)), shift = 0;
+    real a0, a1, b0, b1;
+    vec3 o = l.o;
     quartic g;
     real roots[4];
-    int count, i, inside;
+    int count, i, inside, edge;
     s = tapered_piece(method, p, l, s);
     if (!(s.low < s.high)) return no_hits();
+    edge = has_edge(p) && method != QUARTIC_UNSHIFTED;
+    if (edge) {
+        const vec3 d = scale(l.d, REAL(1) / length);
+        shift = edge_shift(p, o, d, s);
+        if (shift != 0) {
+            o = add_scaled(o, shift, d);
+            s.low = s.low - shift;
+            s.high = s.high - shift;
+        }
+    }
+    a0 = real_fma(p[13], o.z, p[12]);
+    a1 = p[13] * l.d.z;
+    b0 = real_fma(p[15], o.z, p[14]);
+    b1 = p[15] * l.d.z;
+    a1 = a1 / length;
+    b1 = b1 / length;
+    if (edge) {
+        s = on_this_side(on_this_side(s, a0, a1), b0, b1);
+        if (!(s.low < s.high)) return no_hits();
+    }
     {
         real dx = l.d.x / length, dy = l.d.y / length;
         real x0, x1, x2, y0, y1, y2, z0, z1, z2;
-        a1 = a1 / length;
-        b1 = b1 / length;
         // x b, y a and a b are quadratics in u
-        x0 = l.o.x * b0;
-        x1 = real_fma(l.o.x, b1, dx * b0);
+        x0 = o.x * b0;
+        x1 = real_fma(o.x, b1, dx * b0);
         x2 = dx * b1;
-        y0 = l.o.y * a0;
-        y1 = real_fma(l.o.y, a1, dy * a0);
+        y0 = o.y * a0;
+        y1 = real_fma(o.y, a1, dy * a0);
         y2 = dy * a1;
         z0 = a0 * b0;
         z1 = real_fma(a0, b1, a1 * b0);
@@ -68,9 +131,9 @@ FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     }
     inside = quartic_at(g, s.low) < 0;
     count = quartic_roots(method, g, s.low, s.high, roots);
-    for (i = 0; i < count; ++i) roots[i] = l.shift + roots[i] / length;
-    s.low = l.shift + s.low / length;
-    s.high = l.shift + s.high / length;
+    for (i = 0; i < count; ++i) roots[i] = l.shift + (shift + roots[i]) / length;
+    s.low = l.shift + (shift + s.low) / length;
+    s.high = l.shift + (shift + s.high) / length;
     return spans_between(s, inside, roots, count, TGC_SIDE);
 }
 

@@ -6,37 +6,54 @@
 // a form whose terms stay small near a thin tube. The quartic along the ray is solved on a piece of it (torus.h), outside which
 // it is positive; each root is then polished on (rho - 1)^2 + z^2 - ratio^2, evaluated at the point itself, which has none of
 // the expanded form's cancellation.
+//
+// Where the hole is all but closed, the surface comes near the centre, and all that is left of these terms there is rounding.
+// With gap = 1 - ratio^2 the same two functions are
+//
+//   (|p|^2 + gap)^2 - 4 rho^2        |p|^2 + gap - 2 rho
+//
+// whose terms vanish with f at the pinch of a horn torus. The origin is the ray's closest approach to just that point, so the
+// coefficients along the ray vanish likewise, and near it the quartic is as exact relative to its own size as elsewhere.
 #ifndef CSGRT_TOR_H
 #define CSGRT_TOR_H
 
 #include "quartic.h"
 #include "torus.h"
 
+// A ray that passes the centre within PINCH_REACH of a torus whose hole is no wider than 1 - PINCH_RATIO: no other meets the
+// surface where its quartic's usual terms cancel by more than a digit or two.
+#define PINCH_REACH REAL(0.2)
+#define PINCH_RATIO REAL(0.75)
+
 // (rho - 1)^2 + z^2 - ratio^2 at a point, and its rate of change along d.
 typedef struct {
     real value, slope;
 } tor_form;
 
-FN tor_form tor_at(vec3 o, vec3 d, real u, real ratio) {
+FN tor_form tor_at(vec3 o, vec3 d, real u, real ratio, int pinched) {
     tor_form f;
     vec3 p = add_scaled(o, u, d);
-    real rho = real_sqrt(real_fma(p.x, p.x, p.y * p.y));
+    real across = real_fma(p.x, p.x, p.y * p.y);
+    real rho = real_sqrt(across);
     real radial = rho - REAL(1);
-    f.value = difference_of_products(radial, radial, ratio - p.z, ratio + p.z);
+    if (pinched)
+        f.value = (across + real_fma(p.z, p.z, (REAL(1) - ratio) * (REAL(1) + ratio))) - REAL(2) * rho;
+    else
+        f.value = difference_of_products(radial, radial, ratio - p.z, ratio + p.z);
     f.slope = REAL(2) * real_fma(radial, real_fma(p.x, d.x, p.y * d.y) / rho, p.z * d.z);
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube, a pinched one). A step
-// is taken if it is small and brings the point nearer to the surface.
-FN real tor_polish(vec3 o, vec3 d, real u, real ratio) {
-    tor_form f = tor_at(o, d, u, ratio);
+// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube). A step is
+// taken if it is small and brings the point nearer to the surface.
+FN real tor_polish(vec3 o, vec3 d, real u, real ratio, int pinched) {
+    tor_form f = tor_at(o, d, u, ratio, pinched);
     int step;
     for (step = 0; step < 2; ++step) {
         real next = u - f.value / f.slope;
         tor_form g;
         if (!(real_abs(next - u) < POLISH_STEP)) return u;
-        g = tor_at(o, d, next, ratio);
+        g = tor_at(o, d, next, ratio, pinched);
         if (!(real_abs(g.value) < real_abs(f.value))) return u;
         u = next;
         f = g;
@@ -51,17 +68,25 @@ FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
     real m;
     quartic g;
     real roots[4];
-    int count, i;
+    int count, i, pinched;
     if (!(piece.low < piece.high)) return no_hits();
+    pinched = ratio > PINCH_RATIO && omega < PINCH_REACH * PINCH_REACH;
     m = omega - REAL(1) - ratio * ratio;
     g.c[4] = 1;
     g.c[3] = REAL(4) * beta;
     g.c[2] = real_fma(REAL(4) * beta, beta, REAL(2) * m) + REAL(4) * d.z * d.z;
     g.c[1] = REAL(4) * real_fma(beta, m, REAL(2) * o.z * d.z);
     g.c[0] = real_fma(m, m, REAL(4) * (o.z - ratio) * (o.z + ratio));
+    if (pinched) {
+        const real rho = real_sqrt(real_fma(o.x, o.x, o.y * o.y));
+        m = real_fma(REAL(1) - ratio, REAL(1) + ratio, omega);
+        g.c[2] = real_fma(REAL(4) * beta, beta, REAL(2) * m) - REAL(4) * real_fma(d.x, d.x, d.y * d.y);
+        g.c[1] = REAL(4) * difference_of_products(beta, m, REAL(2), real_fma(o.x, d.x, o.y * d.y));
+        g.c[0] = (m - REAL(2) * rho) * (m + REAL(2) * rho);
+    }
     count = quartic_roots(method, g, piece.low, piece.high, roots);
     for (i = 0; i < count; ++i) {
-        roots[i] = piece.l.shift + tor_polish(o, d, roots[i], ratio) / piece.length;
+        roots[i] = piece.l.shift + tor_polish(o, d, roots[i], ratio, pinched) / piece.length;
         if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
     }
     return spans_between(whole_line(), 0, roots, count & ~1, 0);

@@ -11,7 +11,8 @@ namespace csgrt {
 
 namespace {
 
-// An end of a cone this much smaller than the other is a point.
+// An end of a cone this much smaller than the other is a point. One that is so small in one direction alone keeps its
+// width.
 constexpr long double pointed = 1e-12L;
 // Tapers of a and b that differ by less than this are one: the cone is a quadric.
 constexpr long double same_taper = 1e-9L;
@@ -21,15 +22,19 @@ struct Taper {
     Wide axis;  ///< of the larger end
     long double p0, p1;
 };
-Taper taper(const Vec3& base, const Vec3& top) {
+Taper taper(const Vec3& base, const Vec3& top, bool base_is_point, bool top_is_point) {
     long double at_base = glm::length(wide(base)), at_top = glm::length(wide(top));
     const long double larger = std::max(at_base, at_top);
     const Wide direction = glm::normalize(at_base > 0 ? wide(base) : wide(top));
-    at_base /= larger;
-    at_top /= larger;
-    if (at_base < pointed) at_base = 0;
-    if (at_top < pointed) at_top = 0;
+    at_base = base_is_point ? 0 : at_base / larger;
+    at_top = top_is_point ? 0 : at_top / larger;
     return {direction * larger, 0.5L * (at_base + at_top), 0.5L * (at_top - at_base)};
+}
+
+/// Is an end of semi-axes `a` and `b` a point, beside the other's?
+bool is_point(const Vec3& a, const Vec3& b, const Vec3& other_a, const Vec3& other_b) {
+    return glm::length(wide(a)) < pointed * glm::length(wide(other_a)) &&
+           glm::length(wide(b)) < pointed * glm::length(wide(other_b));
 }
 
 }  // namespace
@@ -56,8 +61,9 @@ void Packer::operator()(const Ell& s) {
 void Packer::operator()(const Tgc& s) {
     record.type = SOLID_TGC;
     const Wide half = 0.5L * wide(s.h);
-    const Taper a = taper(s.a, s.c);
-    Taper b = taper(s.b, s.d);
+    const bool base_is_point = is_point(s.a, s.b, s.c, s.d), top_is_point = is_point(s.c, s.d, s.a, s.b);
+    const Taper a = taper(s.a, s.c, base_is_point, top_is_point);
+    Taper b = taper(s.b, s.d, base_is_point, top_is_point);
     // |A||D| = |B||C|, in units of the larger ends.
     const long double ad = (a.p0 - a.p1) * (b.p0 + b.p1), bc = (b.p0 - b.p1) * (a.p0 + a.p1);
     const bool quadric = std::fabs(ad - bc) <= same_taper * std::max(ad, bc);

@@ -9,6 +9,7 @@ namespace {
 
 struct Sets {
     Spans inner, exact, outer;
+    bool may_turn_back = false;  ///< rounding may add a pair of roots, be it within the doubt of another
 };
 
 /// A ray in a parameter s of its own: t = t_c + s unit, so that the solid lies within |s| <= 1.
@@ -78,6 +79,16 @@ Sets solve_curve(const Curve& f, std::size_t k, const ScaledRay& ray, const Chan
         if (absolute(f(s)) <= e) unsure.push_back(zone(s, 2 * e));
     };
     for (const quad s : turns) look(s);
+    // Where f turns back within the doubt of 0, beside a root at a tip, the doubt of the two is one stretch, in which the
+    // number of roots is not sure.
+    std::vector<quad> knots{-ray.reach};
+    knots.insert(knots.end(), turns.begin(), turns.end());
+    knots.push_back(ray.reach);
+    for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+        const quad here = f(knots[i]);
+        const bool turns_back = (f(knots[i - 1]) > here) == (f(knots[i + 1]) > here);
+        if (turns_back && absolute(here) <= change_at(knots[i])) sets.may_turn_back = true;
+    }
     look(-ray.reach);
     look(ray.reach);
     unsure = join(std::move(unsure));
@@ -88,14 +99,15 @@ Sets solve_curve(const Curve& f, std::size_t k, const ScaledRay& ray, const Chan
 
 /// f <= 0 along the ray for surface k.
 Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad delta) {
-    const auto change_with = [&](quad s, quad noise) {
+    const auto change_with = [&](quad s, bool noisy) {
         const QVec p = ray.origin + s * ray.direction;
+        const quad noise = noisy ? solid.noise(k, p) : quad(0);
         return quad(margin) * (solid.change(k, p, delta * (1 + ray.turn * absolute(s))) + noise);
     };
     if (const auto line = solid.surfaces[k]->line(ray.origin, ray.direction))
-        return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, solid.noise(k)); });
+        return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, true); });  // nothing but this bounds it
     const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
-    const auto change_at = [&](quad s) { return change_with(s, f.degree > 2 ? solid.noise(k) : quad(0)); };
+    const auto change_at = [&](quad s) { return change_with(s, f.degree > 2); };
     const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
     if (f.degree == 1) {
         Sets sets;
@@ -124,7 +136,10 @@ Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad
         return sets;
     }
 
-    return solve_curve(PolynomialLine{f}, k, ray, change_at);
+    // A pair of roots beyond a plane, on a cone's other nappe, is none of the solid's.
+    Sets sets = solve_curve(PolynomialLine{f}, k, ray, change_at);
+    sets.may_turn_back = sets.may_turn_back && solid.surfaces.size() == 1 && f.degree > 2;
+    return sets;
 }
 
 }  // namespace
@@ -153,18 +168,21 @@ Answer intersect(const ImplicitSolid& solid, const Ray& ray) {
     const quad miss = length(to_center - scaled.t_c * d);
     if (solid.bounded && miss > quad(solid.radius) + quad(margin) * delta) return answer;
 
-    Sets sets{everything(), everything(), everything()};
+    Sets sets{everything(), everything(), everything(), false};
     for (std::size_t k = 0; k < solid.surfaces.size() && !sets.outer.empty(); ++k) {
         const Sets one = solve(solid, k, scaled, delta);
         sets.inner = intersect(sets.inner, one.inner);
         sets.exact = intersect(sets.exact, one.exact);
         sets.outer = intersect(sets.outer, one.outer);
+        sets.may_turn_back = sets.may_turn_back || one.may_turn_back;
     }
     if (solid.bounded) {
         const Spans within{{{-scaled.reach, -1}, {scaled.reach, -1}}};
-        sets = {intersect(sets.inner, within), intersect(sets.exact, within), intersect(sets.outer, within)};
+        sets.inner = intersect(sets.inner, within);
+        sets.exact = intersect(sets.exact, within);
+        sets.outer = intersect(sets.outer, within);
     }
-    answer.tie = !nested_one_to_one(sets.inner, sets.exact, sets.outer);
+    answer.tie = sets.may_turn_back || !nested_one_to_one(sets.inner, sets.exact, sets.outer);
 
     const auto along = [&](quad s) { return absolute(s) < infinity() ? scaled.t_c + s * scaled.unit : s; };
     const auto end = [&](const Bound& bound) {

@@ -17,7 +17,7 @@ double displacement(const ImplicitSolid& solid, const Answer& answer) {
 
 /// How far f_k may be from 0, or from its sign, at a point whose surface may be displaced by `distance`.
 quad doubt(const ImplicitSolid& solid, std::size_t k, const QVec& local, quad distance) {
-    return solid.change(k, local, distance) + quad(margin) * solid.noise(k);
+    return solid.change(k, local, distance) + quad(margin) * solid.noise(k, local);
 }
 
 bool on_surface(const ImplicitSolid& solid, std::size_t k, const QVec& local, quad distance) {

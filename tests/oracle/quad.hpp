@@ -32,6 +32,15 @@ inline quad root(quad x) {
     return y;
 }
 
+/// Of either type, without a detour by the other.
+template <class T>
+T root_of(T x) {
+    if constexpr (sizeof(T) == sizeof(double))
+        return x > 0 ? std::sqrt(x) : 0;
+    else
+        return root(x);
+}
+
 struct QVec {
     quad x = 0, y = 0, z = 0;
     QVec() = default;

@@ -177,14 +177,16 @@ private:
         bound.at = found.at;
         bound.slope = found.slope;
         bound.curve = &curve;
-        const Triple<Rough> local = curve.surface->rough_gradient(path.origin + found.at * path.direction);
+        const Triple<Rough> point = path.origin + found.at * path.direction;
+        const Triple<Rough> local = curve.surface->rough_gradient(point);
         const Triple<Rough> g{dot(columns_[0], local), dot(columns_[1], local), dot(columns_[2], local)};
         bound.gradient = g;
         const double most = std::max({std::abs(g.x.v), std::abs(g.y.v), std::abs(g.z.v)});
         // Where the gradient all but vanishes more than it counts.
         if (!(most > 1e-6 * curve.steepest) || !(std::max({g.x.off, g.y.off, g.z.off}) < 1e-9 * most)) return false;
         // A hull's function has a gradient of length 1 in its own frame.
-        const double scale = hull_.empty() ? 1 : length_of(local);
+        const double scale = hull_.empty() ? curve.surface->rough_terms_at(point.x.v, point.y.v, point.z.v) / curve.terms
+                                           : length_of(local);
         bound.blur = curve.blur * scale;
         const double doubt = margin * (1.75 * most * path.delta + curve.noise * scale);
         bound.width = doubt / std::abs(bound.slope);

@@ -25,6 +25,7 @@ struct QuickCurve {
     const Surface* surface = nullptr;
     double noise = 0;     ///< that counts where its function changes sign: not quadrics'
     double blur = 0;      ///< that counts where that is
+    double terms = 1;     ///< of its function, where they are largest
     double steepest = 0;  ///< more than its gradient's components in the world anywhere near the solid
     double longest = 0;   ///< ... and than its length in the solid's own frame
 };
@@ -70,6 +71,7 @@ inline QuickCurve quick_curve(const ImplicitSolid& solid, const Surface& surface
     QuickCurve curve;
     curve.surface = &surface;
     curve.blur = noise;
+    curve.terms = to_double(surface.terms());
     curve.noise = is_noisy ? noise : 0;
     // It is asked about points within 1.5 radii. The gradient's components are cubic at most, so what 27 points do not
     // show is less than three times what they do.

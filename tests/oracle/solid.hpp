@@ -42,6 +42,10 @@ public:
     /// gradient all but vanishes: near an apex, on slivers. 0: planes, whose evaluation the displacement `delta`
     /// covers.
     virtual quad terms() const = 0;
+    /// The same at a point, no more than terms(): where all terms fade as f does, at a pinch or a tip, so does their
+    /// rounding. Taken for constant there it would hide what a solver that evaluates f well can tell.
+    virtual quad terms_at(const QVec&) const { return terms(); }
+    virtual double rough_terms_at(double, double, double) const { return to_double(terms()); }  ///< for quick.hpp
     virtual quad value(const QVec& p) const = 0;
     virtual QVec gradient(const QVec& p) const = 0;
     virtual Polynomial along(const QVec& origin, const QVec& direction) const = 0;
@@ -66,6 +70,18 @@ class SurfaceOf final : public Surface {
 public:
     explicit SurfaceOf(F f) : f_(std::move(f)) {}
     quad terms() const override { return f_.terms(); }
+    quad terms_at(const QVec& p) const override {
+        if constexpr (fading)
+            return smaller(f_.terms(), f_.terms_at(p.x, p.y, p.z));
+        else
+            return f_.terms();
+    }
+    double rough_terms_at(double x, double y, double z) const override {
+        if constexpr (fading)
+            return std::min(to_double(f_.terms()), f_.terms_at(x, y, z));
+        else
+            return to_double(f_.terms());
+    }
     quad value(const QVec& p) const override { return f_(p.x, p.y, p.z); }
     QVec gradient(const QVec& p) const override {
         return f_(Jet(p.x, {1, 0, 0}), Jet(p.y, {0, 1, 0}), Jet(p.z, {0, 0, 1})).gradient;
@@ -90,6 +106,8 @@ public:
     }
 
 private:
+    static constexpr bool fading = requires(const F& f, quad x) { f.terms_at(x, x, x); };
+
     template <class P, class V>
     P along_line(const V& o, const V& d) const {
         return f_(P::linear(o.x, d.x), P::linear(o.y, d.y), P::linear(o.z, d.z));
@@ -169,11 +187,16 @@ struct ImplicitSolid {
     }
     /// Rounding in the evaluation of f_k.
     quad noise(std::size_t k) const { return quad(ulps * double_epsilon) * surfaces[k]->terms(); }
+    /// The same at a point (own frame).
+    quad noise(std::size_t k, const QVec& local) const {
+        return quad(ulps * double_epsilon) * surfaces[k]->terms_at(local);
+    }
     /// By how much it displaces surface k near a point of the world, millimetres.
     quad blur(std::size_t k, const QVec& world) const {
         if (surfaces[k]->plane_normal() != nullptr) return 0;
-        const quad slope = length(to_local.transposed(surfaces[k]->gradient(to_local.point(world))));
-        const quad doubt = noise(k);
+        const QVec local = to_local.point(world);
+        const quad slope = length(to_local.transposed(surfaces[k]->gradient(local)));
+        const quad doubt = noise(k, local);
         return doubt < slope * quad(size) ? doubt / slope : quad(size);
     }
     /// The largest change of f_k when the point (own frame) moves by `distance` in the world, sampled along the axes.

@@ -64,14 +64,30 @@ struct Compared {
     bool overlaps = false;  ///< the right ones, where they are known
     double worst = 0;  ///< if the regions are right: an end's distance from the truth, in units of what is documented
 };
-/// `fused`: ends closer than that are one (Statistics::tolerance), at the distance of the first of them.
+/// What is left of a sequence when ends as close as that along the ray are one.
+inline Sequence without_short(const Sequence& all, double apart) {
+    Sequence rest;
+    for (const Item& item : all) {
+        if (item.region == nothing || item.out - item.in <= apart) continue;
+        Item next = item;
+        if (!rest.empty() && next.in - rest.back().out <= apart) next.in = rest.back().out;
+        append(rest, next);
+    }
+    return rest;
+}
+
+/// `fused`: ends closer than that are one (Statistics::tolerance), at the distance of the first of them: what is left out
+/// of a ray that meets a tip beside its very point is right.
 inline Compared compare(const RayPartitions& found, const Expected& expected, const Ray& ray, double fused) {
     const Vec3& d = ray.direction;
     const Sequence sequence = sequence_of(found);
+    const double apart = fused / std::hypot(d.x, d.y, d.z);
+    Sequence should = expected.sequence;
+    if (!same_regions(sequence, should)) should = without_short(should, apart);
     Compared compared;
-    compared.regions = same_regions(sequence, expected.sequence);
+    compared.regions = same_regions(sequence, should);
     compared.overlaps = !expected.overlaps || overlaps_of(found) == *expected.overlaps;
-    if (compared.regions) compared.worst = worst_end(sequence, expected.sequence, fused / std::hypot(d.x, d.y, d.z));
+    if (compared.regions) compared.worst = worst_end(sequence, should, apart);
     return compared;
 }
 

@@ -14,6 +14,16 @@ struct EtoFunction {
     quad one;                 ///< what the form is compared with: 1, divided likewise
     quad out, up;             ///< how far the ellipse reaches
     quad terms() const { return 4 * root(one) + alpha * out * out + 2 * absolute(beta) * out * up + gamma * up * up; }
+    /// f = F(rho) F(-rho): the rounding of F(rho), whose terms stay as large as they are, times the other factor, which
+    /// fades where the ellipse touches the axis.
+    template <class T>
+    T terms_at(const T& x, const T& y, const T& z) const {
+        const T a = T(alpha), b = T(beta), c = T(gamma), rho = root_of(x * x + y * y), in = rho - 1, mirrored = -rho - 1;
+        const T rest = c * z * z - T(one), cross = 2 * b * in * z;
+        const T sum = a * in * in + (cross < 0 ? -cross : cross) + c * z * z + T(one);
+        const T here = a * in * in + cross + rest, there = mirrored * (a * mirrored + 2 * b * z) + rest;
+        return sum * ((here < 0 ? -here : here) + (there < 0 ? -there : there));
+    }
     template <class T>
     T operator()(const T& x, const T& y, const T& z) const {
         const T rho2 = x * x + y * y;

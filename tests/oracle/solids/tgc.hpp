@@ -17,6 +17,11 @@ struct TgcQuadric {
     quad base, top;
     quad terms() const { return 1; }
     template <class T>
+    T terms_at(const T& x, const T& y, const T& z) const {
+        const T s = T(base) + T(top - base) * z;
+        return x * x + y * y + s * s;
+    }
+    template <class T>
     T operator()(const T& x, const T& y, const T& z) const {
         const T s = T(base) + T(top - base) * z;
         return x * x + y * y - s * s;
@@ -25,6 +30,11 @@ struct TgcQuadric {
 struct TgcQuartic {
     quad a, b, c, d;
     quad terms() const { return 1; }
+    template <class T>
+    T terms_at(const T& x, const T& y, const T& z) const {
+        const T alpha = T(a) + T(c - a) * z, beta = T(b) + T(d - b) * z, alpha2 = alpha * alpha, beta2 = beta * beta;
+        return x * x * beta2 + y * y * alpha2 + alpha2 * beta2;
+    }
     template <class T>
     T operator()(const T& x, const T& y, const T& z) const {
         const T alpha = T(a) + T(c - a) * z, beta = T(b) + T(d - b) * z;

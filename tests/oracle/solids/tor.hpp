@@ -10,6 +10,13 @@ namespace csgrt::oracle {
 struct TorFunction {
     quad k;
     quad terms() const { return 4 * k; }
+    /// f = (s - 2 rho) (s + 2 rho) with s = rho^2 + z^2 + 1 - k^2, whose terms are all positive: next to the pinch of a
+    /// horn torus the first factor is as exact as they are small.
+    template <class T>
+    T terms_at(const T& x, const T& y, const T& z) const {
+        const T across = x * x + y * y, both = across + z * z + T((1 - k) * (1 + k)) + 2 * root_of(across);
+        return both * both;
+    }
     template <class T>
     T operator()(const T& x, const T& y, const T& z) const {
         const T across = x * x + y * y;
