@@ -273,14 +273,14 @@ FN SolidFilter all_solids(void) {
     return f;
 }
 
-// The regions that claim a partition: the least, and any other. NONE: there is none.
+// The regions that claim a partition: the least, and any other of its rank. NONE: there is none.
 typedef struct {
     u32 least, other;
 } claim;
 
-// Looks at the terms that the solids of c.bits start. `other`: is it wanted. `changed`: no region claimed before these solids
-// came or went, so one of its terms has one of them.
-FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter changed) {
+// Looks at the terms that the solids of c.bits start. `ranks`: Frame.rank_ends; 0: `other` is not wanted. `changed`: no region
+// claimed before these solids came or went, so one of its terms has one of them.
+FN claim find_claim(cover c, const covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);
     found.least = found.other = NONE;
@@ -291,10 +291,13 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
             u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
             for (; i < end; ++i) {
                 const StartRecord start = c.starts[i];
-                const u32 wanted = start.region < found.least || (other && found.other == NONE && start.region != found.least);
+                const u32 region = start.region, precedes = region < found.least;
+                const u32 wanted = precedes || (ranks && found.other == NONE && region != found.least &&
+                                                same_rank(ranks, region, found.least));
                 if (wanted && meet(start.solids, changed) && term_holds(c, list, start)) {
-                    found.other = start.region < found.least ? found.least : start.region;
-                    found.least = start.region < found.least ? start.region : found.least;
+                    const u32 later = precedes ? found.least : region;
+                    if (precedes) found.least = region;
+                    found.other = ranks && later != NONE && same_rank(ranks, later, found.least) ? later : NONE;
                 }
             }
         }

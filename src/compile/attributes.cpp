@@ -1,6 +1,10 @@
 #include "compile/attributes.hpp"
 
+#include "kernel_host.hpp"
+
 namespace csgrt {
+
+std::uint32_t rank_of(const RegionInfo& region) { return region.air != 0 ? RANK_AIR : RANK_SOLID; }
 
 void Attributes::apply(const Combination& combination) {
     if (combination.color && !color_fixed) {

@@ -228,6 +228,9 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
+    const auto before = [](const FlatRegion& a, const FlatRegion& b) { return rank_of(a.info) < rank_of(b.info); };
+    if (!std::is_sorted(result.regions.begin(), result.regions.end(), before))
+        std::stable_sort(result.regions.begin(), result.regions.end(), before);
 
     // What there is to tell.
     std::vector<std::string> empty_regions;

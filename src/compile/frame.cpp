@@ -1,6 +1,8 @@
 #include "compile/frame.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -48,6 +50,7 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.unbounded_count = scene.unbounded_count;
     frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
     frame.every_partition = 1;
+    std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
 }
 
 }  // namespace

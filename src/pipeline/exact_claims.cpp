@@ -23,7 +23,8 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) con
     return claims;
 }
 
-// All regions that claim a partition, ascending: found again on the host, only for the few that overlap.
+// All regions that claim a partition and are of the first one's rank, ascending: found again on the host, only for the few
+// that overlap.
 std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32_t segments,
                                             const std::uint32_t* bits) const {
     const kernel::cover cover{
@@ -41,6 +42,10 @@ std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32
     }
     std::sort(claimants.begin(), claimants.end());
     claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+    const auto yields = [&, first = claimants.front()](std::uint32_t region) {
+        return !kernel::same_rank(scene_.rank_ends, first, region);
+    };
+    std::erase_if(claimants, yields);
     return claimants;
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "compile/attributes.hpp"
 #include "kernel_geometry.hpp"
 #include "reference/precision/double_fma.hpp"
 
@@ -102,8 +103,11 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
         for (const std::uint32_t region : table)
             if (inside(region, solids, claims.values)) claimants.push_back(region);
 
-        if (claimants.size() > 1) ++claims.overlaps;
         if (claimants.empty()) continue;
+        // The first has it; what is of a later rank yields to it without a word.
+        const std::uint32_t rank = rank_of(scene_.region_info[claimants.front()]);
+        std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
+        if (claimants.size() > 1) ++claims.overlaps;
 
         ClaimedPartition claim;
         claim.in = claims.ends[partition.in_end];
