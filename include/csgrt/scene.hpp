@@ -49,10 +49,14 @@ struct Finish {
     double transmit = 0, reflect = 0;  ///< kept for conversion; first-hit shading does not use them
 };
 
+/// FASTGEN's kinds of regions. Where regions overlap, one with a kind yields to one without, and a volume to a plate.
+enum class Fastgen : std::uint8_t { none, plate, volume };
+
 struct Combination {
     std::string name;
     Tree tree;
     bool region = false;
+    Fastgen fastgen = Fastgen::none;
     int region_id = 0, air = 0, material_id = 1, los = 100;
     std::optional<Vec3> color;  ///< 0..1
     std::optional<Finish> finish;

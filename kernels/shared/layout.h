@@ -93,8 +93,10 @@ typedef struct {
 // Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the first in the
 // model among those of the first rank. Regions of different ranks never overlap: the later one yields, without a word.
 #define RANK_SOLID 0
-#define RANK_AIR 1
-#define RANKS 2
+#define RANK_PLATE 1   // FASTGEN's
+#define RANK_VOLUME 2  // FASTGEN's
+#define RANK_AIR 3
+#define RANKS 4
 // `ends`: Frame.rank_ends.
 FN u32 same_rank(GLOBAL const u32* ends, u32 a, u32 b) {
     u32 rank, same = 1;

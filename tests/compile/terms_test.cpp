@@ -145,7 +145,10 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
         }
         const auto regions = static_cast<std::uint32_t>(trees.size());
         for (std::uint32_t& end : scene.rank_ends) end = regions;
-        if (round % 2 == 1) scene.rank_ends[RANK_SOLID] = random.below(regions + 1);
+        const std::uint32_t second = round % 2 == 1 ? random.below(regions + 1) : regions;
+        const std::uint32_t third = second + random.below(regions - second + 1);
+        scene.rank_ends[RANK_SOLID] = scene.rank_ends[RANK_PLATE] = second;
+        scene.rank_ends[RANK_VOLUME] = third;
         list_terms(scene);
         for (std::uint32_t s = 0; s < solids; ++s) {
             std::vector<bool> covered(solids);
@@ -153,10 +156,10 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
             std::uint32_t expected = NONE;
             for (std::uint32_t region = 0; region < trees.size(); ++region) {
                 if (!value_of(trees[region], covered)) continue;
-                const std::uint32_t least = expected & ~OVERLAP, air = scene.rank_ends[RANK_SOLID];
+                const auto rank = [&](std::uint32_t r) { return r < second ? 0 : r < third ? 1 : 2; };
                 if (expected == NONE) {
                     expected = region;
-                } else if ((least < air) == (region < air)) {
+                } else if (rank(expected & ~OVERLAP) == rank(region)) {
                     expected |= OVERLAP;
                 }
             }

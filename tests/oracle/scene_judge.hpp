@@ -1,7 +1,7 @@
 // Puts the partitions of a ray before the scene oracle.
 //
 // Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one
-// that may be there is, and none that must yield to it: one of a later rank (air to a solid), or of the same rank and later
+// that may be there is, and none that must yield to it: one of a later rank (air to a solid, FASTGEN's to others), or of the same rank and later
 // in the model; where several of that rank are, the overlap is listed with all of them. On rays without a tie partitions
 // begin and end where some solid does; without overlaps, too, each region's are the oracle's spans, end for end.
 // Normals are unit vectors, and at an end that belongs to one solid's surface alone they are that surface's, turned

@@ -144,8 +144,11 @@ SceneOracle::Starts SceneOracle::starts(const std::string& name, const QAffine& 
     const std::string path = above + "/" + name;
     const auto* combination = std::get_if<Combination>(&found);
     if (combination == nullptr || combination->region) {
-        const int rank = combination != nullptr && combination->air != 0 ? 1 : 0;
-        if (rank == 1 && !air_) return {};
+        const bool is_air = combination != nullptr && combination->air != 0;
+        if (is_air && !air_) return {};
+        int rank = is_air ? 3 : 0;
+        if (combination != nullptr && !is_air)
+            rank = combination->fastgen == Fastgen::plate ? 1 : combination->fastgen == Fastgen::volume ? 2 : 0;
         return {{path, expression(name, m), rank}};
     }
     std::vector<Starts> stack;
