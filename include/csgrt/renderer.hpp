@@ -63,7 +63,8 @@ struct View {
 };
 
 struct Ray {
-    Vec3 origin, direction;  ///< direction of any length but 0; distances are in units of it
+    /// Distances are in units of the direction, which may have any length (see Limits) but 0.
+    Vec3 origin, direction;
 };
 
 struct Partition {

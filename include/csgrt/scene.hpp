@@ -128,6 +128,10 @@ struct Limits {
     static constexpr std::uint32_t metaball_points = 10'000;  ///< of one metaball
     static constexpr double least_exponent = 0.01;          ///< of a superell; what is less is a box
     static constexpr double greatest_exponent = 20;         ///< of a superell; what is more is but its axes
+    static constexpr double length = 1e15;          ///< millimetres: of a coordinate or a size, as given and in its place
+    static constexpr double least_length = 1e-15;   ///< millimetres: of the diagonal of a solid's box, in its place
+    static constexpr double ray_origin = 1e18;      ///< millimetres: of a coordinate of a ray's origin
+    static constexpr double least_direction = 1e-250, greatest_direction = 1e250;  ///< of a direction's greatest component
     static constexpr int shine = 10'000;                    ///< beyond it a highlight is a point
 };
 
