@@ -1,12 +1,12 @@
 // Kernel 4: which region claims each partition. A work-item is a node, so that no partition waits for those before it.
 //
-// Overlap: the smallest index keeps the partition, as in BRL-CAD. A rule that looked at the partition before would depend on
-// the direction of the ray.
+// Overlap: the smallest index keeps the partition: solids before FASTGEN's plates, these before its volumes, air last, as in BRL-CAD, and of one rank the first in the model. A
+// rule that looked at the partition before would depend on the direction of the ray.
 #include "boolean.h"
 #include "room.h"
 
 // `c` holds the scene.
-static u32 owner_of(cover c, u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
+static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
                     __global const u32* all_bits) {
     const RayCount offset = offsets[ray];
     covered_solids covered;
@@ -18,7 +18,7 @@ static u32 owner_of(cover c, u32 id, u32 ray, __global const RayCount* offsets, 
     list_covered(c, &covered);
     if (covered.count == 1) owner = c.solids[covered.solids[0]].alone;
     if (owner == ALONE_UNKNOWN) {
-        const claim found = covered.missed ? find_claim_of_contact(c, 1, all_solids()) : find_claim(c, &covered, 1, all_solids());
+        const claim found = covered.missed ? find_claim_of_contact(c, ranks, all_solids()) : find_claim(c, &covered, ranks, all_solids());
         owner = found.least | (found.other != NONE ? OVERLAP : 0u);
     }
     return owner;
@@ -35,5 +35,5 @@ __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* 
     c.leaves = leaves;
     c.trees = trees;
     FOR_ENTRIES(id, size)
-        if (nodes[id].in_end != NONE) nodes[id].owner = owner_of(c, id, nodes[id].owner, offsets, all_ends, all_bits);
+        if (nodes[id].in_end != NONE) nodes[id].owner = owner_of(frame->rank_ends, c, id, nodes[id].owner, offsets, all_ends, all_bits);
 }

@@ -279,14 +279,14 @@ FN SolidFilter all_solids(void) {
     return f;
 }
 
-// The regions that claim a partition: the least, and any other. NONE: there is none.
+// The regions that claim a partition: the least, and any other of its rank. NONE: there is none.
 typedef struct {
     u32 least, other;
 } claim;
 
-// Looks at the terms that the solids of c.bits start. `other`: is it wanted. `changed`: no region claimed before these solids
-// came or went, so one of its terms has one of them.
-FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter changed) {
+// Looks at the terms that the solids of c.bits start. `ranks`: Frame.rank_ends; 0: `other` is not wanted. `changed`: no region
+// claimed before these solids came or went, so one of its terms has one of them.
+FN claim find_claim(cover c, const covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);
     found.least = found.other = NONE;
@@ -297,10 +297,13 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
             u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
             for (; i < end && !is_missed(c, segment); ++i) {
                 const StartRecord start = c.starts[i];
-                const u32 wanted = start.region < found.least || (other && found.other == NONE && start.region != found.least);
+                const u32 region = start.region, precedes = region < found.least;
+                const u32 wanted = precedes || (ranks && found.other == NONE && region != found.least &&
+                                                same_rank(ranks, region, found.least));
                 if (wanted && meet(start.solids, changed) && term_holds(c, list, start)) {
-                    found.other = start.region < found.least ? found.least : start.region;
-                    found.least = start.region < found.least ? start.region : found.least;
+                    const u32 later = precedes ? found.least : region;
+                    if (precedes) found.least = region;
+                    found.other = ranks && later != NONE && same_rank(ranks, later, found.least) ? later : NONE;
                 }
             }
         }
@@ -313,7 +316,7 @@ FN claim find_claim(cover c, const covered_solids* list, u32 other, SolidFilter 
 // partition. Regions overlap if they do so on one side. A ray that runs along an edge of a solid may miss it on both sides: then it
 // is within what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in
 // an edge, of which some part holds either side.
-NOINLINE_FN claim find_claim_of_contact(cover c, u32 other, SolidFilter changed) {
+NOINLINE_FN claim find_claim_of_contact(cover c, GLOBAL const u32* ranks, SolidFilter changed) {
     claim found;
     u32 step;
     found.least = found.other = NONE;
@@ -322,7 +325,7 @@ NOINLINE_FN claim find_claim_of_contact(cover c, u32 other, SolidFilter changed)
         claim side;
         c.missed = step == 0 ? MISSED_ABOVE : step == 1 ? MISSED_BELOW : 0;
         list_covered(c, &list);
-        side = find_claim(c, &list, other && step < 2, changed);
+        side = find_claim(c, &list, step < 2 ? ranks : 0, changed);
         if (side.other != NONE) found.other = side.other;
         if (side.least < found.least) found.least = side.least;
     }

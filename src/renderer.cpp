@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <future>
 #include <limits>
@@ -16,9 +17,30 @@
 #include "parallel.hpp"
 #include "pipeline/pipelines.hpp"
 #include "reference/reference.hpp"
+#include "scene/range.hpp"
 
 namespace csgrt {
 namespace {
+
+/// The power of two that a direction is divided by before it is shot, so that its squares, and floats of it, are numbers. 0 for
+/// all of usual length.
+int exponent_of(const Vec3& direction) {
+    constexpr int usual = 32;
+    int exponent = 0;
+    std::frexp(largest(direction), &exponent);
+    return exponent > usual || exponent < -usual ? exponent : 0;
+}
+Vec3 times_power(const Vec3& v, int exponent) {
+    return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+}
+void scale_distances(RayPartitions& answer, int exponent) {
+    const auto scale = [exponent](auto& stretch) {
+        stretch.in = std::ldexp(stretch.in, exponent);
+        stretch.out = std::ldexp(stretch.out, exponent);
+    };
+    std::for_each(answer.partitions.begin(), answer.partitions.end(), scale);
+    std::for_each(answer.overlaps.begin(), answer.overlaps.end(), scale);
+}
 
 constexpr const char* exact_method = "five kernels, exact counts";
 
@@ -275,28 +297,35 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     const auto start = Clock::now();
     if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         throw Error(Status::usage, "too many rays in one call: shoot them in parts of at most 2^31");
+    bool in_direction = false, any_scaled = false;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray& r = rays[i];
-        const double sum = r.origin.x + r.origin.y + r.origin.z + r.direction.x + r.direction.y + r.direction.z;
-        const bool zero = r.direction.x == 0 && r.direction.y == 0 && r.direction.z == 0;
-        if (!(sum - sum == 0) || zero)
-            throw Error(Status::usage, "ray " + std::to_string(i) + ": needs six finite numbers and a direction other than 0");
+        if (const std::string fault = ray_fault(rays[i].origin, rays[i].direction, in_direction); !fault.empty())
+            throw Error(Status::usage, "ray " + std::to_string(i) + ": " + fault);
+        any_scaled = any_scaled || exponent_of(rays[i].direction) != 0;
     }
     const PreparedFrame prepared =
         prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.statistics.tolerance);
     impl.kernels->check(rays);
     impl.start_call(rays.size(), 0, 0);
     if (!impl.reference) impl.statistics.method = exact_method;
+    std::vector<Ray> scaled;
+    if (any_scaled) {
+        scaled = rays;
+        for (Ray& ray : scaled) ray.direction = times_power(ray.direction, -exponent_of(ray.direction));
+    }
+    const std::vector<Ray>& shot = any_scaled ? scaled : rays;
     std::vector<RayPartitions> answers;
     if (impl.reference) {
         ReferenceCounts counts;
-        answers = impl.reference->shoot(prepared, rays, impl.settings.progress, counts);
+        answers = impl.reference->shoot(prepared, shot, impl.settings.progress, counts);
         impl.take(counts);
     } else {
         PipelineCounts counts;
-        answers = impl.pipelines->shoot(prepared, rays, impl.settings.progress, counts);
+        answers = impl.pipelines->shoot(prepared, shot, impl.settings.progress, counts);
         impl.take(counts);
     }
+    for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
+        if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
     impl.end_call(start);
     return answers;
 }

@@ -111,8 +111,11 @@ std::string Builder::combination(Tree tree) {
     return c.name;
 }
 
-void Builder::region(Tree tree) {
+void Builder::region(Tree tree, int air, Fastgen fastgen) {
     Combination c;
+    c.fastgen = fastgen;
+    c.air = air;
+    made_.air = made_.air || air != 0;
     c.name = "r" + std::to_string(made_.scene.objects.size());
     c.tree = std::move(tree);
     c.region = true;

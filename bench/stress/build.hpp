@@ -49,8 +49,8 @@ public:
     std::string solid(Shape shape);
     /// A combination that is no region, to be used by others.
     std::string combination(Tree tree);
-    /// A region, and an object to be rendered.
-    void region(Tree tree);
+    /// A region, and an object to be rendered. `air`: its air code; air is kept in a scene that has some.
+    void region(Tree tree, int air = 0, Fastgen fastgen = Fastgen::none);
     /// Origin and direction.
     void ray(const Vec3& origin, const Vec3& direction) { made_.rays.push_back({origin, direction}); }
     /// A ray through a point, from `back` lengths of `direction` before it.

@@ -23,6 +23,7 @@ struct StressScene {
     std::uint64_t seed = 0;
     Scene scene;
     std::vector<std::string> objects;
+    bool air = false;  ///< air regions are kept
     std::vector<Ray> rays;
     /// One entry a ray: the whole line's stretches in order, those behind the ray's start too, known from how the scene
     /// was made. Empty: not known.

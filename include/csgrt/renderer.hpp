@@ -63,7 +63,8 @@ struct View {
 };
 
 struct Ray {
-    Vec3 origin, direction;  ///< direction of any length but 0; distances are in units of it
+    /// Distances are in units of the direction, which may have any length (see Limits) but 0.
+    Vec3 origin, direction;
 };
 
 struct Partition {
@@ -72,6 +73,8 @@ struct Partition {
     std::uint32_t region = 0;       ///< index into Renderer::regions()
     std::uint32_t in_solid = 0, out_solid = 0;  ///< index into Renderer::solids()
 };
+/// What several regions claim of one rank: solids before FASTGEN's plates, these before its volumes, air last. The first of
+/// them in the model has it; regions of later ranks yield to earlier ones, and do not overlap them.
 struct Overlap {
     double in = 0, out = 0;
     std::vector<std::uint32_t> regions;
@@ -85,6 +88,7 @@ struct RayPartitions {
 
 struct RegionInfo {
     std::string path;  ///< "/top/.../region"
+    Fastgen fastgen = Fastgen::none;
     int region_id = 0, air = 0, material_id = 0, los = 0;
     Vec3 color{1, 1, 1};
     Finish finish;

@@ -49,10 +49,14 @@ struct Finish {
     double transmit = 0, reflect = 0;  ///< kept for conversion; first-hit shading does not use them
 };
 
+/// FASTGEN's kinds of regions. Where regions overlap, one with a kind yields to one without, and a volume to a plate.
+enum class Fastgen : std::uint8_t { none, plate, volume };
+
 struct Combination {
     std::string name;
     Tree tree;
     bool region = false;
+    Fastgen fastgen = Fastgen::none;
     int region_id = 0, air = 0, material_id = 1, los = 100;
     std::optional<Vec3> color;  ///< 0..1
     std::optional<Finish> finish;
@@ -124,6 +128,10 @@ struct Limits {
     static constexpr std::uint32_t metaball_points = 10'000;  ///< of one metaball
     static constexpr double least_exponent = 0.01;          ///< of a superell; what is less is a box
     static constexpr double greatest_exponent = 20;         ///< of a superell; what is more is but its axes
+    static constexpr double length = 1e15;          ///< millimetres: of a coordinate or a size, as given and in its place
+    static constexpr double least_length = 1e-15;   ///< millimetres: of the diagonal of a solid's box, in its place
+    static constexpr double ray_origin = 1e18;      ///< millimetres: of a coordinate of a ray's origin
+    static constexpr double least_direction = 1e-250, greatest_direction = 1e250;  ///< of a direction's greatest component
     static constexpr int shine = 10'000;                    ///< beyond it a highlight is a point
 };
 

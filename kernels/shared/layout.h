@@ -96,6 +96,20 @@ typedef struct {
     u32 material;
 } RegionRecord;
 
+// Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the first in the
+// model among those of the first rank. Regions of different ranks never overlap: the later one yields, without a word.
+#define RANK_SOLID 0
+#define RANK_PLATE 1   // FASTGEN's
+#define RANK_VOLUME 2  // FASTGEN's
+#define RANK_AIR 3
+#define RANKS 4
+// `ends`: Frame.rank_ends.
+FN u32 same_rank(GLOBAL const u32* ends, u32 a, u32 b) {
+    u32 rank, same = 1;
+    for (rank = 0; rank < RANKS; ++rank) same &= (a < ends[rank]) == (b < ends[rank]);
+    return same;
+}
+
 // A set of solids, known by a bit each, which others may share: what is not in the filter is not in the set.
 typedef struct {
     u32 even, odd;
@@ -190,6 +204,7 @@ typedef struct {
     u32 channels;          // of the picture: CHANNEL_x bits
     Window window;         // the picture's pixels that can show anything; none of the others has a ray
     u32 lines;             // that the tile's picture has, see place_of() in camera.h; 0: a float of each ray
+    u32 rank_ends[RANKS];  // the number behind the last region of each rank
 } Frame;
 
 // A float for each plane of a picture.
@@ -270,7 +285,7 @@ typedef struct {
     u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition; NONE: the node is none
     u32 next;             // before weaving: the end that is in this place by distance; NONE: no more
     u32 owner;            // before evaluation: the ray; after it: the region that claimed the partition, or NONE; OVERLAP is
-                          // set if several wanted it
+                          // set if several of its rank wanted it
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
@@ -278,7 +293,7 @@ typedef struct {
 // 3 weave -> shade -> the host, which wants the sums: as RayCount, so that the scan adds them up.
 typedef struct {
     u32 partitions;  // woven
-    u32 overlaps;    // of them, those that more than one region wanted
+    u32 overlaps;    // of them, those that more than one region of the owner's rank wanted
 } RayTally;
 
 // What is seen at one pixel; what of it the host gets is in Frame.channels.

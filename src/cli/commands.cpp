@@ -21,6 +21,7 @@ Settings with_progress(const Settings& settings, Progress& progress) {
 void report_skipped(const Renderer& renderer) {
     std::string text;
     for (const std::string& solid : renderer.skipped()) text += "csgrt: left out: " + solid + "\n";
+    for (const std::string& note : renderer.notes()) text += "csgrt: note: " + note + "\n";
     std::fputs(text.c_str(), stderr);
 }
 

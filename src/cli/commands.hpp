@@ -78,7 +78,7 @@ Status run(const TextArguments& arguments);
 /// The settings of a command with its progress and the user's Ctrl-C tied in. `progress` must outlive the result's use.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Says on standard error which solids --skip-unsupported has left out, a line each.
+/// Says on standard error which solids --skip-unsupported has left out, and what compilation found worth telling, a line each.
 void report_skipped(const Renderer& renderer);
 
 /// load_scene with a progress of its own.

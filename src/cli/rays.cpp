@@ -1,5 +1,6 @@
 #include "rays.hpp"
 
+#include "scene/range.hpp"
 #include "values.hpp"
 
 namespace csgrt::cli {
@@ -57,6 +58,11 @@ bool RayReader::parse(std::string_view line, Ray& ray) {
     }
     if (ray.direction == Vec3{}) {
         findings_.push_back(lines_.finding(words_[3].column, "the direction is 0 0 0", "a ray needs a direction"));
+        return false;
+    }
+    bool in_direction = false;
+    if (const std::string fault = ray_fault(ray.origin, ray.direction, in_direction); !fault.empty()) {
+        findings_.push_back(lines_.finding(words_[in_direction ? 3 : 0].column, fault, form));
         return false;
     }
     return true;

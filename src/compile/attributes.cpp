@@ -1,6 +1,13 @@
 #include "compile/attributes.hpp"
 
+#include "kernel_host.hpp"
+
 namespace csgrt {
+
+std::uint32_t rank_of(const RegionInfo& region) {
+    if (region.air != 0) return RANK_AIR;
+    return region.fastgen == Fastgen::none ? RANK_SOLID : region.fastgen == Fastgen::plate ? RANK_PLATE : RANK_VOLUME;
+}
 
 void Attributes::apply(const Combination& combination) {
     if (combination.color && !color_fixed) {
@@ -19,6 +26,7 @@ RegionInfo describe_region(const Combination* region, const Attributes& attribut
     if (region != nullptr) {
         info.region_id = region->region_id;
         info.air = region->air;
+        info.fastgen = region->fastgen;
         info.material_id = region->material_id;
         info.los = region->los;
     }

@@ -1,6 +1,7 @@
 // Colour and finish on the way down to a region.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <csgrt/renderer.hpp>
@@ -16,6 +17,9 @@ struct Attributes {
 
     void apply(const Combination& combination);
 };
+
+/// RANK_x: by which regions are numbered.
+std::uint32_t rank_of(const RegionInfo& region);
 
 /// Everything but path and bounds. A null `region` is a solid outside all regions: everything 0.
 /// BRL-CAD's colour table colours a region by its id, unless a combination has given it a colour.

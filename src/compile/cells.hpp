@@ -18,6 +18,7 @@ struct CellRange {
 /// The cell of a value, in units of cells; centres are at whole numbers.
 inline std::int64_t nearest_cell(double at) {
     constexpr double most = 9e18;  // those beyond share a cell
+    if (std::isnan(at)) return 0;  // 0 in cells of size 0
     return static_cast<std::int64_t>(std::clamp(at + std::copysign(0.5, at), -most, most));
 }
 /// The cells that value - tolerance to value + tolerance touches; centres are at multiples of `cell`.

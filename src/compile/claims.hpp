@@ -13,7 +13,7 @@ struct ClaimedPartition {
     bool in_leaves = false;    ///< `in` is where its solid ENDS (a subtraction exposes it): the normal is flipped
     bool out_enters = false;   ///< `out` is where its solid begins
     std::uint32_t region = 0;  ///< the lowest claimant
-    std::vector<std::uint32_t> claimants;  ///< all of them, ascending; only kept if there are several
+    std::vector<std::uint32_t> claimants;  ///< all of the region's rank, ascending; only kept if there are several
 };
 
 /// Joins neighbours of one region, leaves out what ends behind the ray's start, computes the normals, lists the

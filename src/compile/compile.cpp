@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compile/bvh.hpp"
+#include "compile/extent.hpp"
 #include "compile/flatten.hpp"
 #include "compile/hash.hpp"
 #include "compile/linear.hpp"
@@ -114,6 +115,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
 
     set_surroundings(scene, compiled);
     std::optional<Measured> measured(std::in_place, scene, flat);
+    check_extent(scene, flat, *measured);
     const std::size_t unbounded = set_sphere(measured->boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
     pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);

@@ -39,6 +39,7 @@ struct CompiledScene {
     std::vector<kernel::LightRecord> lights;  ///< the scene's own; none: the view supplies one
     std::vector<kernel::BvhNode> nodes;
     std::uint32_t unbounded_count = 0;
+    std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
 
     // Stays on the host.
     std::vector<FlatTree> flat_trees;     ///< one a region

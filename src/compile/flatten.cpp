@@ -31,6 +31,14 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+std::vector<std::string> fastgen_regions(const FlatScene& flat) {
+    std::vector<std::string> names;
+    for (const FlatRegion& region : flat.regions)
+        if (region.info.fastgen != Fastgen::none)
+            names.push_back(region.info.path + (region.info.fastgen == Fastgen::plate ? " (plate)" : " (volume)"));
+    return names;
+}
+
 /// Instances that only dropped parts of trees used are dropped, too.
 void drop_unused(FlatScene& flat) {
     constexpr std::uint32_t unused = 0xffffffff;
@@ -228,6 +236,9 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
+    const auto before = [](const FlatRegion& a, const FlatRegion& b) { return rank_of(a.info) < rank_of(b.info); };
+    if (!std::is_sorted(result.regions.begin(), result.regions.end(), before))
+        std::stable_sort(result.regions.begin(), result.regions.end(), before);
 
     // What there is to tell.
     std::vector<std::string> empty_regions;
@@ -258,6 +269,10 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
         term = end;
     }
     if (!findings.empty()) throw Error(Status::scene, std::move(findings));
+    if (const std::vector<std::string> fastgen = fastgen_regions(result); !fastgen.empty())
+        result.notes.push_back(counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
+                               ": plain regions are before plates, plates before volumes, then the first in the model; "
+                               "FASTGEN's rules of thickness along the ray are not followed");
     if (!air_regions.empty())
         result.notes.push_back(counted(air_regions.size(), "air region", "air regions") +
                                " left out: " + some(air_regions));

@@ -27,7 +27,7 @@ struct FlatRegion {
 struct FlatScene {
     std::vector<std::vector<Matrix>> matrices;             ///< of the instances
     std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
-    std::vector<FlatRegion> regions;                       ///< in the order of the walk
+    std::vector<FlatRegion> regions;                       ///< by rank, those of one rank in the order of the walk
     std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
     std::vector<std::string> skipped;  ///< solids of unknown types, which are empty sets: name, type, user
     std::vector<std::string> notes;

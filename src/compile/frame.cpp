@@ -1,12 +1,15 @@
 #include "compile/frame.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
 #include <glm/glm.hpp>
 
 #include "compile/window.hpp"
+#include "scene/range.hpp"
 
 namespace csgrt {
 namespace {
@@ -25,6 +28,16 @@ void put(dvec3 from, double (&to)[3]) {
 double finite(double value, const char* what) {
     if (!std::isfinite(value)) refuse(std::string(what) + " must be a finite number");
     return value;
+}
+
+double in_range(double value, double least, const char* what) {
+    if (std::abs(finite(value, what)) <= Limits::ray_origin && value >= least) return value;
+    refuse(std::string(what) + " is " + number_text(value) + " mm, and must be from " + number_text(least) + " to " +
+           number_text(Limits::ray_origin));
+}
+dvec3 in_range(const Vec3& v, const char* what) {
+    for (const double x : {v.x, v.y, v.z}) in_range(x, -Limits::ray_origin, what);
+    return to_glm(v);
 }
 
 // Sines and cosines of whole right angles are exact, so that axis-parallel views look along the axes exactly.
@@ -48,6 +61,7 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.unbounded_count = scene.unbounded_count;
     frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
     frame.every_partition = 1;
+    std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
 }
 
 }  // namespace
@@ -72,9 +86,10 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     PreparedFrame result;
     const Box box = framing_box(scene);
     const dvec3 low = to_glm(box.low), high = to_glm(box.high);
-    const dvec3 center = camera.center ? to_glm(*camera.center) : 0.5 * (low + high);
-    result.view_size = camera.view_size ? finite(*camera.view_size, "the size of the view") : glm::distance(low, high);
-    if (!(result.view_size > 0)) refuse("the size of the view must be positive");
+    const dvec3 center = camera.center ? in_range(*camera.center, "the centre of the view") : 0.5 * (low + high);
+    if (camera.view_size && !(*camera.view_size > 0)) refuse("the size of the view must be positive");
+    result.view_size = camera.view_size ? in_range(*camera.view_size, Limits::least_length, "the size of the view")
+                                        : glm::distance(low, high);
 
     double sin_a, cos_a, sin_e, cos_e;
     sine_cosine(finite(camera.azimuth, "azimuth"), sin_a, cos_a);
@@ -87,7 +102,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     const double half = 0.5 * result.view_size;
     result.eye_to_center = camera.perspective > 0 ? half / std::tan(camera.perspective * std::numbers::pi / 360.0)
                                                   : std::numbers::sqrt2 * half;
-    const dvec3 eye = center + result.eye_to_center * back;
+    const dvec3 eye = center + in_range(result.eye_to_center, 0, "the distance of the eye") * back;
     const double pixel = result.view_size / view.height;
 
     kernel::Frame& frame = result.frame;

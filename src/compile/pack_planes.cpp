@@ -1,6 +1,9 @@
 // The planes of all solids, those that are one found by several threads: see shards.hpp.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -8,6 +11,7 @@
 #include "compile/pack_chunks.hpp"
 #include "compile/pack_solids.hpp"
 #include "parallel.hpp"
+#include "scene/range.hpp"
 
 namespace csgrt {
 
@@ -42,6 +46,49 @@ std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
         if (!again) refs[kept++] = refs[i];
     }
     return kept;
+}
+
+/// A solid two of whose faces look away from each other in what is one plane: nothing is left of it.
+struct Film {
+    std::size_t solid;
+    double thickness;
+};
+
+/// How far apart two such faces are as given; none: there are none.
+std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
+    const auto apart = [&](std::size_t i, std::size_t j) {
+        const PlaneTable::Key &a = faces[i].key, &b = faces[j].key;
+        return std::fabs(glm::dot(wide(a.one.normal), wide(b.one.normal)) < 0 ? a.offset + b.offset : a.offset - b.offset);
+    };
+    constexpr std::size_t few = 16;
+    std::unordered_map<std::uint32_t, std::size_t> seen;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        if (faces.size() > few) {
+            seen.emplace(faces[i].ref, i);
+            if (const auto other = seen.find(faces[i].ref ^ 1); other != seen.end()) return apart(i, other->second);
+            continue;
+        }
+        for (std::size_t j = 0; j < i; ++j)
+            if ((faces[i].ref ^ faces[j].ref) == 1) return apart(i, j);
+    }
+    return {};
+}
+
+/// Says of the first few what has become of them, and how many more there are.
+void note_films(const std::vector<std::vector<Film>>& films, const Box& common, CompiledScene& compiled) {
+    constexpr std::size_t shown = 5;
+    std::size_t count = 0;
+    for (const std::vector<Film>& some : films) {
+        for (const auto& [solid, thickness] : some) {
+            if (++count > shown) continue;
+            const Box& own = compiled.solid_boxes[solid];
+            const double limit = PlaneTable::gap * diagonal(is_finite(own) ? own : common);
+            compiled.notes.push_back("nothing is left of " + compiled.solid_info[solid].name + ": two of its faces are " +
+                                     rounded_text(thickness) + " mm apart, and faces within " +
+                                     rounded_text(limit) + " mm, 1e-10 of its size, are one surface");
+        }
+    }
+    if (count > shown) compiled.notes.push_back("nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
 }  // namespace
@@ -120,6 +167,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
     });
 
     std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
+    std::vector<std::vector<Film>> films(chunks.size());
     for_each_chunk([&](std::size_t number) {
         std::vector<kernel::PlaneRef>& own = of[number];
         own.reserve(chunks[number].planes.size());
@@ -130,6 +178,8 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i) {
             const PackedChunk::Part& part = chunks[number].parts[i];
             const std::size_t first = own.size();
+            if (const auto thickness = thickness_of_film({plane, plane + part.faces}))
+                films[number].push_back({number * PackedChunk::size + i, *thickness});
             append(part.faces);
             if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
             append(part.cuts);
@@ -138,6 +188,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
             record.plane_count = static_cast<std::uint32_t>(own.size() - first);
         }
     });
+    note_films(films, common, compiled);
     for (std::size_t number = 0; number < chunks.size(); ++number) {
         first_ref[number] = static_cast<std::uint32_t>(refs);
         refs += of[number].size();

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
+#include <numeric>
 #include <string>
 #include <utility>
 
+#include "compile/attributes.hpp"
 #include "compile/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/linearize.hpp"
@@ -101,6 +104,9 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
             compiled.flat_trees[i] = std::move(region.tree);
         }
     });
+
+    for (const RegionInfo& region : compiled.region_info) ++compiled.rank_ends[rank_of(region)];
+    std::partial_sum(std::begin(compiled.rank_ends), std::end(compiled.rank_ends), std::begin(compiled.rank_ends));
 
     compiled.bounds = empty_box;
     std::uint64_t words = 0, leaves = 0;

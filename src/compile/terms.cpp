@@ -206,16 +206,16 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
     chunk.ends.push_back(static_cast<std::uint32_t>(chunk.starts.size()));
 }
 
-/// Takes up what a term of that region is where the solid alone covers.
-void claim_alone(kernel::SolidRecord& solid, Alone alone, std::uint32_t region) {
+/// Takes up what a term of that region is where the solid alone covers. Regions come in ascending order.
+void claim_alone(const CompiledScene& compiled, kernel::SolidRecord& solid, Alone alone, std::uint32_t region) {
     const std::uint32_t least = solid.alone & ~OVERLAP;
     if (alone == Alone::no || solid.alone == ALONE_UNKNOWN) return;
     if (alone == Alone::unknown) {
         solid.alone = ALONE_UNKNOWN;
     } else if (least == NONE) {
         solid.alone = region;
-    } else if (least != region) {
-        solid.alone = std::min(least, region) | OVERLAP;
+    } else if (least != region && kernel::same_rank(compiled.rank_ends, least, region)) {
+        solid.alone = least | OVERLAP;
     }
 }
 
@@ -320,7 +320,7 @@ void list_terms(CompiledScene& compiled) {
                 if (i + soon < chunk.starts.size()) fetch(&compiled.solids[chunk.starts[i + soon]]);
                 kernel::SolidRecord& solid = compiled.solids[chunk.starts[i]];
                 compiled.starts[solid.first_start + solid.start_count++] = record;
-                claim_alone(solid, chunk.alone[i], record.region);
+                claim_alone(compiled, solid, chunk.alone[i], record.region);
             }
         }
     }

@@ -187,6 +187,7 @@ private:
                         "Y (or P, V) is a region, N is none"};
         }
         combination.region = kind.text != "N";
+        combination.fastgen = fastgen_of(kind.text);
         combination.name = fields.next("the combination's name").text;
         object_ = combination.name;
         combination.region_id = fields.integer("the region id");

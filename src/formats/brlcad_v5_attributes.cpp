@@ -41,8 +41,9 @@ bool read_flag(const TclWord& word) {
 }
 
 /// R is a region; P and V are regions of FASTGEN, a plate and a volume.
-bool read_region_flag(const TclWord& word) {
-    return word.text == "R" || word.text == "P" || word.text == "V" || read_flag(word);
+void read_region_flag(Combination& combination, const TclWord& word) {
+    combination.fastgen = fastgen_of(word.text);
+    combination.region = word.text == "R" || combination.fastgen != Fastgen::none || read_flag(word);
 }
 
 int read_any_integer(const TclWord& word) {
@@ -95,7 +96,7 @@ bool set_attribute(Combination& combination, const Attribute& attribute) {
     const std::string key = in_lower_case(attribute.key);
     const TclWord& value = attribute.value;
     if (key == "region") {
-        combination.region = read_region_flag(value);
+        read_region_flag(combination, value);
     } else if (key == "region_id" || key == "id") {
         combination.region_id = read_any_integer(value);
     } else if (key == "air" || key == "aircode") {

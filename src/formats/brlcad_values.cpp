@@ -119,6 +119,10 @@ Matrix without_scale(Matrix matrix, std::size_t offset) {
     return matrix;
 }
 
+Fastgen fastgen_of(std::string_view flag) {
+    return flag == "P" ? Fastgen::plate : flag == "V" ? Fastgen::volume : Fastgen::none;
+}
+
 Vec3 color_of_bytes(int r, int g, int b) {
     return {r / 255.0, g / 255.0, b / 255.0};
 }

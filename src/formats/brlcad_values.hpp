@@ -33,6 +33,9 @@ Vec3 unit_vector(const Vec3& v);
 /// matrix is not affine.
 Matrix without_scale(Matrix matrix, std::size_t offset);
 
+/// What a region's flag says: P a plate, V a volume, others neither.
+Fastgen fastgen_of(std::string_view flag);
+
 /// A colour of three components 0..255.
 Vec3 color_of_bytes(int r, int g, int b);
 

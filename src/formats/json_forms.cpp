@@ -125,7 +125,7 @@ std::vector<JsonForm> all_forms() {
          {{"color"}, {"shader"}, {"specular"}, {"diffuse"}, {"ambient"}, {"shine"}, {"transmit"}, {"reflect"}}},
         {"region_color", {{"low", required}, {"high", required}, {"color", required}}},
         {"combination",
-         {{"tree", required}, {"region"}, {"id"}, {"air"}, {"material_id"}, {"los"}, {"material"}, {"inherit"}}},
+         {{"tree", required}, {"region"}, {"id"}, {"air"}, {"fastgen"}, {"material_id"}, {"los"}, {"material"}, {"inherit"}}},
         node("leaf", "object"),
         node("union", "union"),
         node("intersection", "intersection"),

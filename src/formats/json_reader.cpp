@@ -170,6 +170,8 @@ private:
         c.region = o["region"].boolean(c.region);
         c.region_id = o["id"].integer(int_min, int_max, c.region_id);
         c.air = o["air"].integer(int_min, int_max, c.air);
+        constexpr Fastgen kinds[] = {Fastgen::plate, Fastgen::volume, Fastgen::none};
+        c.fastgen = kinds[o["fastgen"].choice({"plate", "volume"}, 2)];
         c.material_id = o["material_id"].integer(int_min, int_max, c.material_id);
         c.los = o["los"].integer(int_min, int_max, c.los);
         if (const JsonNode material = o["material"]; material.present()) {

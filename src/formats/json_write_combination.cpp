@@ -123,6 +123,8 @@ ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string
     };
     add("id", combination.region_id, usual.region_id);
     add("air", combination.air, usual.air);
+    if (combination.fastgen != Fastgen::none)
+        out["fastgen"] = combination.fastgen == Fastgen::plate ? "plate" : "volume";
     add("material_id", combination.material_id, usual.material_id);
     add("los", combination.los, usual.los);
     if (combination.color || combination.finish) out["material"] = json_of_material(combination, unit);

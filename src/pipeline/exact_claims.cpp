@@ -26,7 +26,7 @@ std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) con
 
 namespace {
 
-/// All regions that claim what `cover` covers, ascending.
+/// All regions that claim what `cover` covers and are of the first one's rank, ascending.
 std::vector<std::uint32_t> claimants_of(const CompiledScene& scene, const kernel::cover& cover) {
     kernel::covered_solids covered;
     kernel::list_covered(cover, &covered);
@@ -41,6 +41,9 @@ std::vector<std::uint32_t> claimants_of(const CompiledScene& scene, const kernel
     }
     std::sort(claimants.begin(), claimants.end());
     claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
+    std::erase_if(claimants, [&, first = claimants.empty() ? NONE : claimants.front()](std::uint32_t region) {
+        return !kernel::same_rank(scene.rank_ends, first, region);
+    });
     return claimants;
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "compile/attributes.hpp"
 #include "kernel_geometry.hpp"
 #include "reference/precision/double_fma.hpp"
 
@@ -102,6 +103,10 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     table.erase(std::unique(table.begin(), table.end()), table.end());
     for (const std::uint32_t region : table)
         if (inside(region, solids, claims.values)) claimants.push_back(region);
+    if (claimants.empty()) return;
+    // What is of a later rank yields to the first without a word.
+    const std::uint32_t rank = rank_of(scene_.region_info[claimants.front()]);
+    std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
 }
 
 void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const {

@@ -30,7 +30,7 @@ private:
     struct Claims;
     /// Does the ray run in a face of one of its solids? Then two sides are to be looked at.
     static bool in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends);
-    /// The regions that claim a partition, ascending, by its solids but those whose ends have any of `missed`.
+    /// The regions of the first rank that claim a partition, ascending, by its solids but those whose ends have any of `missed`.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
                         std::vector<std::uint32_t>& claimants) const;
     void evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const;

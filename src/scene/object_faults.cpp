@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/operators.hpp"
+#include "scene/range.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -22,7 +23,7 @@ bool is_color(const Vec3& color) {
 class Settings {
 public:
     explicit Settings(const Report& report) : report_(report) {}
-    void require(bool holds, const char* pointer, const char* message) const {
+    void require(bool holds, const char* pointer, const std::string& message) const {
         if (!holds) report_(Place{.file = {}, .pointer = pointer}, message, {});
     }
 
@@ -60,6 +61,11 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
         report(leaf.place, of() + "has a number that is not finite", {});
         return;
     }
+    const double most = std::abs(*std::max_element(m.begin(), m.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    if (most > Limits::length) {
+        report(leaf.place, of() + "has the number " + number_text(most) + "; " + length_limit(), {});
+        return;
+    }
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
         report(leaf.place, of() + "must end in the row 0 0 0 1",
                "points are columns: p' = M p, translation in the last column");
@@ -77,11 +83,16 @@ void check_settings(const Scene& scene, const Report& report) {
     const Settings settings(report);
     settings.require(scene.unit_length > 0 && std::isfinite(scene.unit_length), "/units",
                      "a unit must be longer than 0");
+    const std::string limit = "; " + length_limit();
     settings.require(not_negative(scene.tolerance), "/tolerance", "the tolerance must be 0 or more, and finite");
+    settings.require(!(scene.tolerance > Limits::length), "/tolerance",
+                     "the tolerance is " + number_text(scene.tolerance) + " mm" + limit);
     settings.require(not_negative(scene.ambient), "/ambient", "the ambient light must be 0 or more, and finite");
     settings.require(is_color(scene.background), "/background", "a colour has components from 0 to 1");
     for (const Light& light : scene.lights) {
         settings.require(is_finite(light.position), "/lights", "the position of a light must be finite");
+        settings.require(!(largest(light.position) > Limits::length), "/lights",
+                         "a light stands at " + number_text(largest(light.position)) + " mm" + limit);
         settings.require(is_color(light.color), "/lights", "a colour has components from 0 to 1");
         settings.require(not_negative(light.intensity), "/lights", "an intensity must be 0 or more, and finite");
     }

@@ -35,6 +35,7 @@ struct CurveFault {
     std::string operator()(const Sketch::Arc& c) const {
         if (const std::string fault = missing({c.start, c.end}); !fault.empty()) return fault;
         if (!std::isfinite(c.radius)) return " has a radius that is not finite";
+        if (std::abs(c.radius) > Limits::length) return " has the radius " + number_text(c.radius) + "; " + length_limit();
         const Sketch::Point &p = vertices[c.start], &q = vertices[c.end];
         const double chord = std::hypot(q.u - p.u, q.v - p.v);
         if (chord == 0) return c.radius < 0 ? " is a circle of radius 0" : " is an arc from a place to itself";
@@ -105,8 +106,11 @@ std::vector<std::string> sketch_faults(const Sketch& sketch) {
     if (!require_at_most(faults, "curves", sketch.curves.size(), Limits::curves)) return faults;
     if (sketch.curves.empty()) return {"its sketch has no curves"};
     for (std::size_t i = 0; i < sketch.vertices.size(); ++i) {
-        if (std::isfinite(sketch.vertices[i].u) && std::isfinite(sketch.vertices[i].v)) continue;
-        return {"vertex " + std::to_string(i) + " of its sketch has a number that is not finite"};
+        const auto& [u, v] = sketch.vertices[i];
+        const double most = std::max(std::abs(u), std::abs(v));
+        const std::string vertex = "vertex " + std::to_string(i) + " of its sketch has ";
+        if (!std::isfinite(u) || !std::isfinite(v)) return {vertex + "a number that is not finite"};
+        if (most > Limits::length) return {vertex + "the number " + number_text(most) + "; " + length_limit()};
     }
     for (std::size_t i = 0; i < sketch.curves.size(); ++i) {
         const std::string fault = std::visit(CurveFault{sketch.vertices}, sketch.curves[i]);

@@ -8,8 +8,10 @@ namespace csgrt {
 namespace {
 
 void check_placement(Faults& faults, const Matrix& m) {
-    if (!std::all_of(m.begin(), m.end(), [](double x) { return std::abs(x) <= most_distant; })) {
-        faults.push_back("the matrix has a number that is not finite, or far too large");
+    const auto far = std::find_if(m.begin(), m.end(), [](double x) { return !(std::abs(x) <= Limits::length); });
+    if (far != m.end()) {
+        faults.push_back("the matrix has a number that is not finite, or far too large: " + number_text(*far) + "; " +
+                         length_limit());
     } else if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
         faults.push_back("the matrix must end in the row 0 0 0 1");
     } else if (dependent({m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]})) {
@@ -56,8 +58,8 @@ Faults FaultsOf::operator()(const Vol& s) const {
     Faults faults;
     if (!all_finite(faults, s.cell)) return faults;
     for (const double side : {s.cell.x, s.cell.y, s.cell.z}) {
-        if (side > 0 && side <= most_distant) continue;
-        faults.push_back("the sides of a cell must be greater than 0, and not far too large");
+        if (side > 0) continue;
+        faults.push_back("the sides of a cell must be greater than 0");
         break;
     }
     check_placement(faults, s.matrix);

@@ -11,9 +11,9 @@ namespace {
 bool check_places(Faults& faults, const std::vector<Vec3>& places, const std::string& what) {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const bool finite = is_finite(places[i]);
-        if (finite && length(places[i]) <= most_distant) continue;
+        if (finite && largest(places[i]) <= Limits::length) continue;
         faults.push_back(what + std::to_string(i) +
-                         (finite ? " lies too far away" : " has a number that is not finite"));
+                         (finite ? " lies too far away, at " + number_text(largest(places[i])) + "; " + length_limit() : " has a number that is not finite"));
         return false;
     }
     return true;
@@ -30,8 +30,8 @@ void check_plates(Faults& faults, const Bot& s) {
     }
     for (std::size_t i = 0; i < s.faces.size(); ++i) {
         const std::string of = " of face " + std::to_string(i);
-        if (!(s.thickness[i] >= 0 && std::isfinite(s.thickness[i]))) {
-            faults.push_back("the thickness" + of + " must be 0 or more, and finite");
+        if (!(s.thickness[i] >= 0 && s.thickness[i] <= Limits::length)) {
+            faults.push_back("the thickness" + of + " must be 0 or more, and finite; " + length_limit());
             return;
         }
         if (!s.append.empty() && s.append[i] > 1) {

@@ -1,12 +1,14 @@
 // What the files that check solids by family share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include <csgrt/scene.hpp>
 
+#include "scene/range.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -61,20 +63,23 @@ struct FaultsOf {
 /// vectors of single precision, off by up to 1e-6; its ray tracer refuses beyond a cosine of 0.999.
 inline constexpr double angle_slack = 1e-3;
 
-/// Vertices of meshes are at most this far from the origin: squares of such lengths are numbers still.
-inline constexpr double most_distant = 1e150;
-
 struct IsFinite {
     bool operator()(double x) const { return std::isfinite(x); }
     bool operator()(const Vec3& v) const { return is_finite(v); }
 };
 
-/// Reports a number that is not finite, once a solid. Nothing else is worth saying about such a solid.
+/// Reports a number that is not finite or beyond the largest length, once a solid. Nothing else is worth saying about such
+/// a solid.
 template <class... Numbers>
 bool all_finite(Faults& faults, const Numbers&... numbers) {
     const IsFinite finite;
-    if ((finite(numbers) && ...)) return true;
-    faults.push_back("it has a number that is not finite");
+    if (!(finite(numbers) && ...)) {
+        faults.push_back("it has a number that is not finite");
+        return false;
+    }
+    const double most = std::max({largest(numbers)...});
+    if (most <= Limits::length) return true;
+    faults.push_back("it has the number " + number_text(most) + "; " + length_limit());
     return false;
 }
 

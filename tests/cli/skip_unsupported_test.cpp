@@ -42,7 +42,9 @@ TEST_CASE("a scene with an unknown solid is refused, or rendered without it") {
 
     const Result skipped = run({"shoot", scene, "odd.g", "--rays", rays, "--reference", "--skip-unsupported"});
     REQUIRE(skipped.status == 0);
-    CHECK(skipped.err == "csgrt: left out: odd.s (brep), used by odd.r\n");
+    CHECK(skipped.err ==
+          "csgrt: left out: odd.s (brep), used by odd.r\n"
+          "csgrt: note: 1 region without solids left out: /odd.g/lone.r\n");
     const Result without = run({"shoot", scene, "even.g", "--rays", rays, "--reference"});
     REQUIRE(without.status == 0);
     CHECK(contains(without.out, "even.r"));

@@ -134,6 +134,14 @@ TEST_CASE("air regions are left out, with a note, unless they are wanted") {
     CHECK(regions_of(s, {"outer"}) == Lines{"/outer: a b -"});
 }
 
+TEST_CASE("air regions come after all others, and each kind in the order of the model") {
+    Scene s = alphabet({group("top", {leg("A"), leg("B"), either, leg("C"), either, leg("D"), either})});
+    std::get<Combination>(s.objects[1]).air = 2;  // A
+    std::get<Combination>(s.objects[5]).air = 1;  // C
+    CHECK(regions_of(s, {"top"}, true) == Lines{"/top/B: b", "/top/D: d", "/top/A: a", "/top/C: c"});
+    CHECK(regions_of(s, {"C", "D"}, true) == Lines{"/D: d", "/C: c"});
+}
+
 TEST_CASE("what is empty vanishes from trees, and empty regions are left out with a note") {
     const Scene s = alphabet(
         {group("none", {}), region("hollow", {leg("none")}), region("less", {leg("none"), leg("a"), less}),

@@ -143,13 +143,26 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
             const LinearTree linear = linearize(tree, scene.trees);
             scene.regions.push_back({linear.first_word, linear.word_count, 0, 0});
         }
+        const auto regions = static_cast<std::uint32_t>(trees.size());
+        for (std::uint32_t& end : scene.rank_ends) end = regions;
+        const std::uint32_t second = round % 2 == 1 ? random.below(regions + 1) : regions;
+        const std::uint32_t third = second + random.below(regions - second + 1);
+        scene.rank_ends[RANK_SOLID] = scene.rank_ends[RANK_PLATE] = second;
+        scene.rank_ends[RANK_VOLUME] = third;
         list_terms(scene);
         for (std::uint32_t s = 0; s < solids; ++s) {
             std::vector<bool> covered(solids);
             covered[s] = true;
             std::uint32_t expected = NONE;
-            for (std::uint32_t region = 0; region < trees.size(); ++region)
-                if (value_of(trees[region], covered)) expected = expected == NONE ? region : expected | OVERLAP;
+            for (std::uint32_t region = 0; region < trees.size(); ++region) {
+                if (!value_of(trees[region], covered)) continue;
+                const auto rank = [&](std::uint32_t r) { return r < second ? 0 : r < third ? 1 : 2; };
+                if (expected == NONE) {
+                    expected = region;
+                } else if (rank(expected & ~OVERLAP) == rank(region)) {
+                    expected |= OVERLAP;
+                }
+            }
             const std::uint32_t alone = scene.solids[s].alone;
             if (alone == ALONE_UNKNOWN) {
                 ++unknown;

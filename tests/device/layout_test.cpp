@@ -29,7 +29,7 @@ using namespace csgrt;
     FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
-    FIELD(Frame, window) FIELD(Frame, lines) RECORD(Window) FIELD(Window, left) FIELD(Window, top) FIELD(Window, right) FIELD(Window, bottom) \
+    FIELD(Frame, window) FIELD(Frame, lines) FIELD(Frame, rank_ends) RECORD(Window) FIELD(Window, left) FIELD(Window, top) FIELD(Window, right) FIELD(Window, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
     FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) \

@@ -26,8 +26,10 @@ struct FieldTally {
 /// Shoots the rays of a scene on the device and on the reference, requires the same bits, and adds what the oracle
 /// says to `tally`.
 inline void judge_field(const stress::StressScene& made, FieldTally& tally) {
-    Renderer reference(made.scene, made.objects, on_reference());
-    Renderer device(made.scene, made.objects, on_device());
+    Settings settings = on_reference(), device_settings = on_device();
+    settings.air = device_settings.air = made.air;
+    Renderer reference(made.scene, made.objects, settings);
+    Renderer device(made.scene, made.objects, device_settings);
     std::vector<RayPartitions> found = reference.shoot(made.rays);
     {
         INFO("seed " << made.seed);

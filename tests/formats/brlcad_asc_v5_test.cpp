@@ -139,6 +139,8 @@ TEST_CASE("v5: a combination's attributes, in every spelling", "[asc]") {
 
     const Combination& b = comb(scene, "b");
     CHECK(b.region);
+    CHECK(a.fastgen == Fastgen::none);
+    CHECK(b.fastgen == Fastgen::plate);
     CHECK(b.region_id == 5);
     CHECK(b.air == 1);
     CHECK(b.material_id == 2);

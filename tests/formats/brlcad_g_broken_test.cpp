@@ -229,3 +229,43 @@ TEST_CASE("g: any end of a file, and any byte in it, gives a scene or findings",
     CHECK(read > 500);
     CHECK(refused > 1000);
 }
+
+TEST_CASE("g: cells whose size is no number, or far too large, are refused with the object and its byte", "[g][broken]") {
+    const auto at = [](const std::string& body, const std::string& value) {
+        return body_at + static_cast<std::int64_t>(body.find(value));
+    };
+    for (const char* value : {"nan", "-nan", "inf"}) {
+        const std::string vol = "file=b src=o w=1 n=2 d=3 size=1," + std::string(value) + ",3" + zero;
+        check_body(13, vol, at(vol, value), "is not a");
+        const std::string ebm = "file=b src=o w=2 n=3 d=" + std::string(value) + zero;
+        check_body(12, ebm, at(ebm, value), "is not a");
+        const std::string placed = "file=b src=o w=2 n=3 d=4 mat=1,0,0,5,0,1,0,6,0," + std::string(value) + ",1,7,0,0,0,1" + zero;
+        check_body(12, placed, at(placed, value), "is not a");
+    }
+    Matrix elements = identity;
+    elements[5] = std::numeric_limits<double>::quiet_NaN();
+    const std::string dsp = number(2, 2) + number(2, 2) + reals({elements.begin(), elements.end()}) + number(1, 1) + "oLh" + zero;
+    check_body(25, dsp, body_at + 8 + 5 * 8, "an element of the dsp's matrix is not a finite number");
+
+    // Finite, and so they are read; but what is computed of them overflows.
+    elements = identity;
+    elements[0] = elements[5] = elements[10] = 1e200;
+    const std::string before = header + WrittenObject{.major = 9, .minor = 4, .name = "b", .body = "\1\2\3\4\5\6"}.bytes() +
+                               WrittenObject{.major = 9, .minor = 5, .name = "h", .body = "\1\2\1\2\1\2\1\2"}.bytes();
+    const auto refused = [&](int type, const std::string& body, const std::string& message) {
+        INFO(message);
+        const std::string x = WrittenObject{.minor = type, .name = "x", .body = body}.bytes();
+        const Scene scene = parse_brlcad_g(ByteSource("model.g", before + x));
+        const std::vector<Diagnostic> findings = validate(scene, {"x"});
+        REQUIRE(findings.size() == 1);
+        INFO(format(findings[0]));
+        CHECK(findings[0].place.file == "model.g");
+        CHECK(findings[0].place.offset == static_cast<std::int64_t>(before.size()));
+        CHECK(findings[0].message.find("solid 'x': " + message) == 0);
+        CHECK(findings[0].message.find("the largest size and distance from the origin is 1e+15 mm") != std::string::npos);
+    };
+    refused(13, "file=b src=o w=1 n=2 d=3 lo=1 hi=9 size=1,1e200,3" + zero, "it has the number 1e+200; ");
+    refused(12, "file=b src=o w=2 n=3 d=1e308" + zero, "it has the number 1e+308; ");
+    refused(25, number(2, 2) + number(2, 2) + reals({elements.begin(), elements.end()}) + number(1, 1) + "oLh" + zero,
+            "the matrix has a number that is not finite, or far too large: 1e+200; ");
+}

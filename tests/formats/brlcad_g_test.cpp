@@ -170,7 +170,8 @@ TEST_CASE("g: attributes", "[g]") {
                               combination("c", {.leaves = {{"a"}}},
                                           attributes({"rgb", "0/0/255", "oshader", "glass"})) +
                               combination("v", {.leaves = {{"a"}}}, attributes({}) + "\2binary") +
-                              combination("w", {.leaves = {{"a"}}}, "air" + zero + "5" + zero));
+                              combination("w", {.leaves = {{"a"}}}, "air" + zero + "5" + zero) +
+                              combination("f", {.leaves = {{"a"}}}, attributes({"region", "V"})));
     CHECK(scene.title == "A {model}");
     CHECK(scene.units == "in");
     CHECK(scene.unit_length == 25.4);
@@ -193,6 +194,8 @@ TEST_CASE("g: attributes", "[g]") {
     CHECK(comb(scene, "c").finish->shader == "glass");
     CHECK_FALSE(comb(scene, "v").color);
     CHECK(comb(scene, "w").air == 5);
+    CHECK(comb(scene, "f").region);
+    CHECK(comb(scene, "f").fastgen == Fastgen::volume);
 }
 
 TEST_CASE("g: what is no geometry is passed over", "[g]") {

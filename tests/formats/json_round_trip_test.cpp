@@ -75,6 +75,7 @@ Scene random_scene(unsigned seed) {
         c.region = n.coin();
         c.region_id = n.integer();
         c.air = n.coin() ? 0 : n.integer();
+        c.fastgen = n.coin() ? Fastgen::none : n.coin() ? Fastgen::plate : Fastgen::volume;
         c.material_id = n.integer();
         c.los = n.coin() ? 100 : 0;
         if (n.coin()) c.color = n.color();

@@ -96,7 +96,7 @@ private:
     void add_curve(const Sketch::Nurb& c) { add(c.order, c.knots, c.points, c.weights); }
 
     void add_combination(const Combination& c) {
-        add(c.tree.nodes.size(), c.region, c.region_id, c.air, c.material_id, c.los, c.color, c.finish.has_value(),
+        add(c.tree.nodes.size(), c.region, c.region_id, c.air, c.fastgen, c.material_id, c.los, c.color, c.finish.has_value(),
             c.color_inherits, c.finish_inherits);
         if (c.finish) {
             add(c.finish->shader, c.finish->specular, c.finish->diffuse, c.finish->ambient, c.finish->shine,

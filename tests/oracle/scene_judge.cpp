@@ -37,7 +37,7 @@ std::string SceneJudge::judge(const Ray& ray, const RayPartitions& found, std::s
     bool overlaps = !found.overlaps.empty();  // some are no longer than the slack
     for (const Piece& piece : answer.pieces) {
         check_piece(piece, found, wrong);
-        overlaps = overlaps || certain(piece) > 1;
+        overlaps = overlaps || contested(piece);
     }
     overlaps = overlaps || overlap_behind(answer, slack_ / to_double(length(QVec(ray.direction))));
     if (!answer.tie && !overlaps) check_spans(ray, answer, found, wrong);
@@ -63,9 +63,14 @@ std::string SceneJudge::judge(const Ray& ray, const RayPartitions& found, std::s
     return wrong.str();
 }
 
-std::size_t SceneJudge::certain(const Piece& piece) {
-    return static_cast<std::size_t>(
-        std::count_if(piece.claims.begin(), piece.claims.end(), [](const Piece::Claim& c) { return c.certain; }));
+std::size_t SceneJudge::certain(const Piece& piece, int rank) const {
+    return static_cast<std::size_t>(std::count_if(piece.claims.begin(), piece.claims.end(), [&](const Piece::Claim& c) {
+        return c.certain && oracle_.regions()[c.region].rank == rank;
+    }));
+}
+
+bool SceneJudge::contested(const Piece& piece) {
+    return std::count_if(piece.claims.begin(), piece.claims.end(), [](const Piece::Claim& c) { return c.certain; }) > 1;
 }
 
 bool SceneJudge::overlap_behind(const SceneAnswer& answer, double slack) {
@@ -108,15 +113,23 @@ void SceneJudge::check_piece(const Piece& piece, const RayPartitions& found, std
 
     if (here && !claimed(piece, to_oracle_[here->region]))
         wrong << name(to_oracle_[here->region]) << " is not at " << t << "; ";
-    const std::size_t sure = certain(piece);
-    if (!here && sure > 0) wrong << "nothing found at " << t << "; ";
+    const auto rank = [&](std::uint32_t region) { return oracle_.regions()[region].rank; };
+    if (!here && std::any_of(piece.claims.begin(), piece.claims.end(), [](const Piece::Claim& c) { return c.certain; }))
+        wrong << "nothing found at " << t << "; ";
+    if (!here && overlap) wrong << "an overlap of nothing at " << t << "; ";
+    if (!here) return;
+    const std::uint32_t owner = to_oracle_[here->region];
+    for (const Piece::Claim& c : piece.claims)
+        if (c.certain && std::pair(rank(c.region), c.region) < std::pair(rank(owner), owner))
+            wrong << name(owner) << " does not yield to " << name(c.region) << " at " << t << "; ";
+    const std::size_t sure = certain(piece, rank(owner));
     if (overlap) {
         for (const std::uint32_t r : overlap->regions)
-            if (!claimed(piece, to_oracle_[r])) wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
+            if (!claimed(piece, to_oracle_[r]) || rank(to_oracle_[r]) != rank(owner)) wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
         for (const Piece::Claim& c : piece.claims) {
             bool listed = false;
             for (const std::uint32_t r : overlap->regions) listed = listed || to_oracle_[r] == c.region;
-            if (c.certain && !listed) wrong << name(c.region) << " is missing from the overlap at " << t << "; ";
+            if (c.certain && !listed && rank(c.region) == rank(owner)) wrong << name(c.region) << " is missing from the overlap at " << t << "; ";
         }
     } else if (sure > 1) {
         wrong << "no overlap listed at " << t << "; ";

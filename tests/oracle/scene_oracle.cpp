@@ -6,8 +6,9 @@
 
 namespace csgrt::oracle {
 
-SceneOracle::SceneOracle(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported, bool quick)
-    : scene_(scene), skip_unsupported_(skip_unsupported), quick_(quick) {
+SceneOracle::SceneOracle(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported, bool quick,
+                         bool air)
+    : scene_(scene), skip_unsupported_(skip_unsupported), quick_(quick), air_(air) {
     for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
         for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
     regions_of_.resize(solids_.size());
@@ -126,14 +127,14 @@ SceneOracle::Starts SceneOracle::combine(Operator op, const Starts& left, const 
         result = left;
         result.insert(result.end(), right.begin(), right.end());
     } else if (op == Operator::difference) {
-        for (const OracleRegion& a : left) result.push_back({a.path, apply(op, a.tree, all_of(right))});
+        for (const OracleRegion& a : left) result.push_back({a.path, apply(op, a.tree, all_of(right)), a.rank});
     } else if (op == Operator::intersection) {
         for (const OracleRegion& a : left)
-            for (const OracleRegion& b : right) result.push_back({a.path, apply(op, a.tree, b.tree)});
+            for (const OracleRegion& b : right) result.push_back({a.path, apply(op, a.tree, b.tree), a.rank});
     } else if (left.empty() || right.empty()) {
         result = left.empty() ? right : left;
     } else {
-        result.push_back({left.front().path, apply(op, all_of(left), all_of(right))});
+        result.push_back({left.front().path, apply(op, all_of(left), all_of(right)), left.front().rank});
     }
     return result;
 }
@@ -143,8 +144,12 @@ SceneOracle::Starts SceneOracle::starts(const std::string& name, const QAffine& 
     const std::string path = above + "/" + name;
     const auto* combination = std::get_if<Combination>(&found);
     if (combination == nullptr || combination->region) {
-        if (combination != nullptr && combination->air != 0) return {};
-        return {{path, expression(name, m)}};
+        const bool is_air = combination != nullptr && combination->air != 0;
+        if (is_air && !air_) return {};
+        int rank = is_air ? 3 : 0;
+        if (combination != nullptr && !is_air)
+            rank = combination->fastgen == Fastgen::plate ? 1 : combination->fastgen == Fastgen::volume ? 2 : 0;
+        return {{path, expression(name, m), rank}};
     }
     std::vector<Starts> stack;
     for (const TreeNode& node : combination->tree.nodes) {
@@ -155,7 +160,7 @@ SceneOracle::Starts SceneOracle::starts(const std::string& name, const QAffine& 
         const std::size_t first = stack.size() - node.arity;
         Starts result = stack[first];
         if (node.op == Operator::not_ && !result.empty())
-            result = {{result.front().path, Expression{Operator::not_, {all_of(result)}, 0}}};
+            result = {{result.front().path, Expression{Operator::not_, {all_of(result)}, 0}, result.front().rank}};
         for (std::size_t i = first + 1; i < stack.size(); ++i) result = combine(node.op, result, stack[i]);
         stack.resize(first);
         stack.push_back(std::move(result));

@@ -27,10 +27,10 @@ namespace csgrt::oracle {
 
 class SceneOracle {
 public:
-    /// `objects` of the scene, empty: its top objects. Air regions are left out. `skip_unsupported`: solids of unknown
-    /// types are empty sets.
+    /// `objects` of the scene, empty: its top objects. `skip_unsupported`: solids of unknown types are empty sets. `air`: air
+    /// regions are kept.
     explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {},
-                         bool skip_unsupported = false, bool quick = false);
+                         bool skip_unsupported = false, bool quick = false, bool air = false);
 
     // Keeps the scene by reference; so a temporary will not do.
     explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}, bool = false) = delete;
@@ -67,7 +67,7 @@ private:
     Starts starts(const std::string& name, const QAffine& m, const std::string& above);
 
     const Scene& scene_;
-    const bool skip_unsupported_, quick_;
+    const bool skip_unsupported_, quick_, air_;
     std::vector<SceneSolid> solids_;
     std::vector<OracleRegion> regions_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid

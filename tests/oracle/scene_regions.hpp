@@ -65,6 +65,7 @@ struct Expression {
 struct OracleRegion {
     std::string path;
     Expression tree;
+    int rank = 0;  ///< what is of a later rank yields: 0 a solid, 1 a plate of FASTGEN, 2 a volume of it, 3 air
 
     template <class Of>
     Membership evaluate(const Of& of) const {

@@ -21,13 +21,13 @@ class ExpectedAnswers {
 public:
     /// `quick`: as of the scene oracle.
     explicit ExpectedAnswers(const stress::StressScene& made, bool quick = false) : made_(made) {
-        if (made.known.empty()) truth_.emplace(made.scene, made.objects, quick);
+        if (made.known.empty()) truth_.emplace(made.scene, made.objects, quick, made.air);
     }
 
     Expected operator()(std::size_t ray) const {
         if (!truth_) return {sequence_of(made_.known[ray], made_.rays[ray]), {}, false};
         Truth truth = truth_->shoot(made_.rays[ray]);
-        if (!truth.certain) truth = TrueScene(made_.scene, made_.objects).shoot(made_.rays[ray]);
+        if (!truth.certain) truth = TrueScene(made_.scene, made_.objects, false, made_.air).shoot(made_.rays[ray]);
         Expected expected{{}, overlaps_of(truth), truth.tie};
         expected.sequence = sequence_of(truth, expected.tie);
         return expected;

@@ -7,7 +7,7 @@
 //   - if a single solid is touched within rounding, so that it is not sure how often the ray is in it;
 //   - if the numbers as they are make the skin thicker than their rounding could;
 //   - if the surfaces that meet there are not one surface, their normals being different: an edge, a corner.
-// Overlaps go to the first region.
+// Overlaps go to the first region of the first rank, and regions of later ranks (air, where a solid is) are no part of them.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace csgrt::test {
 struct TrueStretch {
     double in = 0, out = 0;
     double in_tolerance = 0, out_tolerance = 0;  ///< along the ray
-    std::vector<std::uint32_t> claims;           ///< ascending, never empty
+    std::vector<std::uint32_t> claims;           ///< those of the first rank, ascending, never empty
 };
 struct Truth {
     bool tie = false;
@@ -34,13 +34,14 @@ struct Truth {
 
 class TrueScene {
 public:
-    /// `quick`: as of the scene oracle.
-    TrueScene(const Scene& scene, const std::vector<std::string>& objects, bool quick = false)
-        : oracle_(scene, objects, false, quick), quick_(quick) {
+    /// `quick`, `air`: as of the scene oracle.
+    TrueScene(const Scene& scene, const std::vector<std::string>& objects, bool quick = false, bool air = false)
+        : oracle_(scene, objects, false, quick, air), quick_(quick), ranks_(objects.size()) {
         for (const oracle::OracleRegion& region : oracle_.regions()) {
             const std::string name = region.path.substr(region.path.rfind('/') + 1);
             const auto at = std::find(objects.begin(), objects.end(), name);
             number_.push_back(static_cast<std::uint32_t>(at - objects.begin()));
+            ranks_[number_.back()] = region.rank;
         }
     }
 
@@ -53,6 +54,7 @@ public:
         for (std::uint32_t r = 0; r < answer.regions.size(); ++r) add_edges(answer, r, edges, truth);
         std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.t < b.t; });
         weave(answer, edges, truth);
+        yield(truth);
         return truth;
     }
 
@@ -172,8 +174,26 @@ private:
         if (!inside.empty()) truth.tie = true;  // no end: not in these scenes
     }
 
+    /// Leaves the first rank's claims; stretches that do not differ any more are one.
+    void yield(Truth& truth) const {
+        std::vector<TrueStretch> left;
+        for (TrueStretch& s : truth.stretches) {
+            int first = ranks_[s.claims.front()];
+            for (const std::uint32_t r : s.claims) first = std::min(first, ranks_[r]);
+            std::erase_if(s.claims, [&](std::uint32_t r) { return ranks_[r] != first; });
+            if (!left.empty() && left.back().out == s.in && left.back().claims == s.claims) {
+                left.back().out = s.out;
+                left.back().out_tolerance = s.out_tolerance;
+            } else {
+                left.push_back(std::move(s));
+            }
+        }
+        truth.stretches = std::move(left);
+    }
+
     oracle::SceneOracle oracle_;
     bool quick_;
+    std::vector<int> ranks_;  ///< by place in `objects`
     std::vector<std::uint32_t> number_;  ///< of the oracle's regions
 };
 
