@@ -137,6 +137,13 @@ private:
     std::uint32_t edge_count_ = 0, face_count_ = 0;
 };
 
+/// What becomes of faces that are given several times.
+enum class Copies {
+    count_once,
+    vanish_as_walls,   ///< those count not at all without which edges have an even number of faces
+    vanish_as_sheets,  ///< nor do those of which both sides are given, and for which no edge asks
+};
+
 struct Counts {
     std::size_t repeated = 0, walls = 0, flat = 0, split = 0, turned = 0;
 };
@@ -156,7 +163,7 @@ private:
     }
     bool is_flat(const Corners& face) const;
     void take_faces();
-    bool choose(bool sheets_vanish);
+    void choose(Copies rule);
     std::vector<std::vector<std::uint32_t>> points_on(const std::vector<Edges::Edge>& edges) const;
     bool split(const Edges& edges);
     Edges joined();
@@ -175,6 +182,7 @@ private:
     std::vector<std::uint32_t> copies_, turned_copies_;
     std::vector<bool> optional_;
     bool any_optional_ = false;
+    bool has_gaps_ = false;  ///< edges are open before faces are cut
     Counts counts_;
 };
 
@@ -233,26 +241,25 @@ void Mender::take_faces() {
 }
 
 /// Which of the faces that may be left out count, so that edges have an even number of faces: an edge at which only one is
-/// not decided yet decides it. An edge that has but one face in all asks for nothing. Returns whether there are sheets, both
-/// sides of which are given, for which no edge asks: they count once, or not at all.
-bool Mender::choose(bool sheets_vanish) {
-    if (!any_optional_) return false;
+/// not decided yet decides it. An edge that has but one face in all asks for nothing.
+void Mender::choose(Copies rule) {
+    if (!any_optional_) return;
     const Edges edges(faces_);
-    const Lists at(edges.all.size(), [&](const auto& add) {
-        for (std::uint32_t f = 0; f < faces_.size(); ++f)
-            if (optional_[f])
-                for (const std::uint32_t e : edges.of_face[f]) add(e, f);
-    });
     enum : std::uint8_t { unknown, out, in };
     std::vector<std::uint8_t> state(faces_.size(), in);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        if (optional_[f] && (rule != Copies::count_once || is_flat(faces_[f]))) state[f] = unknown;
+    const Lists at(edges.all.size(), [&](const auto& add) {
+        for (std::uint32_t f = 0; f < faces_.size(); ++f)
+            if (state[f] == unknown)
+                for (const std::uint32_t e : edges.of_face[f]) add(e, f);
+    });
     std::vector<std::uint32_t> open(edges.all.size()), sum(edges.all.size()), queue;
     for (std::uint32_t e = 0; e < edges.all.size(); ++e) {
         open[e] = at.first[e + 1] - at.first[e];
         sum[e] = edges.all[e].faces - open[e];
         if (open[e] == 1 && edges.all[e].faces > 1) queue.push_back(e);
     }
-    for (std::uint32_t f = 0; f < faces_.size(); ++f)
-        if (optional_[f]) state[f] = unknown;
     const auto decide = [&](std::uint32_t f, bool counts) {
         state[f] = counts ? in : out;
         for (const std::uint32_t e : edges.of_face[f]) {
@@ -275,13 +282,10 @@ bool Mender::choose(bool sheets_vanish) {
                std::any_of(edges.of_face[f].begin(), edges.of_face[f].end(),
                            [&](std::uint32_t e) { return edges.all[e].faces == 1; });
     };
-    bool sheets_found = false;
     for (const bool flat : {false, true})
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             if (state[f] != unknown || is_flat(faces_[f]) != flat) continue;
-            const bool sheet = !flat && is_sheet(f);
-            sheets_found = sheets_found || sheet;
-            decide(f, !flat && !(sheet && sheets_vanish));
+            decide(f, !flat && !(rule == Copies::vanish_as_sheets && is_sheet(f)));
             settle();
         }
 
@@ -302,7 +306,6 @@ bool Mender::choose(bool sheets_vanish) {
     }
     faces_.resize(kept);
     from_.resize(kept);
-    return sheets_found;
 }
 
 /// Which ends of `edges` lie in the middle of each of them, from low to high.
@@ -498,27 +501,33 @@ bool Mender::winds_outward() const {
 
 MendedMesh Mender::finish(std::vector<std::string> notes) const {
     const bool as_given = counts_.turned == 0 && counts_.split == 0 && faces_.size() == bot_.faces.size();
-    return {{bot_.vertices, as_given ? bot_.faces : faces_}, from_, true, std::move(notes)};
+    return {{bot_.vertices, as_given ? bot_.faces : faces_}, from_, true, false, std::move(notes)};
 }
 
 /// The edges, after faces are cut where that closes some.
 Edges Mender::joined() {
     Edges edges(faces_);
-    if (edges.open > 0 && split(edges)) edges = Edges(faces_);
+    has_gaps_ = edges.open > 0;
+    if (has_gaps_ && split(edges)) edges = Edges(faces_);
     return edges;
 }
 
 MendedMesh Mender::volume() {
     take_faces();
-    std::optional<Mender> other;
-    if (any_optional_) other.emplace(*this);
-    const bool has_sheets = choose(false);
-    const Edges edges = joined();
-    if (has_sheets && edges.open > 0) {
-        other->choose(true);
-        if (const Edges others = other->joined(); others.open == 0) return other->surface(others);
+    if (!any_optional_) return surface(joined());
+    // The first rule that leaves the fewest edges open.
+    std::optional<Mender> best;
+    std::optional<Edges> best_edges;
+    for (const Copies rule : {Copies::count_once, Copies::vanish_as_walls, Copies::vanish_as_sheets}) {
+        Mender next = *this;
+        next.choose(rule);
+        Edges edges = next.joined();
+        if (best && edges.open >= best_edges->open) continue;
+        best.emplace(std::move(next));
+        best_edges.emplace(std::move(edges));
+        if (best_edges->open == 0) break;
     }
-    return surface(edges);
+    return best->surface(*best_edges);
 }
 
 MendedMesh Mender::surface(const Edges& edges) {
@@ -532,9 +541,12 @@ MendedMesh Mender::surface(const Edges& edges) {
     if (against > 0)
         notes.push_back(counted(against, "face winds", "faces wind") + " against the others" +
                         (is_closed ? "; what is inside is told by parity" : is_oriented ? against == 1 ? " and counts turned over" : " and count turned over" : ""));
-    if (is_closed && is_oriented && edges.winds_one_way && !faces_.empty() &&
-        winds_outward() != (bot_.orientation == Bot::Orientation::counterclockwise))
-        notes.push_back("its faces wind the other way than its orientation says; what is inside is told by parity");
+    const bool lies = is_closed && is_oriented && edges.winds_one_way && !faces_.empty() &&
+                      winds_outward() != (bot_.orientation == Bot::Orientation::counterclockwise);
+    if (lies)
+        notes.push_back(std::string("its faces wind the other way than its orientation says; ") +
+                        (has_gaps_ ? "with the vertices in the middle of edges, it is taken at its word"
+                                   : "what is inside is told by parity"));
     if (!is_closed)
         notes.push_back(counted(edges.open, "edge is", "edges are") + " open; where a ray comes through a gap, " +
                         (is_oriented ? "a way in and the next way out are a pair" : "crossings are paired from the first on"));
@@ -543,6 +555,7 @@ MendedMesh Mender::surface(const Edges& edges) {
                         " more than two faces; what is inside is told by parity");
     MendedMesh mended = finish(std::move(notes));
     mended.is_closed = is_closed;
+    mended.told_by_facing = is_oriented && has_gaps_ && (!is_closed || lies);
     return mended;
 }
 

@@ -44,12 +44,28 @@ bool plainly_convex(const Arb& arb) {
     return true;
 }
 
+// A face that is a sliver loses its plane to the rounding of doubles.
+struct Wide {
+    long double x = 0, y = 0, z = 0;
+};
+Wide from_to(const Vec3& a, const Vec3& b) {
+    return {static_cast<long double>(b.x) - a.x, static_cast<long double>(b.y) - a.y, static_cast<long double>(b.z) - a.z};
+}
+long double dot(const Wide& a, const Wide& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Wide cross(const Wide& a, const Wide& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+long double length(const Wide& a) { return std::sqrt(dot(a, a)); }
+
 /// A face as an outline of vertices that differ; empty: it has no area.
 struct Outline {
     std::array<std::uint32_t, 4> corners{};
     std::size_t count = 0;
-    Vec3 normal, on;    ///< unit, of its widest triangle
-    double height = 0;  ///< the least of that triangle's
+    Wide normal;        ///< unit, of its widest triangle
+    Vec3 on;            ///< one of its corners
+    double height = 0;  ///< the least of its three
+
+    double above(const Vec3& p) const { return static_cast<double>(dot(normal, from_to(on, p))); }
 };
 
 Outline outline_of(const Arb& arb, std::size_t face) {
@@ -67,20 +83,21 @@ Outline outline_of(const Arb& arb, std::size_t face) {
 }
 
 void find_plane(const Arb& arb, Outline& outline) {
-    double widest = 0;
+    long double widest = 0;
     const auto& c = outline.corners;
     for (std::size_t skip = outline.count == 3 ? 3 : 0; skip < 4; ++skip) {
         const std::size_t i = skip == 0 ? 1 : 0, j = skip <= 1 ? 2 : 1, k = skip <= 2 ? 3 : 2;
         const Vec3 &p = arb.vertices[c[i]], &q = arb.vertices[c[j]], &r = arb.vertices[c[k]];
-        // Of the two sides that meet at the corner across from the longest one: they round the least.
-        const double pq = length(q - p), qr = length(r - q), rp = length(p - r), longest = std::max({pq, qr, rp});
-        const Vec3 n = longest == pq ? cross(r - q, p - r) : longest == qr ? cross(p - r, q - p) : cross(q - p, r - q);
-        const double area = length(n);
+        const Wide pq = from_to(p, q), qr = from_to(q, r), rp = from_to(r, p);
+        const long double longest = std::max({length(pq), length(qr), length(rp)});
+        // Of the two shorter sides: they round the least.
+        const Wide n = longest == length(pq) ? cross(qr, rp) : longest == length(qr) ? cross(rp, pq) : cross(pq, qr);
+        const long double area = length(n);
         if (!(area > widest)) continue;
         widest = area;
-        outline.normal = unit(n);
+        outline.normal = {n.x / area, n.y / area, n.z / area};
         outline.on = p;
-        outline.height = area / longest;
+        outline.height = static_cast<double>(area / longest);
     }
     if (widest == 0) outline.count = 0;
 }
@@ -104,7 +121,7 @@ Form form_of(const Arb& arb) {
         face = outline_of(arb, i);
         if (face.count > 0) find_plane(arb, face);
         for (std::size_t k = 0; k < face.count; ++k)
-            uneven = std::max(uneven, std::abs(dot(face.normal, arb.vertices[face.corners[k]] - face.on)));
+            uneven = std::max(uneven, std::abs(face.above(arb.vertices[face.corners[k]])));
     }
     if (uneven > std::min(most_uneven, most_uneven_relative * size)) return form;
     form.rounding = uneven + 4 * std::numeric_limits<double>::epsilon() * reach;
@@ -112,7 +129,7 @@ Form form_of(const Arb& arb) {
         if (face.count == 0) continue;
         double above = 0, below = 0;
         for (const Vec3& v : arb.vertices) {
-            const double off = dot(face.normal, v - face.on);
+            const double off = face.above(v);
             above = std::max(above, off);
             below = std::max(below, -off);
         }
@@ -128,8 +145,8 @@ bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
     const auto at = [&](std::size_t i) -> const Vec3& { return arb.vertices[face.corners[i % 4]]; };
     // The sides of an edge's line on which two vertices lie differ, and neither is on it.
     const auto parts = [&](std::size_t edge, std::size_t p, std::size_t q) {
-        const Vec3 along = at(edge + 1) - at(edge), side = cross(face.normal, along);
-        const double a = dot(side, at(p) - at(edge)), b = dot(side, at(q) - at(edge));
+        const Wide along = from_to(at(edge), at(edge + 1)), side = cross(face.normal, along);
+        const long double a = dot(side, from_to(at(edge), at(p))), b = dot(side, from_to(at(edge), at(q)));
         return std::min(std::abs(a), std::abs(b)) > 4 * rounding * length(along) && (a > 0) != (b > 0);
     };
     return (parts(0, 2, 3) && parts(2, 0, 1)) || (parts(1, 3, 0) && parts(3, 1, 2));
