@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compile/bvh.hpp"
+#include "compile/mesh_faults.hpp"
 #include "compile/packer.hpp"
 #include "compile/triangles.hpp"
 #include "kernel_geometry.hpp"
@@ -113,25 +114,27 @@ void place_mesh(Packer& packer, std::uint32_t mesh, const Matrix& own) {
     packer.frame(transform_point(own, {f[0], f[1], f[2]}), linear_part(own) * scale);
 }
 
-/// Only where the surface has gaps does it matter which way the triangles face: what is closed is known by parity, for
-/// certain.
-template <class S>
-std::uint32_t facing_of(const S&, const Triangles&) {
-    return 0;
-}
-std::uint32_t facing_of(const Bot& bot, const Triangles& mesh) {
-    if (bot.orientation == Bot::Orientation::unoriented || is_closed(mesh)) return 0;
-    return bot.orientation == Bot::Orientation::counterclockwise ? 1 : 2;
-}
-
 template <class S>
 void pack_mesh(Packer& packer, const S& solid, const Matrix& own) {
     packer.record.type = SOLID_MESH;
     packer.record.first_word = shared_words(packer, &solid, [&] {
         const Triangles mesh = triangles_of(solid);
-        add_mesh(mesh, frame_of(mesh), packer.scene, facing_of(solid, mesh));
+        add_mesh(mesh, frame_of(mesh), packer.scene);
     });
     place_mesh(packer, packer.record.first_word, own);
+}
+
+/// Only where the surface has gaps does it matter which way the triangles face: what is closed is known by parity, for
+/// certain.
+void pack_volume(Packer& packer, const Bot& bot) {
+    packer.record.type = SOLID_MESH;
+    packer.record.first_word = shared_words(packer, &bot, [&] {
+        MendedMesh mended = mend(bot);
+        packer.notes = std::move(mended.notes);
+        const std::uint32_t facing = !mended.told_by_facing ? 0 : bot.orientation == Bot::Orientation::counterclockwise ? 1 : 2;
+        add_mesh(mended.mesh, frame_of(mended.mesh), packer.scene, facing);
+    });
+    place_mesh(packer, packer.record.first_word, identity);
 }
 
 void pack_plates(Packer& packer, const Bot& bot) {
@@ -140,12 +143,14 @@ void pack_plates(Packer& packer, const Bot& bot) {
     packer.record.first_word = shared_words(packer, &bot, [&] {
         const std::size_t first_word = scene.words.size();
         scene.words.resize(first_word + PLATE_MESH);
-        const Triangles mesh = triangles_of(bot);
-        const MeshFrame frame = frame_of(mesh);
-        const std::vector<std::uint32_t> order = add_mesh(mesh, frame, scene);
+        MendedMesh mended = mend(bot);
+        packer.notes = std::move(mended.notes);
+        const MeshFrame frame = frame_of(mended.mesh);
+        const std::vector<std::uint32_t> order = add_mesh(mended.mesh, frame, scene);
         scene.words[first_word + PLATE_EXTENTS] = static_cast<std::uint32_t>(scene.reals.size());
         scene.words[first_word + PLATE_ALONG_RAY] = bot.mode == Bot::Mode::plate_nocos ? 1 : 0;
-        for (const std::uint32_t face : order) {
+        for (const std::uint32_t number : order) {
+            const std::uint32_t face = mended.from[number];
             const double thickness = bot.mode == Bot::Mode::surface ? 0 : bot.thickness[face] / frame.scale;
             const bool append = !bot.append.empty() && bot.append[face] != 0;
             scene.reals.push_back(append ? 0 : thickness / 2);
@@ -160,7 +165,7 @@ void pack_plates(Packer& packer, const Bot& bot) {
 
 void Packer::operator()(const Bot& s) {
     if (s.mode == Bot::Mode::volume)
-        pack_mesh(*this, s, identity);
+        pack_volume(*this, s);
     else
         pack_plates(*this, s);
 }

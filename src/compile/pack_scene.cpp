@@ -238,6 +238,8 @@ private:
         std::visit(packer, shape_of(scene_, flat_, instance));
         compiled_.solids[number] = packer.record;
         chunk.solid_types |= 1u << packer.record.type;
+        const std::string& name = std::get<Solid>(scene_.objects[instance.object]).name;
+        for (const std::string& note : packer.notes) chunk.notes.push_back("bot " + name + ": " + note);
         part.faces = static_cast<std::uint32_t>(faces.size());
         part.is_polyhedron = packer.is_polyhedron;
         append_keys(faces, chunk.large_faces.emplace_back());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Packer {
     kernel::SolidRecord record{};
     WideMatrix axes_in_world{};  ///< of the last frame
     bool is_polyhedron = false;  ///< faces in one plane are one
+    std::vector<std::string> notes{};  ///< what is worth telling of the solid
 
     void real(long double value) { reals.push_back(static_cast<double>(value)); }
     /// center and L, the inverse of the matrix whose columns are the local axes in the world.

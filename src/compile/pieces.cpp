@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scene/arb_form.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -108,9 +109,20 @@ Pieces pieces_of_cline(const Cline& cline) {
     return collector.take();
 }
 
+/// The surface of its faces.
+Pieces pieces_of_concave(const Arb& arb) {
+    Nmg surface;
+    surface.vertices.assign(arb.vertices.begin(), arb.vertices.end());
+    for (auto& outline : outlines_of(arb)) surface.faces.push_back({std::move(outline)});
+    Collector collector;
+    collector.outer({std::move(surface), {}});
+    return collector.take();
+}
+
 }  // namespace
 
 Pieces pieces_of(const Shape& shape) {
+    if (const auto* arb = std::get_if<Arb>(&shape)) return pieces_of_concave(*arb);
     if (const auto* pipe = std::get_if<Pipe>(&shape)) return pieces_of_pipe(*pipe);
     if (const auto* cline = std::get_if<Cline>(&shape)) return pieces_of_cline(*cline);
     return {};

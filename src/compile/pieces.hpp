@@ -1,4 +1,5 @@
-// Solids that are made of others: a pipe is tubes and bends, a cline a cylinder with or without a bore.
+// Solids that are made of others: a pipe is tubes and bends, a cline a cylinder with or without a bore; and an arb that is
+// not convex, the surface of its faces.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct Pieces {
     FlatTree tree;              ///< leaves are numbers of pieces
 };
 
-/// Takes a pipe or a cline apart. The solid must be sound (see solid_faults).
+/// Takes a pipe or a cline apart, or an arb that is_concave. The solid must be sound (see solid_faults).
 Pieces pieces_of(const Shape& shape);
 
 }  // namespace csgrt

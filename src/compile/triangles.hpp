@@ -23,12 +23,6 @@ struct Triangles {
     }
 };
 
-/// The faces of the mesh as they are.
-Triangles triangles_of(const Bot& bot);
-
-/// Has every edge an even number of triangles? Equal points are one.
-bool is_closed(const Triangles& mesh);
-
 /// Between two curves, the quadrangle from their points j to their points j + 1 is cut from the first curve's j to the
 /// second one's j + 1, as BRL-CAD does. No surface closes a first or last curve that is not a point.
 Triangles triangles_of(const Ars& ars);

@@ -6,6 +6,7 @@
 
 #include "fetch.hpp"
 #include "parallel.hpp"
+#include "scene/arb_form.hpp"
 
 namespace csgrt {
 
@@ -19,6 +20,7 @@ Names::Kind kind_of(const Object& object) {
         return !combination->region ? Kind::combination : combination->air == 0 ? Kind::region : Kind::air_region;
     const Shape& shape = std::get<Solid>(object).shape;
     if (std::holds_alternative<Unsupported>(shape)) return Kind::unsupported;
+    if (const auto* arb = std::get_if<Arb>(&shape)) return is_concave(*arb) ? Kind::composite : Kind::solid;
     return std::holds_alternative<Pipe>(shape) || std::holds_alternative<Cline>(shape) ? Kind::composite : Kind::solid;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/arb_form.hpp"
 #include "scene/polytope.hpp"
 #include "scene/solid_faults_of.hpp"
 
@@ -26,15 +27,8 @@ bool plainly_solid(const Arb& s) {
     return reach > 1e-90 && std::abs(volume) > 1e-9 * reach * reach * reach;
 }
 
-}  // namespace
-
-/// Some triangle of vertices has an area, and some vertex lies off its plane.
-Faults FaultsOf::operator()(const Arb& s) const {
-    Faults faults;
-    for (const Vec3& vertex : s.vertices) {
-        if (!all_finite(faults, vertex)) return faults;
-    }
-    if (plainly_solid(s)) return faults;
+void check_volume(Faults& faults, const Arb& s) {
+    if (plainly_solid(s)) return;
     double size = 0, reach = 0;
     Vec3 normal;
     for (const Vec3& p : s.vertices) {
@@ -53,6 +47,23 @@ Faults FaultsOf::operator()(const Arb& s) const {
     const bool flat = thickness <= std::max(1e-12 * size, rounding);
     if (flat || length(normal) <= size * std::max(1e-12 * size, rounding)) {
         faults.push_back("the vertices lie in one plane: there is no volume");
+    }
+}
+
+}  // namespace
+
+/// Some triangle of vertices has an area, and some vertex lies off its plane; no face of a surface crosses itself.
+Faults FaultsOf::operator()(const Arb& s) const {
+    Faults faults;
+    for (const Vec3& vertex : s.vertices) {
+        if (!all_finite(faults, vertex)) return faults;
+    }
+    check_volume(faults, s);
+    if (!faults.empty()) return faults;
+    if (const std::optional<std::size_t> face = crossing_face(s)) {
+        std::string which;
+        for (const std::uint32_t vertex : arb_face_vertices[*face]) which += " " + std::to_string(vertex);
+        faults.push_back("its face" + which + " crosses itself: its vertices do not follow one another around it");
     }
     return faults;
 }

@@ -24,8 +24,10 @@ struct FieldTally {
 };
 
 /// Shoots the rays of a scene on the device and on the reference, requires the same bits, and adds what the oracle
-/// says to `tally`.
-inline void judge_field(const stress::StressScene& made, FieldTally& tally) {
+/// says to `tally`. `truth`: what the scene means, where the oracle is not to be asked of its own words; of the same rays.
+/// `tie(ray, answer)` is called where rounding decides.
+template <class Tie>
+void judge_field(const stress::StressScene& made, const stress::StressScene& truth, FieldTally& tally, const Tie& tie) {
     Settings settings = on_reference(), device_settings = on_device();
     settings.air = device_settings.air = made.air;
     Renderer reference(made.scene, made.objects, settings);
@@ -36,16 +38,17 @@ inline void judge_field(const stress::StressScene& made, FieldTally& tally) {
         require_same(device.shoot(made.rays), found);
     }
     const Renumbering renumbering(reference, made.objects);
-    const ExpectedAnswers answers(made);
+    const ExpectedAnswers answers(truth);
     ++tally.scenes;
     tally.rays += made.rays.size();
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Expected expected = answers(i);
+        renumbering.apply(found[i]);
         if (expected.tie) {
             ++tally.ties;
+            tie(made.rays[i], found[i]);
             continue;
         }
-        renumbering.apply(found[i]);
         const Compared compared = compare(found[i], expected, made.rays[i], reference.statistics().tolerance);
         if (compared.regions) tally.worst = std::max(tally.worst, compared.worst);
         if (compared.regions && !compared.overlaps) ++tally.overlaps;
@@ -55,6 +58,10 @@ inline void judge_field(const stress::StressScene& made, FieldTally& tally) {
                           oracle::describe(made.rays[i]);
         }
     }
+}
+
+inline void judge_field(const stress::StressScene& made, FieldTally& tally) {
+    judge_field(made, made, tally, [](const Ray&, const RayPartitions&) {});
 }
 
 /// Nothing decided is wrong; and, so that a generator cannot go blind, at least one ray in `one_in` is decided.

@@ -12,12 +12,37 @@
 
 namespace csgrt::oracle {
 
-/// Equal points are one vertex, and triangles without area are none.
+inline bool is_closed(const Parts& parts) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const MeshSurface::Face& f : parts.faces)
+        for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(f[k], f[(k + 1) % 3])];
+    return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second % 2 == 0; });
+}
+
+/// Equal points are one vertex, and triangles without area are none. A surface is a set of points, and has each once: of
+/// several triangles with the same vertices one counts. Where that leaves it open, and with all of them every edge has an
+/// even number of triangles, as between two parts that have a side in common, pairs of them bound nothing.
 inline Parts parts_of(const Bot& bot) {
-    Parts parts;
+    Parts all;
     for (const auto& face : bot.faces)
-        parts.triangle(bot.vertices[face[0]], bot.vertices[face[1]], bot.vertices[face[2]]);
-    return parts;
+        all.triangle(bot.vertices[face[0]], bot.vertices[face[1]], bot.vertices[face[2]]);
+    std::map<MeshSurface::Face, int> times;
+    const auto sorted = [](MeshSurface::Face face) {
+        std::sort(face.begin(), face.end());
+        return face;
+    };
+    for (const MeshSurface::Face& face : all.faces) ++times[sorted(face)];
+    if (times.size() == all.faces.size()) return all;
+    const auto each_once = [&](const auto& counts) {
+        Parts parts = all;
+        std::map<MeshSurface::Face, int> seen;
+        std::erase_if(parts.faces, [&](const MeshSurface::Face& face) {
+            return ++seen[sorted(face)] > 1 || !counts(times[sorted(face)]);
+        });
+        return parts;
+    };
+    Parts once = each_once([](int) { return true; });
+    return is_closed(once) || !is_closed(all) ? once : each_once([](int count) { return count % 2 == 1; });
 }
 
 /// Flat faces of loops: all triangles from one corner to a face's edges cover it by parity.
@@ -139,13 +164,6 @@ private:
                 kept.push_back(c);
         }
         return kept;
-    }
-
-    static bool is_closed(const Parts& parts) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-        for (const MeshSurface::Face& f : parts.faces)
-            for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(f[k], f[(k + 1) % 3])];
-        return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second % 2 == 0; });
     }
 
     MeshSurface surface_;

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "celled.hpp"
+#include "concave_arb.hpp"
 #include "extruded.hpp"
 #include "mesh_answer.hpp"
 #include "quick.hpp"
@@ -98,6 +99,7 @@ SceneSolid scene_solid(const Shape& shape, const QAffine& place, double skin, bo
         const auto plates = std::make_shared<PlateSolid>(*bot, place, skin);
         return {[plates](const Ray& r) { return plates->along(r); }, plates->reach()};
     }
+    if (const auto* arb = std::get_if<Arb>(&shape); arb != nullptr && is_concave(*arb)) return meshed(parts_of(*arb));
     if (const auto* ars = std::get_if<Ars>(&shape)) return meshed(parts_of(*ars));
     if (const auto* nmg = std::get_if<Nmg>(&shape)) return meshed(parts_of(*nmg));
     if (const auto* vol = std::get_if<Vol>(&shape)) return meshed(parts_of(*vol));

@@ -4,14 +4,17 @@
 // its first three vertices that differ and are not in line; a face with fewer is none. Outward is away from the mean of
 // the eight vertices. A fourth vertex is only said to lie in that plane (BRL-CAD checks it, within a tolerance); if it
 // does not, the half-spaces may meet far away, and what lies outside the box of the vertices is no part of the arb. The
-// planes of that box come after the faces: to a convex arb they change nothing. condition: a plane through three points
+// planes of that box come after the faces: to a convex arb they change nothing. An arb with flat faces that is not convex
+// is no intersection of half-spaces: see concave_arb.hpp. condition: a plane through three points
 // that are rounded by e tilts by e / (height of their triangle), and over the whole solid moves by e x radius / height.
 //
 // arbn: the half-spaces as given. Vertices are needed only for the bounding sphere.
 #pragma once
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "../concave_arb.hpp"
 #include "../solid.hpp"
 
 namespace csgrt::oracle {
@@ -44,6 +47,7 @@ inline Face arb_face(const Arb& arb, const std::array<std::size_t, 4>& corners) 
 inline ImplicitSolid implicit(const Arb& arb, const QAffine& place) {
     static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
         {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
+    if (is_concave(arb)) throw std::invalid_argument("an arb that is not convex is no intersection of half-spaces");
     ImplicitSolid solid;
     QVec mean;
     for (const Vec3& vertex : arb.vertices) mean = mean + quad(0.125) * QVec(vertex);

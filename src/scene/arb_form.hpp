@@ -1,0 +1,29 @@
+// Is an arb the intersection of half-spaces, or must its faces be taken as a surface?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <csgrt/solids.hpp>
+
+namespace csgrt {
+
+/// The vertices of the six faces, in BRL-CAD's order.
+inline constexpr std::array<std::array<std::uint32_t, 4>, 6> arb_face_vertices{
+    {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
+
+/// Its faces are flat, and it is not convex: it lies on both sides of one of them. A face is flat if its vertices leave the
+/// plane by no more than the lesser of 0.0005 mm, BRL-CAD's tolerance, and 1e-6 of the arb's size; vertices lie on a side if
+/// rounding cannot put them there. An arb with a face that is not flat is never concave: it stays the intersection of
+/// half-spaces. For numbers that are finite.
+bool is_concave(const Arb& arb);
+
+/// Which face of a concave arb crosses itself: an index into arb_face_vertices.
+std::optional<std::size_t> crossing_face(const Arb& arb);
+
+/// The outlines of its faces, as numbers of vertices; of equal vertices the first. Faces of two vertices are none.
+std::vector<std::vector<std::uint32_t>> outlines_of(const Arb& arb);
+
+}  // namespace csgrt
