@@ -19,9 +19,10 @@ std::array<Vec3, 4> outline(Random& random) {
     const auto at = [&](double u, double v) { return u * x + v * y; };
     const Vec3 a = at(random.between(-4, 4), random.between(-4, 4)), b = a + at(random.between(3, 8), random.between(-2, 2)),
                c = a + at(random.between(-2, 2), random.between(3, 8));
-    // From far inside, through slim sickles and notches as shallow as 1e-7, to convex.
+    // From sickles over darts and notches as shallow as 1e-7 to convex. In a sickle as slim as that, a ray close to the tip
+    // may be inside for less than ends may be apart.
     const double notch = random.coin() ? random.between(0.05, 0.9) : random.power_of_ten(-7, -1);
-    const double depth = random.below(4) == 0 ? -notch : random.coin() ? notch : 1 - notch;
+    const double depth = random.below(4) == 0 ? -notch : random.coin() ? notch : 1 - std::max(notch, 1e-3);
     const double along = random.between(0.2, 0.8);
     return {a, b, a + (1 - depth) * (along * (b - a) + (1 - along) * (c - a)), c};
 }
