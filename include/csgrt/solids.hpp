@@ -43,7 +43,7 @@ struct Ell {
 struct Tgc {
     Vec3 v, h, a, b, c, d;
 };
-/// arb4 to arb8: convex polyhedron of up to six faces, given by eight vertices in BRL-CAD's order
+/// arb4 to arb8: polyhedron of up to six faces, convex or what its flat faces enclose, given by eight vertices in BRL-CAD's order
 /// (faces 0123, 4567, 0347, 1265, 0154, 3267); arb4 to arb7 repeat vertices.
 struct Arb {
     std::array<Vec3, 8> vertices;
