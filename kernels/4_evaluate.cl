@@ -12,13 +12,14 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     covered_solids covered;
     u32 owner = ALONE_UNKNOWN;
     c.missed = 0;
+    c.marked = 1;
     c.segments = offsets[ray + 1].segments - offset.segments;
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.bits = all_bits + offset.words + (id - 2 * offset.segments) * words_of(c.segments);
     list_covered(c, &covered);
     if (covered.count == 1) owner = c.solids[covered.solids[0]].alone;
     if (owner == ALONE_UNKNOWN) {
-        const claim found = covered.missed ? find_claim_of_contact(c, ranks, all_solids()) : find_claim(c, &covered, ranks, all_solids());
+        const claim found = find_claim_beside(c, c.bits, &covered, ranks, all_solids());
         owner = found.least | (found.other != NONE ? OVERLAP : 0u);
     }
     return owner;

@@ -17,13 +17,14 @@ typedef struct {
     ENDS const u32* bits;
     u32 segments;
     u32 missed;  // MISSED_...: segments whose ends have any of these do not cover it
+    u32 marked;  // may any have them?
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
 } cover;
 
-FN u32 is_missed(cover c, u32 segment) { return (c.ends[2 * segment].surface & c.missed) != 0; }
+FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.ends[2 * segment].surface & c.missed); }
 FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
 // The solids that cover a partition: all of them if they are few, and a filter that most others do not pass.
@@ -64,7 +65,7 @@ FN void list_covered(cover c, covered_solids* list) {
         while (bits) {
             const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
             if (is_missed(c, segment)) continue;
-            list->missed |= c.ends[2 * segment].surface & MISSED;
+            if (c.marked) list->missed |= c.ends[2 * segment].surface & MISSED;
             filter = with(filter, filter_of(solid));
             if (count < FEW) list->solids[count] = solid;
             if (count <= FEW) ++count;
@@ -156,7 +157,8 @@ FN void fill_window(window* w, cover c, u32 from, u32 end) {
                     high = middle;
                 }
             }
-            for (; low < last && !is_missed(c, segment); ++low) {
+            if (is_missed(c, segment)) continue;
+            for (; low < last; ++low) {
                 u32 node = c.leaves[low];
                 if (node >= end || !keep(w, node)) break;
             }
@@ -294,8 +296,8 @@ FN claim find_claim(cover c, const covered_solids* list, GLOBAL const u32* ranks
         u32 bits = c.bits[word];
         while (bits) {
             const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
-            u32 i = c.solids[solid].first_start, end = i + c.solids[solid].start_count;
-            for (; i < end && !is_missed(c, segment); ++i) {
+            u32 i = c.solids[solid].first_start, end = is_missed(c, segment) ? i : i + c.solids[solid].start_count;
+            for (; i < end; ++i) {
                 const StartRecord start = c.starts[i];
                 const u32 region = start.region, precedes = region < found.least;
                 const u32 wanted = precedes || (ranks && found.other == NONE && region != found.least &&
@@ -311,25 +313,41 @@ FN claim find_claim(cover c, const covered_solids* list, GLOBAL const u32* ranks
     return found;
 }
 
-// The same where the ray runs in a face of a covering solid. Moved to either side of the face's plane it is within one of the
-// solids that meet there, and claimed as that is: parts that touch do not overlap, and of a contact the first region has the
-// partition. Regions overlap if they do so on one side. A ray that runs along an edge of a solid may miss it on both sides: then it
-// is within what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in
-// an edge, of which some part holds either side.
-NOINLINE_FN claim find_claim_of_contact(cover c, GLOBAL const u32* ranks, SolidFilter changed) {
-    claim found;
-    u32 step;
-    found.least = found.other = NONE;
-    for (step = 0; step < 2 || (step == 2 && found.least == NONE); ++step) {
-        covered_solids list;
+// Which regions claim what the segments of c.bits cover, which are listed; `starting`: those of them that start terms. The list is
+// used up.
+//
+// Where the ray runs in a face of a covering solid, it is moved to either side of the face's plane. There it is within one of the
+// solids that meet, and claimed as that is: parts that touch do not overlap, and of a contact the first region has the partition.
+// Regions overlap if they do so on one side. A ray that runs along an edge of a solid may miss it on both sides: then it is within
+// what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in an edge,
+// of which some part holds either side.
+FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
+    ENDS const u32* const covering = c.bits;
+    const u32 marked = list->missed;
+    claim touched, found;
+    u32 step = 0;
+    c.missed = 0;
+    found.least = found.other = touched.least = touched.other = NONE;
+    do {
         claim side;
-        c.missed = step == 0 ? MISSED_ABOVE : step == 1 ? MISSED_BELOW : 0;
-        list_covered(c, &list);
-        side = find_claim(c, &list, step < 2 ? ranks : 0, changed);
-        if (side.other != NONE) found.other = side.other;
-        if (side.least < found.least) found.least = side.least;
-    }
-    return found;
+        if (step > 0) {
+            c.missed = step == 1 ? MISSED_ABOVE : MISSED_BELOW;
+            c.bits = covering;
+            list_covered(c, list);
+        }
+        c.bits = starting;
+        side = find_claim(c, list, ranks, changed);
+        if (step == 0) {
+            touched = side;
+        } else {
+            found.other = side.other != NONE ? side.other : found.other;
+            found.least = side.least < found.least ? side.least : found.least;
+        }
+        ++step;
+    } while (marked && step < 3);
+    if (marked) touched.other = found.other;
+    if (found.least != NONE) touched.least = found.least;
+    return touched;
 }
 
 #endif

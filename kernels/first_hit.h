@@ -30,6 +30,7 @@ typedef struct {
     End seen;   // where that partition begins, if it is claimed
     u32 region;  // by this one; NONE: it is not
     u32 from_within;  // it begins where a solid ends
+    u32 marked;  // has any segment so far MISSED_... set?
 } front;
 
 typedef struct {
@@ -43,7 +44,7 @@ typedef struct {
 FN void start_front(front* w) {
     u32 i;
     for (i = 0; i < SLOT_WORDS; ++i) w->used[i] = w->open[i] = w->starts[i] = w->entry[i] = w->exit[i] = 0;
-    w->from_within = 0;
+    w->from_within = w->marked = 0;
     w->region = NONE;
     w->due = REAL_INFINITY;
 }
@@ -68,6 +69,7 @@ FN u32 take_slot(front* w, SolidRecord solid) {
 FN int take_segment(front* w, SolidRecord solid, End in, End out) {
     const u32 slot = take_slot(w, solid);
     if (slot != NONE) {
+        w->marked |= in.surface & MISSED;
         w->ends[2 * slot] = in;
         w->ends[2 * slot + 1] = out;
         w->due = real_min(w->due, in.t);
@@ -115,17 +117,13 @@ FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
         c.bits = w->open;
         c.segments = PENDING;
         c.missed = 0;
+        c.marked = w->marked;
         c.solids = s.g.solids;
         c.starts = s.starts;
         c.leaves = s.leaves;
         c.trees = s.trees;
         list_covered(c, &covered);
-        if (covered.missed) {
-            region = find_claim_of_contact(c, 0, changed).least;
-        } else {
-            c.bits = starting;
-            region = find_claim(c, &covered, 0, changed).least;
-        }
+        region = find_claim_beside(c, starting, &covered, 0, changed).least;
     }
     return region;
 }

@@ -113,9 +113,10 @@ FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     if (none(s.low < s.high)) return no_hits();
     l = quartic_ray(p[16] == 0 ? QUARTIC_BRACKETED : QUARTIC_OF(g), p, r);
     if (p[16] == 0) {
-        const quadratic f = round_side(l, real_fma(p[13], l.o.z, p[12]), p[13] * l.d.z);
+        const real m0 = real_fma(p[13], l.o.z, p[12]);
+        const quadratic f = round_side(l, m0, p[13] * l.d.z);
         const hits h = quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
-        return mark(mark_touched_side(p, r, l, f, h), s.missed);
+        return touching(s.touched || may_touch_side(l, f, m0), h);
     }
     s = tapered_piece(QUARTIC_OF(g), p, l, s);
     return undecided_where(s.low < s.high, no_hits());
@@ -164,8 +165,8 @@ FN int takes_packets(SolidRecord solid) {
             1u << SOLID_QUADRIC) >> solid.type & 1u;
 }
 
-// What each ray meets of such a solid: a segment, none, or UNDECIDED.
-FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
+// What each ray meets of such a solid: a segment, none, or UNDECIDED; one that may only touch it is looked at alone.
+FN packet_hits packet_meet(Geometry g, SolidRecord solid, packet_ray3 r) {
 #if HAS_SOLID(SOLID_ARB)
     if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
 #endif
@@ -188,6 +189,12 @@ FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
     if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
 #endif
     return packet_no_hits();
+}
+
+FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
+    packet_hits h = packet_meet(g, solid, r);
+    h.count = h.touched ? (ulong8)UNDECIDED : h.count;
+    return h;
 }
 
 // Along the outward normals where rays hit the same surface of such a solid at t; 0: it is a plane.

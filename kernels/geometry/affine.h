@@ -67,19 +67,6 @@ FN real quartic_middle(u32 method, vec3 o, vec3 d) { return method == QUARTIC_UN
 // A ray that comes no deeper than this, in parts of the solid's size, may only touch it: it is looked at more closely.
 #define TOUCHED REAL(0x1p-12)
 
-// By how much rounding of the ray's and of the solid's numbers may move a point of the local ray, and a surface of about size 1.
-FN real local_rounding(GLOBAL const parameter* p, ray3 r) {
-    real scale = 0;
-    int i;
-    for (i = 3; i < 12; ++i) scale = scale + real_abs(REAL(p[i]));
-    return ROUNDING * (REAL(1) + scale * (sum_of_sizes(narrow(r.o)) + sum_of_sizes(narrow(affine_center(p, r)))));
-}
-
-// On which side a ray misses what it touches where the outward normal is n.
-FN tag missed_side(vec3 n) {
-    return n.x + n.y * ABOVE_Y + n.z * ABOVE_Z >= 0 ? TAG(MISSED_ABOVE) : TAG(MISSED_BELOW);
-}
-
 FN vec3 local_point(local_ray l, real t) { return add_scaled(l.o, t - l.shift, l.d); }
 
 #endif

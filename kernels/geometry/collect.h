@@ -8,6 +8,7 @@
 #include "plate.h"
 #include "revolve.h"
 #include "solid.h"
+#include "touch.h"
 
 FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out, u32 out_surface) {
     End e;
@@ -70,6 +71,7 @@ FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min
 // The segments of any other solid that end at t_min or later.
 FN hits collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
     hits h = intersect(g, solid, r);
+    if (h.touched) h = mark_touched(g, solid, r, h);
     if (h.count > 1 && !(h.out1 >= t_min)) h.count = 1;
     if (h.count > 0 && !(h.out0 >= t_min)) {
         --h.count;

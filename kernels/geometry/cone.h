@@ -38,17 +38,10 @@ FN quadratic round_side(local_ray l, real m0, real m1) {
     return f;
 }
 
-// The same segment, marked where the ray touches the side along it: crosses it no deeper than rounding, or runs in it.
-FN hits mark_touched_side(GLOBAL const parameter* p, ray3 r, local_ray l, quadratic f, hits h) {
-    const truth may_touch = f.discriminant <= TOUCHED * f.most || real_abs(f.a) <= TOUCHED * TOUCHED * dot3(l.d, l.d);
-    if (none(may_touch && h.count == 1)) return h;
-    {
-        const vec3 at = local_point(l, REAL(0.5) * (h.in0 + h.out0));
-        const real radius = real_fma(p[13], at.z, p[12]), rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
-        const truth touches = may_touch && radius - rho <= local_rounding(p, r);
-        const vec3 n = affine_normal(p, make_vec3(at.x, at.y, -radius * p[13]));
-        return mark(h, touches ? missed_side(n) : TAG(0));
-    }
+// May the ray touch the side only: cross it near its rim, or run along it?
+FN truth may_touch_side(local_ray l, quadratic f, real m0) {
+    const truth along = real_abs(f.a) <= TOUCHED * TOUCHED * dot3(l.d, l.d) && real_abs(f.c) <= TOUCHED * (m0 * m0);
+    return real_abs(f.discriminant) < f.most * TOUCHED || along;
 }
 
 // The piece of `s` on which a side that is not round may be met, with u in units of the direction's length: everything lies

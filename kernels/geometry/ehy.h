@@ -33,7 +33,7 @@ FN hits ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
     wy = difference_of_products(m0, l.d.y, m1, l.o.y);
     cross = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);
     discriminant = real_fma(wx, wx, wy * wy) - real_fma(gap * gap, a, cross * cross);
-    return mark(quadratic_inside(a, b, at_zero, discriminant, l.shift, s, EHY_SIDE), s.missed);
+    return touching(s.touched, quadratic_inside(a, b, at_zero, discriminant, l.shift, s, EHY_SIDE));
 }
 
 FN vec3 ehy_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {

@@ -12,12 +12,10 @@ FN hits ell_intersect(GLOBAL const parameter* p, ray3 r) {
     vec3 q = add_scaled(l.o, -residue, l.d);
     real inside = REAL(1) - dot3(q, q);
     real reach, middle;
-    tag missed = 0;
     if (none(inside > 0)) return no_hits();
-    if (!none(inside < TOUCHED)) missed = inside <= REAL(2) * local_rounding(p, r) ? missed_side(affine_normal(p, q)) : missed;
     reach = real_sqrt(inside / dd);
     middle = l.shift - residue;
-    return mark(append(no_hits(), middle - reach, 0, middle + reach, 0), missed);
+    return touching(inside > 0 && inside < TOUCHED, append(no_hits(), middle - reach, 0, middle + reach, 0));
 }
 
 FN vec3 ell_normal(GLOBAL const parameter* p, ray3 r, real t) { return affine_normal(p, local_point(to_local(p, r), t)); }

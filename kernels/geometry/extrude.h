@@ -16,6 +16,7 @@
 #include "cut.h"
 #include "plane.h"
 #include "polynomial.h"
+#include "touch.h"
 
 #define EXTRUDE_ENDS 2
 #define WALL_SLACK BY_PRECISION(1e-5, 1e-9, 1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
@@ -145,7 +146,7 @@ FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     ends = clip_to_face(ends, g, solid.first_plane, r, 0);
     ends = clip_to_face(ends, g, solid.first_plane + 1, r, 1);
     if (!(ends.low < ends.high)) return c;
-    c.missed = ends.missed;
+    if (ends.touched) c.missed = missed_of_planes(g, solid.first_plane, EXTRUDE_ENDS, r);
     w = to_sketch(g.reals + solid.first_real, r);
     k = start_cut(ends, 1, c);
     k = meet_lines(k, w, g, solid, s, r);

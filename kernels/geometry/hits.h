@@ -13,13 +13,14 @@ typedef struct {
     tag count;  // segments: 0, 1 or 2
     real in0, out0, in1, out1;
     tag in0_surface, out0_surface, in1_surface, out1_surface;
+    truth touched;  // may the ray touch the solid only? touch.h looks more closely
 } hits;
 
 // A piece of the ray, with the surfaces that bound it.
 typedef struct {
     real low, high;
     tag low_surface, high_surface;
-    tag missed;  // MISSED_... of the planes that the ray runs in
+    truth touched;  // the ray runs in one of its planes
 } span;
 
 FN hits no_hits(void) {
@@ -27,6 +28,7 @@ FN hits no_hits(void) {
     h.count = 0;
     h.in0 = h.out0 = h.in1 = h.out1 = 0;
     h.in0_surface = h.out0_surface = h.in1_surface = h.out1_surface = 0;
+    h.touched = 0;
     return h;
 }
 
@@ -34,7 +36,8 @@ FN span whole_line(void) {
     span s;
     s.low = -REAL_INFINITY;
     s.high = REAL_INFINITY;
-    s.low_surface = s.high_surface = s.missed = 0;
+    s.low_surface = s.high_surface = 0;
+    s.touched = 0;
     return s;
 }
 
@@ -53,17 +56,13 @@ FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
     return h;
 }
 
-// What is found in a span, with what is known of the span's planes.
-FN hits mark(hits h, tag missed) {
-    h.in0_surface = h.in0_surface | missed;
-    h.out0_surface = h.out0_surface | missed;
-    h.in1_surface = h.in1_surface | missed;
-    h.out1_surface = h.out1_surface | missed;
+FN hits touching(truth touched, hits h) {
+    h.touched = touched;
     return h;
 }
 
 FN hits append_span(hits h, span s) {
-    return append(h, s.low, s.low_surface | s.missed, s.high, s.high_surface | s.missed);
+    return touching(s.touched, append(h, s.low, s.low_surface, s.high, s.high_surface));
 }
 
 #endif

@@ -8,32 +8,31 @@
 FN wide3 plane_normal(PlaneRecord p) { return make_wide3(p.nx, p.ny, p.nz); }
 FN real plane_above(PlaneRecord p, ray3 r) { return REAL(wide_dot(plane_normal(p), r.o) - p.d); }  // the origin's distance
 
-// Clips `s` to the side n . p <= d of a plane that the ray is parallel to, or nearly so. A ray that runs in the plane, as far
-// as rounding lets one say, is on the side that is kept: it touches the face, on whichever side of it rounding has put the
-// ray, and s.missed says so.
-NOINLINE_FN span clip_along(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
-    const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
+// Does the ray run in the plane, as far as rounding lets one say?
+FN truth runs_in(PlaneRecord plane, ray3 r) {
+    const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d);
     const real from_origin = sum_of_sizes(narrow(r.o)) + real_abs(REAL(plane.d));
-    const truth within = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d) && real_abs(above) <= ROUNDING * from_origin;
-    const truth enters = !within && (flipped ? rate > 0 : rate < 0), leaves = !within && (flipped ? rate < 0 : rate > 0);
-    const truth outside = !within && rate == 0 && (flipped ? above < 0 : above > 0);
-    const truth raises = enters && t > s.low, lowers = leaves && t < s.high;
-    s.missed = within ? s.missed | TAG(faces_above(plane) == (flipped == 0) ? MISSED_ABOVE : MISSED_BELOW) : s.missed;
-    s.low_surface = raises ? TAG(surface) : s.low_surface;
-    s.high_surface = lowers ? TAG(surface) : s.high_surface;
-    s.low = outside ? REAL_INFINITY : raises ? t : s.low;
-    s.high = outside ? -REAL_INFINITY : lowers ? t : s.high;
-    return s;
+    return real_abs(rate) <= ROUNDING * sum_of_sizes(r.d) && real_abs(above) <= ROUNDING * from_origin;
 }
 
-// Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high.
+// Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high. A ray that runs
+// in the plane is on the side that is kept: it touches the face, on whichever side of it rounding has put the ray.
 FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
-    const real rate = dot3(narrow(plane_normal(plane)), r.d), least = ROUNDING * sum_of_sizes(r.d);
-    if (!none(real_abs(rate) <= least)) return clip_along(s, plane, flipped, r, surface);
+    const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
+    const truth parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);
+    truth enters = flipped ? rate > 0 : rate < 0, leaves = flipped ? rate < 0 : rate > 0;
+    if (!none(parallel)) {
+        const real sizes = sum_of_sizes(narrow(r.o)) + real_abs(REAL(plane.d));
+        const truth within = parallel && real_abs(above) <= ROUNDING * sizes;
+        const truth outside = rate == 0 && !within && (flipped ? above < 0 : above > 0);
+        enters = enters && !within;
+        leaves = leaves && !within;
+        s.touched = s.touched || within;
+        s.low = outside ? REAL_INFINITY : s.low;
+        s.high = outside ? -REAL_INFINITY : s.high;
+    }
     {
-        const real t = -plane_above(plane, r) / rate;
-        const truth enters = flipped ? rate > 0 : rate < 0;
-        const truth raises = enters && t > s.low, lowers = !enters && t < s.high;
+        const truth raises = enters && t > s.low, lowers = leaves && t < s.high;
         s.low_surface = raises ? TAG(surface) : s.low_surface;
         s.high_surface = lowers ? TAG(surface) : s.high_surface;
         s.low = raises ? t : s.low;

@@ -56,7 +56,7 @@ FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
                            ? difference_of_products(b, b, a, c)
                            : discriminant;
     }
-    return mark(quadratic_inside(a, b, c, discriminant, l.shift, s, QUADRIC_SURFACE), s.missed);
+    return touching(s.touched, quadratic_inside(a, b, c, discriminant, l.shift, s, QUADRIC_SURFACE));
 }
 
 FN vec3 quadric_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {

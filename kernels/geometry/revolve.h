@@ -11,6 +11,7 @@
 #include "cut.h"
 #include "hyperbola.h"
 #include "plane.h"
+#include "touch.h"
 
 #define REVOLVE_CUT 12         // where that parameter is (shared/layout.h has its values)
 #define REVOLVE_FACES 2        // surfaces of the cut
@@ -57,7 +58,9 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     sketch s = sketch_of(g, solid);
     axis_ray a = around_axis(p, r);
     u32 faces = revolve_cut_faces(p), i;
-    u32 flat_lines = solid.plane_count - faces;
+    u32 flat_lines = solid.plane_count - faces, touched = NONE;
+    const real oz = a.oz;
+    int side = 1;
     span between = whole_line();
     cut k;
     if (faces) {
@@ -68,16 +71,28 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
         between.low = REAL_INFINITY;
         between.high = -REAL_INFINITY;
     }
-    c.missed = between.missed;
-    k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
-    for (i = 0; i < s.line_count; ++i) {
-        u32 surface = REVOLVE_FACES + i;
-        k = i < flat_lines ? meet_flat_line(k, s.lines + 4 * i, a, g, solid.first_plane + faces + i, r, surface)
-                           : meet_profile(k, s.lines + 4 * i, 1, 2, a, surface);
-    }
-    for (i = 0; i < s.curve_count; ++i)
-        k = meet_profile(k, g.reals + s.curves[2 * i], s.curves[2 * i + 1], 3, a, REVOLVE_FACES + s.line_count + i);
-    return end_cut(k);
+    if (between.touched) c.missed = missed_of_planes(g, solid.first_plane, REVOLVE_FACES, r);
+    for (i = 0; i < flat_lines; ++i)
+        if (runs_in(g.planes[g.plane_refs[solid.first_plane + faces + i] >> 1], r)) touched = solid.first_plane + faces + i;
+    // A ray in such a plane touches the flat face, which lies before it or behind it along the axis: the solid is met beside it.
+    do {
+        k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
+        if (touched != NONE) {
+            const int face_above = faces_above(g.planes[g.plane_refs[touched] >> 1]) == !(g.plane_refs[touched] & 1u);
+            a.oz = oz + REAL(side) * (REAL(8) * local_rounding(p, r));
+            k.c.missed |= face_above == (side > 0) ? MISSED_BELOW : MISSED_ABOVE;
+        }
+        for (i = 0; i < s.line_count; ++i) {
+            u32 surface = REVOLVE_FACES + i;
+            k = i < flat_lines ? meet_flat_line(k, s.lines + 4 * i, a, g, solid.first_plane + faces + i, r, surface)
+                               : meet_profile(k, s.lines + 4 * i, 1, 2, a, surface);
+        }
+        for (i = 0; i < s.curve_count; ++i)
+            k = meet_profile(k, g.reals + s.curves[2 * i], s.curves[2 * i + 1], 3, a, REVOLVE_FACES + s.line_count + i);
+        k.c = end_cut(k);
+        side = -side;
+    } while (touched != NONE && side < 0 && k.c.ahead + k.c.behind == 0);
+    return k.c;
 }
 
 // The local normal of what a piece sweeps, where the ray crosses it nearest to t.

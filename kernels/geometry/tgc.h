@@ -144,12 +144,12 @@ FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     local_ray l;
     real m0, m1;
     if (!(s.low < s.high)) return no_hits();
-    if (p[16] != 0) return mark(tapered_inside(QUARTIC_OF(g), p, quartic_ray(QUARTIC_OF(g), p, r), s), s.missed);
+    if (p[16] != 0) return touching(s.touched, tapered_inside(QUARTIC_OF(g), p, quartic_ray(QUARTIC_OF(g), p, r), s));
     l = to_local(p, r);
     m0 = real_fma(p[13], l.o.z, p[12]);
     m1 = p[13] * l.d.z;
     f = round_side(l, m0, m1);
-    return mark(mark_touched_side(p, r, l, f, cone_inside(l, f, m0, m1, s)), s.missed);
+    return touching(s.touched || may_touch_side(l, f, m0), cone_inside(l, f, m0, m1, s));
 }
 
 #endif

@@ -61,6 +61,9 @@ FN real tor_polish(vec3 o, vec3 d, real u, real ratio, int pinched) {
     return u;
 }
 
+// So short that the ray may only touch the torus there.
+FN int is_short(real in, real out, real length) { return (out - in) * length < REAL(0x1p-6); }
+
 FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
     const tor_piece piece = tor_piece_of(method, p, r);
     const vec3 o = piece.l.o, d = piece.d;
@@ -69,6 +72,7 @@ FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
     quartic g;
     real roots[4];
     int count, i, pinched;
+    hits h;
     if (!(piece.low < piece.high)) return no_hits();
     pinched = ratio > PINCH_RATIO && omega < PINCH_REACH * PINCH_REACH;
     m = omega - REAL(1) - ratio * ratio;
@@ -89,7 +93,8 @@ FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
         roots[i] = piece.l.shift + tor_polish(o, d, roots[i], ratio, pinched) / piece.length;
         if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
     }
-    return spans_between(whole_line(), 0, roots, count & ~1, 0);
+    h = spans_between(whole_line(), 0, roots, count & ~1, 0);
+    return touching(is_short(h.in0, h.out0, piece.length) || (h.count > 1 && is_short(h.in1, h.out1, piece.length)), h);
 }
 
 FN hits append_within(hits h, span s, real in, u32 in_surface, real out, u32 out_surface) {
@@ -112,7 +117,7 @@ FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     if (solid.plane_count == 0) return all;
     if (all.count > 0) h = append_within(h, s, all.in0, all.in0_surface, all.out0, all.out0_surface);
     if (all.count > 1) h = append_within(h, s, all.in1, all.in1_surface, all.out1, all.out1_surface);
-    return mark(h, s.missed);
+    return touching(s.touched || all.touched, h);
 }
 
 #endif

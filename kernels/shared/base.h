@@ -46,6 +46,13 @@ typedef uint u32;
 #else
 #define INLINE_FN FN inline __attribute__((always_inline))
 #endif
+// What is seldom reached, in the midst of what is hot: a call for a processor. On a GPU a call takes registers from all that is around
+// it (measured: bench/NOTES.md).
+#if defined(CSGRT_PACKETS) || defined(CSGRT_NO_INLINE)
+#define RARE_FN NOINLINE_FN
+#else
+#define RARE_FN FN
+#endif
 // What is large and seldom reached: inlined, it takes a GPU's registers from all that is.
 #define NOINLINE_FN FN __attribute__((noinline))
 // What takes all that it calls into itself where that pays: a compiler for a device does so in any case.
@@ -65,6 +72,7 @@ FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #define FN [[maybe_unused]] static inline
 #define INLINE_FN FN
 #define NOINLINE_FN FN
+#define RARE_FN FN
 #define WHOLE_FN FN
 FN real real_sqrt(real x) { return host::root(x); }
 FN real real_fma(real a, real b, real c) { return host::fma(a, b, c); }

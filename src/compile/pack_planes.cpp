@@ -80,12 +80,16 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
     std::size_t count = 0;
     for (const std::vector<Film>& some : films) {
         for (const auto& [solid, thickness] : some) {
+            // A turn of no angle has a note of its own.
+            if (compiled.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
             if (++count > shown) continue;
-            const Box& own = compiled.solid_boxes[solid];
-            const double limit = PlaneTable::gap * diagonal(is_finite(own) ? own : common);
+            const Box& box = is_finite(compiled.solid_boxes[solid]) ? compiled.solid_boxes[solid] : common;
+            const double of_size = PlaneTable::gap * diagonal(box), of_place = coordinate_rounding * largest_coordinate(box);
             compiled.notes.push_back("nothing is left of " + compiled.solid_info[solid].name + ": two of its faces are " +
                                      rounded_text(thickness) + " mm apart, and faces within " +
-                                     rounded_text(limit) + " mm, 1e-10 of its size, are one surface");
+                                     rounded_text(std::max(of_size, of_place)) + " mm, " +
+                                     (of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates") +
+                                     ", are one surface");
         }
     }
     if (count > shown) compiled.notes.push_back("nothing is left of " + std::to_string(count - shown) + " more such solids");

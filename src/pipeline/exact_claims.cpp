@@ -56,6 +56,7 @@ std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32
                         bits,
                         segments,
                         0,
+                        1,
                         scene_.solids.data(),
                         scene_.starts.data(),
                         scene_.leaves.data(),

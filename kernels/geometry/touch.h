@@ -1,0 +1,90 @@
+// A ray that touches a solid all along a segment, as far as rounding lets one say: it runs in a face or along a wall, or comes no
+// deeper than rounding. Both ends of the segment are marked with the side to which the ray would miss the solid (MISSED_...). Here
+// and not in each solid, which asks for it seldom: what is rare costs a GPU's registers and a processor's vectors wherever it stands.
+#ifndef CSGRT_TOUCH_H
+#define CSGRT_TOUCH_H
+
+#include "cone.h"
+#include "plane.h"
+
+// By how much rounding of the ray's and of the solid's numbers may move a point of the local ray, and a surface of about size 1.
+FN real local_rounding(GLOBAL const parameter* p, ray3 r) {
+    const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
+    const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
+    real most = 0;
+    int row;
+    for (row = 3; row < 12; row += 3)
+        most = real_max(most, real_abs(REAL(p[row])) * x + real_abs(REAL(p[row + 1])) * y + real_abs(REAL(p[row + 2])) * z);
+    return ROUNDING * (REAL(1) + most);
+}
+
+// On which side a ray misses what it touches where the outward normal is n.
+FN u32 missed_side(vec3 n) { return n.x + n.y * ABOVE_Y + n.z * ABOVE_Z >= 0 ? MISSED_ABOVE : MISSED_BELOW; }
+
+// Of planes of a solid that the ray runs in.
+FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
+    u32 i, missed = 0;
+    for (i = first; i < first + count; ++i) {
+        const PlaneRef ref = g.plane_refs[i];
+        const PlaneRecord plane = g.planes[ref >> 1];
+        if (runs_in(plane, r)) missed |= faces_above(plane) == !(ref & 1u) ? MISSED_ABOVE : MISSED_BELOW;
+    }
+    return missed;
+}
+
+FN hits mark(hits h, u32 missed) {
+    h.in0_surface |= missed;
+    h.out0_surface |= missed;
+    h.in1_surface |= missed;
+    h.out1_surface |= missed;
+    return h;
+}
+
+FN hits mark_ell(GLOBAL const real* p, ray3 r, hits h) {
+    const vec3 q = local_point(to_local(p, r), REAL(0.5) * (h.in0 + h.out0));
+    return REAL(1) - real_sqrt(dot3(q, q)) <= local_rounding(p, r) ? mark(h, missed_side(affine_normal(p, q))) : h;
+}
+
+// How far a point is within the side of a round cone; negative: outside.
+FN real depth_in_side(GLOBAL const real* p, vec3 at) {
+    return real_fma(p[13], at.z, p[12]) - real_sqrt(real_fma(at.x, at.x, at.y * at.y));
+}
+
+// A ray along the side is within it from end to end, on whichever side of it rounding has put the ray.
+FN hits mark_side(GLOBAL const real* p, ray3 r, span ends, hits h) {
+    const local_ray l = to_local(p, r);
+    const real most = local_rounding(p, r);
+    const int along = ends.low < ends.high && real_abs(depth_in_side(p, local_point(l, ends.low))) <= most &&
+                      real_abs(depth_in_side(p, local_point(l, ends.high))) <= most;
+    vec3 at;
+    if (along) h = append(no_hits(), ends.low, ends.low_surface, ends.high, ends.high_surface);
+    at = local_point(l, REAL(0.5) * (h.in0 + h.out0));
+    if (h.count != 1 || depth_in_side(p, at) > most) return h;
+    return mark(h, missed_side(affine_normal(p, make_vec3(at.x, at.y, -real_fma(p[13], at.z, p[12]) * p[13]))));
+}
+
+// Of a torus, between `in` and `out`.
+FN u32 missed_of_tor(GLOBAL const real* p, ray3 r, real in, real out) {
+    const vec3 at = local_point(to_local(p, r), REAL(0.5) * (in + out));
+    const real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y)), radial = rho - REAL(1);
+    if (p[12] - real_sqrt(real_fma(radial, radial, at.z * at.z)) > local_rounding(p, r)) return 0;
+    return missed_side(affine_normal(p, make_vec3(at.x * radial / rho, at.y * radial / rho, at.z)));
+}
+
+// What is met of a solid that the ray may touch only, marked if it does.
+RARE_FN hits mark_touched(Geometry g, SolidRecord solid, ray3 r, hits h) {
+    GLOBAL const real* p = g.reals + solid.first_real;
+    if (solid.type == SOLID_ELL) h = mark_ell(p, r, h);
+    if (solid.type == SOLID_TGC && p[16] == 0) h = mark_side(p, r, between_ends(g, solid, r), h);
+    if (solid.type == SOLID_TOR) {
+        const u32 first = h.count > 0 ? missed_of_tor(p, r, h.in0, h.out0) : 0;
+        const u32 second = h.count > 1 ? missed_of_tor(p, r, h.in1, h.out1) : 0;
+        h.in0_surface |= first;
+        h.out0_surface |= first;
+        h.in1_surface |= second;
+        h.out1_surface |= second;
+    }
+    return mark(h, missed_of_planes(g, solid.first_plane, solid.plane_count, r));
+}
+
+#endif
