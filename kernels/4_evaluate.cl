@@ -1,7 +1,7 @@
 // Kernel 4: which region claims each partition. A work-item is a node, so that no partition waits for those before it.
 //
-// Overlap: the smallest index keeps the partition: solids before FASTGEN's plates, these before its volumes, air last, as in BRL-CAD, and of one rank the first in the model. A
-// rule that looked at the partition before would depend on the direction of the ray.
+// Overlap: the smallest index keeps the partition: solids before FASTGEN's plates, these before its volumes, air last, as in BRL-CAD,
+// and of one rank the first in the model. A rule that looked at the partition before would depend on the direction of the ray.
 #include "boolean.h"
 #include "room.h"
 
