@@ -48,16 +48,10 @@ StressScene airy(std::uint64_t seed, std::size_t times) {
     return to.take();
 }
 
-void judge_seeds(std::uint64_t first, std::uint64_t count, std::size_t times) {
-    test::FieldTally tally;
-    for (std::uint64_t seed = first; seed < first + count; ++seed) test::judge_field(airy(seed, times), tally);
-    test::require_all_right(tally);
-}
-
 }  // namespace
 
-TEST_CASE("solid beats air, wherever it stands in the model", "[field]") { judge_seeds(1, 16, 1); }
-TEST_CASE("solid beats air on many rays", "[.long]") { judge_seeds(101, 500, 10); }
+TEST_CASE("solid beats air, wherever it stands in the model", "[field]") { test::judge_seeds(airy, 1, 16, 1); }
+TEST_CASE("solid beats air on many rays", "[.long]") { test::judge_seeds(airy, 101, 500, 10); }
 
 TEST_CASE("an air region that the model lists first yields to what stands in it", "[field]") {
     Builder to("room", 1, 1);

@@ -28,16 +28,10 @@ StressScene mixed(std::uint64_t seed, std::size_t times) {
     return to.take();
 }
 
-void judge_seeds(std::uint64_t first, std::uint64_t count, std::size_t times) {
-    test::FieldTally tally;
-    for (std::uint64_t seed = first; seed < first + count; ++seed) test::judge_field(mixed(seed, times), tally);
-    test::require_all_right(tally);
-}
-
 }  // namespace
 
-TEST_CASE("FASTGEN's regions yield to plain ones, volumes to plates", "[field]") { judge_seeds(1, 16, 1); }
-TEST_CASE("FASTGEN's regions yield on many rays", "[.long]") { judge_seeds(101, 500, 10); }
+TEST_CASE("FASTGEN's regions yield to plain ones, volumes to plates", "[field]") { test::judge_seeds(mixed, 1, 16, 1); }
+TEST_CASE("FASTGEN's regions yield on many rays", "[.long]") { test::judge_seeds(mixed, 101, 500, 10); }
 
 TEST_CASE("a FASTGEN volume that the model lists first yields, and a note says what is not followed", "[field]") {
     Builder to("volume", 1, 1);

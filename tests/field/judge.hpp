@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 
@@ -83,6 +84,14 @@ inline void require_all_right(const FieldTally& tally, std::size_t one_in = 2) {
     CHECK(tally.overlaps == 0);
     CHECK(tally.worst <= 1);
     CHECK((tally.rays - tally.ties) * one_in >= tally.rays);
+}
+
+/// Everything decided is right in the scenes make(seed, times) of `count` seeds, from `first` on.
+inline void judge_seeds(stress::StressScene (*make)(std::uint64_t, std::size_t), std::uint64_t first, std::uint64_t count,
+                        std::size_t times) {
+    FieldTally tally;
+    for (std::uint64_t seed = first; seed < first + count; ++seed) judge_field(make(seed, times), tally);
+    require_all_right(tally);
 }
 
 }  // namespace csgrt::test

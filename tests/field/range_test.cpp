@@ -48,12 +48,6 @@ StressScene scaled(std::uint64_t seed, std::size_t times) {
     return made;
 }
 
-void judge_seeds(std::uint64_t first, std::uint64_t count, std::size_t times) {
-    test::FieldTally tally;
-    for (std::uint64_t seed = first; seed < first + count; ++seed) test::judge_field(scaled(seed, times), tally);
-    test::require_all_right(tally);
-}
-
 std::string refusal(const Scene& scene, const std::vector<std::string>& objects = {}) {
     try {
         Renderer renderer(scene, objects, test::on_reference());
@@ -78,8 +72,8 @@ Scene one(Shape shape, const Matrix& matrix = identity) {
 
 }  // namespace
 
-TEST_CASE("answers are right up to the limits of sizes and of directions", "[field]") { judge_seeds(1, 14, 1); }
-TEST_CASE("answers are right up to the limits on many rays", "[.long]") { judge_seeds(101, 500, 10); }
+TEST_CASE("answers are right up to the limits of sizes and of directions", "[field]") { test::judge_seeds(scaled, 1, 14, 1); }
+TEST_CASE("answers are right up to the limits on many rays", "[.long]") { test::judge_seeds(scaled, 101, 500, 10); }
 
 TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as large or small", "[field]") {
     const std::string folder = test::folder("CSGRT_SCENES");
