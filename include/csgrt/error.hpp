@@ -47,6 +47,17 @@ struct Diagnostic {
 /// "file:line:column: pointer: message\n    excerpt\n  suggestion", the form that the command line prints.
 CSGRT_API std::string format(const Diagnostic& diagnostic);
 
+/// What was borne, not refused: the rest of the model is as it should be.
+struct Warning {
+    std::string object;       ///< its name; empty: the whole file
+    Place place;              ///< the first of them, where it is known
+    std::string reason;       ///< what is wrong, and what was done about it
+    std::uint64_t count = 1;  ///< how often this was met
+};
+
+/// "place: object: reason (N times)", on one line.
+CSGRT_API std::string format(const Warning& warning);
+
 /// Thrown by every function of csgrt that fails. `what()` holds all diagnostics, formatted, a line or more each.
 class CSGRT_API Error : public std::runtime_error {
 public:

@@ -103,6 +103,7 @@ struct Scene {
     std::vector<Object> objects;  ///< in the order of the file
     std::vector<std::string> top; ///< what to render when nothing is named; empty: every object that no other uses
     std::vector<RegionColor> region_colors;
+    std::vector<Warning> warnings;  ///< what the reader of the file bore
 
     /// The object of that name, or nullptr. Names are unique; readers refuse duplicates. Linear; compile keeps an index.
     CSGRT_API const Object* find(const std::string& name) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -104,7 +105,8 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     FlatScene flat =
         flatten(scene, names, objects.empty() ? names.top_objects() : objects, options.air, options.skip_unsupported);
     CompiledScene compiled;
-    compiled.notes = std::move(flat.notes);
+    for (const Warning& warning : scene.warnings) compiled.notes.push_back(format(warning));
+    std::move(flat.notes.begin(), flat.notes.end(), std::back_inserter(compiled.notes));
     compiled.skipped = std::move(flat.skipped);
     if (flat.regions.empty()) {
         std::string message = "there is nothing to render";

@@ -19,6 +19,20 @@ void append_indented(std::string& out, const std::string& text, const char* inde
     }
 }
 
+/// "file:line:column", "file: byte offset", or as much of it as is known.
+std::string position(const Place& place) {
+    std::string out = place.file;
+    if (place.line > 0) {
+        if (!out.empty()) out += ':';
+        out += std::to_string(place.line);
+        if (place.column > 0) out += ':' + std::to_string(place.column);
+    } else if (place.offset >= 0) {
+        if (!out.empty()) out += ": ";
+        out += "byte " + std::to_string(place.offset);
+    }
+    return out;
+}
+
 std::string format_all(const std::vector<Diagnostic>& diagnostics) {
     std::string out;
     for (const Diagnostic& diagnostic : diagnostics) {
@@ -32,20 +46,21 @@ std::string format_all(const std::vector<Diagnostic>& diagnostics) {
 
 std::string format(const Diagnostic& diagnostic) {
     const Place& place = diagnostic.place;
-    std::string out = place.file;
-    if (place.line > 0) {
-        if (!out.empty()) out += ':';
-        out += std::to_string(place.line);
-        if (place.column > 0) out += ':' + std::to_string(place.column);
-    } else if (place.offset >= 0) {
-        if (!out.empty()) out += ": ";
-        out += "byte " + std::to_string(place.offset);
-    }
+    std::string out = position(place);
     if (!out.empty()) out += ": ";
     if (!place.pointer.empty()) out += place.pointer + ": ";
     out += diagnostic.message;
     if (!diagnostic.excerpt.empty()) append_indented(out, diagnostic.excerpt, "    ");
     if (!diagnostic.suggestion.empty()) append_indented(out, diagnostic.suggestion, "  ");
+    return out;
+}
+
+std::string format(const Warning& warning) {
+    std::string out = position(warning.place);
+    if (!out.empty()) out += ": ";
+    if (!warning.object.empty()) out += warning.object + ": ";
+    out += warning.reason;
+    if (warning.count > 1) out += " (" + std::to_string(warning.count) + " times)";
     return out;
 }
 
