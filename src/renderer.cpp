@@ -114,6 +114,19 @@ std::string hexadecimal(std::uint64_t value) {
     return text;
 }
 
+/// A line each. A header is no place for thousands.
+std::string as_attribute(const std::vector<Warning>& warnings) {
+    constexpr std::size_t most_bytes = 4096;
+    std::string text;
+    for (std::size_t i = 0; i < warnings.size(); ++i) {
+        const std::string line = format(warnings[i]);
+        if (text.size() + line.size() > most_bytes)
+            return text + (i > 0 ? "and " : "") + std::to_string(warnings.size() - i) + (i > 0 ? " more" : " warnings");
+        text += line + (i + 1 < warnings.size() ? "\n" : "");
+    }
+    return text;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -284,10 +297,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " +
                                         impl.statistics.quartic + (impl.settings.contraction ? ", contraction" : "");
     image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
-    if (!impl.scene.skipped.empty()) {
-        std::string& skipped = image.attributes["csgrt:skipped"];
-        for (const std::string& solid : impl.scene.skipped) skipped += (skipped.empty() ? "" : "; ") + solid;
-    }
+    if (!impl.scene.warnings.empty()) image.attributes["csgrt:warnings"] = as_attribute(impl.scene.warnings);
     describe_camera(prepared, image);
     impl.end_call(start);
 }
@@ -344,7 +354,6 @@ const Box& Renderer::bounds() const { return impl_->scene.bounds; }
 const std::vector<RegionInfo>& Renderer::regions() const { return impl_->scene.region_info; }
 const std::vector<SolidInfo>& Renderer::solids() const { return impl_->scene.solid_info; }
 const Statistics& Renderer::statistics() const { return impl_->statistics; }
-const std::vector<std::string>& Renderer::skipped() const { return impl_->scene.skipped; }
-const std::vector<std::string>& Renderer::notes() const { return impl_->scene.notes; }
+const std::vector<Warning>& Renderer::warnings() const { return impl_->scene.warnings; }
 
 }  // namespace csgrt

@@ -38,7 +38,7 @@ struct Settings {
     Tolerance tolerance_rule = Tolerance::length;
     double tolerance = -1;        ///< millimetres, for Tolerance::length; negative: the scene's
     bool air = false;             ///< keep air regions
-    bool skip_unsupported = false;///< leave out solids of types that csgrt does not know; Renderer::skipped() names them
+    bool skip_unsupported = false;///< leave out solids of types that csgrt does not know, as in lenient scenes
     unsigned threads = 0;         ///< of the reference; 0: all
     /// Called now and then with the done fraction 0..1; returning false stops (Status::interrupted).
     std::function<bool(double)> progress;
@@ -176,10 +176,9 @@ public:
     const std::vector<RegionInfo>& regions() const;
     const std::vector<SolidInfo>& solids() const;
     const Statistics& statistics() const;
-    /// What compilation left out or found worth telling: objects without solids, air regions, ...
-    /// Solids left out because csgrt does not know their type: "name (type), used by user".
-    const std::vector<std::string>& skipped() const;
-    const std::vector<std::string>& notes() const;
+    /// What the scene's reader bore, what was left out and what else is worth telling: air regions, open meshes, ...
+    /// Each object and reason once. The first of them stand in a picture's attribute csgrt:warnings.
+    const std::vector<Warning>& warnings() const;
 
 private:
     struct Impl;

@@ -103,6 +103,9 @@ struct Scene {
     std::vector<Object> objects;  ///< in the order of the file
     std::vector<std::string> top; ///< what to render when nothing is named; empty: every object that no other uses
     std::vector<RegionColor> region_colors;
+    /// What is missing, broken or of an unknown type is the empty set, with a warning, where a strict scene is refused. So are
+    /// BRL-CAD's databases, which its own ray tracer draws without such objects.
+    bool lenient = false;
     std::vector<Warning> warnings;  ///< what the reader of the file bore
 
     /// The object of that name, or nullptr. Names are unique; readers refuse duplicates. Linear; compile keeps an index.
@@ -138,9 +141,9 @@ struct Limits {
 
 /// Checks everything that can be checked object by object: unknown members, cycles, degenerate solids, singular
 /// matrices, non-finite numbers, trees. Only objects reachable from `objects` (empty: from the top objects).
-/// Returns all findings; empty means the scene is sound. `allow_unsupported`: solids of types that csgrt does not know are
-/// none (see Settings::skip_unsupported).
+/// Returns all findings; empty means the scene is sound. `skip_unsupported`: solids of types that csgrt does not know are
+/// none (see Settings). What is left out instead, as in a lenient scene, is appended to `warnings`.
 CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {},
-                                           bool allow_unsupported = false);
+                                           bool skip_unsupported = false, std::vector<Warning>* warnings = nullptr);
 
 }  // namespace csgrt

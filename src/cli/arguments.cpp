@@ -20,11 +20,18 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
     throw Error(Status::usage, {Diagnostic{{}, std::move(message), std::move(suggestion), {}}});
 }
 
+void define_strict(Options& options, bool& strict) {
+    options.flag("--strict", "refuse a .g or .asc with anything missing or broken in it, which is left out else, with a warning",
+                 strict);
+}
+
 void define_scene(Options& options, SceneArguments& arguments) {
     options.argument("SCENE", "scene file: .json, .g or .asc", arguments.scene);
     options.arguments("OBJECT", "objects of the scene; without any, its top objects", arguments.objects);
     options.flag("--air", "keep air regions", arguments.settings.air);
-    options.flag("--skip-unsupported", "leave out solids of types that csgrt does not know, and say which",
+    define_strict(options, arguments.strict);
+    options.flag("--skip-unsupported",
+                 "leave out solids of types that csgrt does not know, and say which; with a .g or .asc this is done anyway",
                  arguments.settings.skip_unsupported);
 }
 
@@ -158,6 +165,7 @@ void define(Options& options, InfoArguments& arguments) {
 void define(Options& options, ConvertArguments& arguments) {
     options.argument("IN", "scene file: .json, .g or .asc", arguments.input);
     options.argument("OUT", "FILE.json to write; - is standard output", arguments.output);
+    define_strict(options, arguments.strict);
 }
 
 struct Entry {

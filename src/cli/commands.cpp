@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <csgrt/scene_io.hpp>
@@ -18,17 +19,20 @@ Settings with_progress(const Settings& settings, Progress& progress) {
     return result;
 }
 
-void report_skipped(const Renderer& renderer) {
+void report(const std::vector<Warning>& warnings) {
+    constexpr std::size_t most = 50;
     std::string text;
-    for (const std::string& solid : renderer.skipped()) text += "csgrt: left out: " + solid + "\n";
-    for (const std::string& note : renderer.notes()) text += "csgrt: note: " + note + "\n";
+    for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i)
+        text += "csgrt: warning: " + format(warnings[i]) + "\n";
+    if (warnings.size() > most)
+        text += "csgrt: " + std::to_string(warnings.size() - most) + " more warnings; 'csgrt info' lists all\n";
     std::fputs(text.c_str(), stderr);
 }
 
-Scene load_with_progress(const std::string& path) {
+Scene load_with_progress(const std::string& path, bool strict) {
     Progress progress;
     progress.stage("loading");
-    Scene scene = load_scene(path);
+    Scene scene = load_scene(path, strict);
     check_interrupt();
     return scene;
 }

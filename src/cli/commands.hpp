@@ -17,6 +17,7 @@ class Progress;
 struct SceneArguments {
     std::string scene;
     std::vector<std::string> objects;
+    bool strict = false;  ///< what is missing or broken in a database is refused
     Settings settings;
 };
 
@@ -55,6 +56,7 @@ struct InfoArguments : SceneArguments {
 
 struct ConvertArguments {
     std::string input, output;
+    bool strict = false;
 };
 
 /// --help and --version.
@@ -78,10 +80,10 @@ Status run(const TextArguments& arguments);
 /// The settings of a command with its progress and the user's Ctrl-C tied in. `progress` must outlive the result's use.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Says on standard error which solids --skip-unsupported has left out, and what compilation found worth telling, a line each.
-void report_skipped(const Renderer& renderer);
+/// Says warnings on standard error, a line each; of very many, the first and how many more.
+void report(const std::vector<Warning>& warnings);
 
 /// load_scene with a progress of its own.
-Scene load_with_progress(const std::string& path);
+Scene load_with_progress(const std::string& path, bool strict);
 
 }  // namespace csgrt::cli

@@ -12,7 +12,8 @@ Status run(const ConvertArguments& arguments) {
     if (arguments.output != "-" && std::filesystem::path(arguments.output).extension() != ".json")
         throw Error(Status::usage, "OUT: '" + arguments.output + "' must end in .json, the format that is written");
     check_outputs({{"OUT", arguments.output, true}}, {{"IN", arguments.input}});
-    Scene scene = load_with_progress(arguments.input);
+    Scene scene = load_with_progress(arguments.input, arguments.strict);
+    report(scene.warnings);
     save_scene(scene, arguments.output);
     return Status::ok;
 }

@@ -1,5 +1,7 @@
 // csgrt info: what a scene holds, and what compiling makes of it.
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include "commands.hpp"
 #include "interrupt.hpp"
@@ -49,7 +51,7 @@ Renderer compile_with_progress(const Scene& scene, const InfoArguments& argument
 }  // namespace
 
 Status run(const InfoArguments& arguments) {
-    Scene scene = load_with_progress(arguments.scene);
+    Scene scene = load_with_progress(arguments.scene, arguments.strict);
 
     std::string text;
     if (!scene.title.empty()) text += row("title", scene.title);
@@ -59,7 +61,23 @@ Status run(const InfoArguments& arguments) {
         "\n" + tree_text(scene, arguments.objects.empty() ? top_objects(scene) : arguments.objects, arguments.depth);
     print(text);
 
-    Renderer renderer = compile_with_progress(scene, arguments);
+    // What is left out is told even if nothing remains; an object that is not there has been named by mistake.
+    std::vector<Warning> warnings = scene.warnings;
+    if (std::vector<Diagnostic> findings =
+            validate(scene, arguments.objects, arguments.settings.skip_unsupported, &warnings);
+        !findings.empty())
+        throw Error(Status::scene, std::move(findings));
+    std::optional<Renderer> compiled;
+    try {
+        compiled.emplace(compile_with_progress(scene, arguments));
+    } catch (const Error& error) {
+        if (error.status() != Status::scene || !scene.lenient) throw;
+        text = "\n" + row("compiled", "no: " + error.diagnostics().front().message);
+        for (const Warning& warning : warnings) text += row("warning", format(warning));
+        print(text);
+        return Status::ok;
+    }
+    const Renderer& renderer = *compiled;
     std::map<std::string, std::size_t> types;
     for (const SolidInfo& solid : renderer.solids())
         if (solid.piece == 0) ++types[solid.type];
@@ -69,8 +87,7 @@ Status run(const InfoArguments& arguments) {
     char compile[32];
     std::snprintf(compile, sizeof compile, "%.3g ms", renderer.statistics().ms.compile);
     text += row("compiled", compile);
-    for (const std::string& solid : renderer.skipped()) text += row("left out", solid);
-    for (const std::string& note : renderer.notes()) text += row("note", note);
+    for (const Warning& warning : renderer.warnings()) text += row("warning", format(warning));
     print(text);
     return Status::ok;
 }

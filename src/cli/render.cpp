@@ -91,6 +91,7 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
         text.append(" --quartic ").append(name_of(quartic_names, arguments.settings.quartic));
     if (arguments.settings.contraction) text += " --contraction on";
     if (arguments.settings.air) text += " --air";
+    if (arguments.strict) text += " --strict";
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
     if (arguments.first_hit) text += " --first-hit";
     return text;
@@ -116,7 +117,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     Progress progress;
     progress.stage("compiling");
     Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
-    report_skipped(renderer);
+    report(renderer.warnings());
     check_interrupt();
 
     progress.stage("rendering");
@@ -137,7 +138,7 @@ Status run(const RenderArguments& arguments) {
     check(arguments);
     auto begin = Clock::now();
     if (!arguments.settings.reference) prepare_devices();
-    Scene scene = load_with_progress(arguments.scene);
+    Scene scene = load_with_progress(arguments.scene, arguments.strict);
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
     if (only_colors(arguments)) {

@@ -39,12 +39,12 @@ Status run(const ShootArguments& arguments) {
     Progress progress(arguments.output != "-" || isatty(STDOUT_FILENO) != 1);
     progress.stage("loading");
     if (!arguments.settings.reference) prepare_devices();
-    Scene scene = load_scene(arguments.scene);
+    Scene scene = load_scene(arguments.scene, arguments.strict);
     progress.stage("reading rays");
     RayReader reader(arguments.rays);
     progress.stage("compiling");
     Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
-    report_skipped(renderer);
+    report(renderer.warnings());
     check_interrupt();
 
     OutputFile out(arguments.output);

@@ -28,7 +28,7 @@ Status run(const VerifyArguments& arguments) {
         Progress progress;
         progress.stage("loading");
         if (!arguments.settings.reference) prepare_devices();
-        Scene scene = load_scene(arguments.scene);
+        Scene scene = load_scene(arguments.scene, arguments.strict);
         std::optional<RayReader> reader;
         if (!arguments.rays.empty()) {
             progress.stage("reading rays");
@@ -36,7 +36,7 @@ Status run(const VerifyArguments& arguments) {
         }
         progress.stage("compiling");
         Verifier verifier(scene, arguments.objects, with_progress(arguments.settings, progress));
-        report_skipped(verifier.renderer());
+        report(verifier.renderer().warnings());
         check_interrupt();
 
         std::vector<Ray> sample, rays;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <future>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "compile/bvh.hpp"
@@ -19,6 +21,7 @@
 #include "compile/pack_solids.hpp"
 #include "compile/polyhedron.hpp"
 #include "compile/terms.hpp"
+#include "formats/source.hpp"
 #include "parallel.hpp"
 #include "scene/validate.hpp"
 
@@ -95,29 +98,78 @@ void set_surroundings(const Scene& scene, CompiledScene& compiled) {
     compiled.tolerance = scene.tolerance;
 }
 
+/// Whether solids are left out because of where they stand, so that the trees change. Throws Error (scene) if the scene is strict.
+bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measured& measured, Names& names,
+                        std::vector<Warning>& warnings) {
+    const std::vector<ExtentFault> faults = extent_faults(scene, flat, measured);
+    if (faults.empty()) return false;
+    if (scene.lenient) {
+        for (const auto& [object, text] : faults) {
+            const bool is_new = names.kind(object) != Names::Kind::left_out;
+            names.leave_out(object);
+            if (is_new) warnings.push_back({name_of(scene.objects[object]), place_of(scene.objects[object]), "left out: it " + text, 1});
+        }
+        return true;
+    }
+    std::vector<Diagnostic> findings;
+    for (std::size_t i = 0; i < std::min(faults.size(), Findings::limit); ++i) {
+        const Object& object = scene.objects[faults[i].object];
+        findings.push_back({place_of(object), "solid '" + name_of(object) + "' " + faults[i].text, {}, {}});
+    }
+    throw Error(Status::scene, std::move(findings));
+}
+
+/// Warnings about one object that say the same become one, at the first of them.
+void join_equal(std::vector<Warning>& warnings) {
+    std::map<std::pair<std::string_view, std::string_view>, Warning*> known;
+    std::vector<Warning> joined;
+    joined.reserve(warnings.size());  // `known` refers to them
+    for (Warning& warning : warnings) {
+        if (const auto found = known.find({warning.object, warning.reason}); found != known.end()) {
+            found->second->count += warning.count;
+        } else {
+            Warning& first = joined.emplace_back(std::move(warning));
+            known.emplace(std::pair{std::string_view(first.object), std::string_view(first.reason)}, &first);
+        }
+    }
+    warnings = std::move(joined);
+}
+
+std::vector<Diagnostic> nothing_to_render(std::vector<Warning>& warnings) {
+    join_equal(warnings);
+    std::vector<Diagnostic> diagnostics{{{}, "there is nothing to render", {}, {}}};
+    for (std::size_t i = 0; i < std::min(warnings.size(), Findings::limit); ++i) {
+        Place place = warnings[i].place;
+        place.pointer = warnings[i].object;
+        diagnostics.push_back({std::move(place), warnings[i].reason, {}, {}});
+    }
+    if (warnings.size() > Findings::limit)
+        diagnostics.push_back({{}, "and " + std::to_string(warnings.size() - Findings::limit) + " more warnings", {}, {}});
+    return diagnostics;
+}
+
 }  // namespace
 
 CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects, const CompileOptions& options) {
-    const Names names(scene);
-    if (std::vector<Diagnostic> findings = validate(scene, names, objects, options.skip_unsupported); !findings.empty())
-        throw Error(Status::scene, std::move(findings));
-
-    FlatScene flat =
-        flatten(scene, names, objects.empty() ? names.top_objects() : objects, options.air, options.skip_unsupported);
+    Names names(scene);
+    std::vector<std::string> roots = objects.empty() ? names.top_objects() : objects;
     CompiledScene compiled;
-    for (const Warning& warning : scene.warnings) compiled.notes.push_back(format(warning));
-    std::move(flat.notes.begin(), flat.notes.end(), std::back_inserter(compiled.notes));
-    compiled.skipped = std::move(flat.skipped);
-    if (flat.regions.empty()) {
-        std::string message = "there is nothing to render";
-        for (const std::string& note : compiled.notes) message += "\n" + note;
-        for (const std::string& solid : compiled.skipped) message += "\nleft out: " + solid;
-        throw Error(Status::scene, message);
+    compiled.warnings = scene.warnings;
+    if (std::vector<Diagnostic> findings = validate(scene, names, objects, options.skip_unsupported, compiled.warnings);
+        !findings.empty())
+        throw Error(Status::scene, std::move(findings));
+    if (roots.empty()) roots = names.top_objects();  // all were in cycles, which are cut now
+
+    FlatScene flat = flatten(scene, names, roots, options.air);
+    std::optional<Measured> measured(std::in_place, scene, flat);
+    while (leave_out_extremes(scene, flat, *measured, names, compiled.warnings)) {
+        flat = flatten(scene, names, roots, options.air);
+        measured.emplace(scene, flat);
     }
+    std::move(flat.warnings.begin(), flat.warnings.end(), std::back_inserter(compiled.warnings));
+    if (flat.regions.empty()) throw Error(Status::scene, nothing_to_render(compiled.warnings));
 
     set_surroundings(scene, compiled);
-    std::optional<Measured> measured(std::in_place, scene, flat);
-    check_extent(scene, flat, *measured);
     const std::size_t unbounded = set_sphere(measured->boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
     pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);
@@ -130,6 +182,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
         flat = {};
     });
     list_terms(compiled);
+    join_equal(compiled.warnings);
     compiled.hash = hash_of(compiled, geometry.get());
     return compiled;
 }

@@ -56,8 +56,7 @@ struct CompiledScene {
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4, tolerance = 0;
     std::uint64_t hash = 0;          ///< FNV-1a over everything that crosses the bus: the same scene, the same number
-    std::vector<std::string> skipped;       ///< solids of unknown types: name, type, user
-    std::vector<std::string> notes;  ///< worth telling: objects without solids, air regions left out, ...
+    std::vector<Warning> warnings;   ///< see Renderer::warnings
 };
 
 struct CompileOptions {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compile/linear.hpp"
-#include "formats/source.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {
@@ -35,20 +34,18 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
 
 }  // namespace
 
-void check_extent(const Scene& scene, const FlatScene& flat, const Measured& measured) {
-    std::vector<Diagnostic> findings;
-    for (std::size_t i = 0; i < flat.instances.size() && findings.size() < Findings::limit; ++i) {
+std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured) {
+    std::vector<ExtentFault> faults;
+    for (std::size_t i = 0; i < flat.instances.size(); ++i) {
         const Instance& instance = flat.instances[i];
         const Box& box = measured.boxes[i];
         const bool plain = largest(box.low) <= most && largest(box.high) <= most &&
                            box.high.x - box.low.x >= Limits::least_length;
         if (plain) continue;
         std::string fault = extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
-        if (fault.empty()) continue;
-        const Object& object = scene.objects[instance.object];
-        findings.push_back({place_of(object), "solid '" + name_of(object) + "' " + std::move(fault), {}, {}});
+        if (!fault.empty()) faults.push_back({instance.object, std::move(fault)});
     }
-    if (!findings.empty()) throw Error(Status::scene, std::move(findings));
+    return faults;
 }
 
 }  // namespace csgrt

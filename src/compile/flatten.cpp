@@ -111,10 +111,10 @@ void fetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const T
     for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) fetch_whole(nodes[k]);
 }
 
-TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, bool skip_unsupported) {
+TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms) {
     TermsPart part;
     part.regions.reserve(terms.size());
-    Flattener flattener(scene, index, skip_unsupported, part.flat);
+    Flattener flattener(scene, index, part.flat);
     for (std::size_t i = 0; i < terms.size(); ++i) {
         fetch_ahead(scene, index, terms, i);
         const auto& [forest, term] = terms[i];
@@ -164,8 +164,6 @@ public:
         }
         has_unused_ = has_unused_ || part.flat.has_unused;
         result_.composites.merge(part.flat.composites);
-        for (auto& [object, text] : part.flat.skipped)
-            if (skipped_.insert(object).second) result_.skipped.push_back(std::move(text));
         check_references(references_ += part.flat.references);
     }
 
@@ -178,7 +176,6 @@ private:
     FlatScene& result_;
     InstanceTable instances_;
     std::vector<std::uint32_t> numbers_;  ///< of a part's leaves
-    std::unordered_set<std::uint32_t> skipped_;
     std::vector<NoRegion> no_regions_;
     std::size_t next_ = 0;
     std::uint64_t references_ = 0;
@@ -187,8 +184,7 @@ private:
 
 }  // namespace
 
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
-                  bool skip_unsupported) {
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air) {
     FlatScene result;
     ObjectIndex index(scene, names);
 
@@ -232,7 +228,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     for_chunks_in_order(
         terms.size(), part_size, 0,
         [&](std::size_t first, std::size_t last) {
-            return flatten_part(scene, index, std::span(terms).subspan(first, last - first), skip_unsupported);
+            return flatten_part(scene, index, std::span(terms).subspan(first, last - first));
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
@@ -243,10 +239,15 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     // What there is to tell.
     std::vector<std::string> empty_regions;
     std::vector<Diagnostic> findings;
-    const auto contains_space = [&](const std::string& what, const Place& place) {
+    const auto warn = [&](std::string object, const Place& place, std::string reason) {
+        result.warnings.push_back({std::move(object), place, std::move(reason), 1});
+    };
+    const auto contains_space = [&](const char* what, const std::string& name, const Place& place) {
+        if (scene.lenient)
+            return warn(name, place, std::string("left out: the ") + what + " contains the empty space where no solid is");
         if (findings.size() == Findings::limit) return;
         findings.push_back({place,
-                            what + " contains the empty space where no solid is",
+                            std::string(what) + " " + name + " contains the empty space where no solid is",
                             "intersect the complement with something that bounds it",
                             {}});
     };
@@ -254,31 +255,32 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     auto next = joiner.no_regions().begin();
     for (const auto& [name, forest, end, has_air] : all) {
         if (forest == nullptr) {
-            result.notes.push_back("object " + name + " is named twice; it is rendered once");
+            warn(name, {}, "named twice; it is rendered once");
             continue;
         }
-        if (forest->is_everything()) contains_space("object " + name, place_of(scene.objects[index.find(name)]));
+        if (forest->is_everything()) contains_space("object", name, place_of(scene.objects[index.find(name)]));
         for (; next != joiner.no_regions().end() && next->term < end; ++next) {
             if (next->contains_space) {
-                contains_space("region " + next->path, next->place);
+                contains_space("region", next->path, next->place);
             } else {
                 empty_regions.push_back(next->path);
             }
         }
-        if (term == end && !has_air && findings.empty()) result.notes.push_back("object " + name + " holds no solid");
+        if (term == end && !has_air && findings.empty() && !forest->is_everything() &&
+            names.kind(index.find(name)) != Names::Kind::left_out)
+            warn(name, {}, "the object holds no solid");
         term = end;
     }
     if (!findings.empty()) throw Error(Status::scene, std::move(findings));
     if (const std::vector<std::string> fastgen = fastgen_regions(result); !fastgen.empty())
-        result.notes.push_back(counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
-                               ": plain regions are before plates, plates before volumes, then the first in the model; "
-                               "FASTGEN's rules of thickness along the ray are not followed");
+        warn({}, {}, counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
+                         ": plain regions are before plates, plates before volumes, then the first in the model; "
+                         "FASTGEN's rules of thickness along the ray are not followed");
     if (!air_regions.empty())
-        result.notes.push_back(counted(air_regions.size(), "air region", "air regions") +
-                               " left out: " + some(air_regions));
+        warn({}, {}, counted(air_regions.size(), "air region", "air regions") + " left out: " + some(air_regions));
     if (!empty_regions.empty())
-        result.notes.push_back(counted(empty_regions.size(), "region without solids", "regions without solids") +
-                               " left out: " + some(empty_regions));
+        warn({}, {}, counted(empty_regions.size(), "region without solids", "regions without solids") +
+                         " left out: " + some(empty_regions));
     return result;
 }
 

@@ -29,8 +29,7 @@ struct FlatScene {
     std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
     std::vector<FlatRegion> regions;                       ///< by rank, those of one rank in the order of the walk
     std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
-    std::vector<std::string> skipped;  ///< solids of unknown types, which are empty sets: name, type, user
-    std::vector<std::string> notes;
+    std::vector<Warning> warnings;
 };
 
 /// The shape of an instance, and what is cut off it.
@@ -38,14 +37,12 @@ const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance&
 const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance);
 
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
-/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is.
-/// `skip_unsupported`: solids of unknown types are empty sets; else they are leaves like any other.
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
-                  bool skip_unsupported = false);
+/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient scene such a
+/// region is left out.
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air);
 
-inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air,
-                         bool skip_unsupported = false) {
-    return flatten(scene, Names(scene), objects, air, skip_unsupported);
+inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
+    return flatten(scene, Names(scene), objects, air);
 }
 
 }  // namespace csgrt

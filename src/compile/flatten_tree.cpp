@@ -53,7 +53,12 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
         const std::size_t number = frame.next++;
         const TreeNode& node = nodes[number];
         if (node.op == Operator::leaf) {
-            enter(index_.child(frame.object, number), compose(frame.matrix, node.matrix));
+            const std::uint32_t child = index_.child(frame.object, number);
+            if (child != Names::left_out) {
+                enter(child, compose(frame.matrix, node.matrix));
+            } else {
+                operands_.push_back({tree_->nodes.size(), Kind::nothing});
+            }
         } else {
             operate(node.op, node.arity);
         }
@@ -72,11 +77,7 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         }
         return;
     }
-    const auto shape = [&]() -> const Shape& { return std::get<Solid>(scene_.objects[object]).shape; };
-    if (kind == Names::Kind::unsupported && skip_unsupported_) {
-        const std::string& type = std::get<Unsupported>(shape()).type;
-        result_.skipped.emplace_back(object, name_of(scene_.objects[object]) + " (" + type + ")" +
-                                                 (frames_.empty() ? "" : ", used by " + frames_.back().combination->name));
+    if (kind == Names::Kind::left_out) {
         operands_.push_back({tree_->nodes.size(), Kind::nothing});
         return;
     }
@@ -87,7 +88,7 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         return;
     }
     auto known = result_.composites.find(object);
-    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(shape())).first;
+    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(std::get<Solid>(scene_.objects[object]).shape)).first;
     for (FlatTree::Node node : known->second.tree.nodes) {
         if (node.op == Operator::leaf) node.solid = instance_of(object, node.solid, matrix);
         tree_->nodes.push_back(node);

@@ -20,9 +20,8 @@ struct FlatPart {
     std::vector<Leaf> leaves;  ///< in the order of the trees; not each once
     std::vector<Matrix> matrices;
     std::unordered_map<std::uint32_t, Pieces> composites;
-    std::vector<std::pair<std::uint32_t, std::string>> skipped;  ///< objects, and what to say of them
-    std::uint64_t references = 0;                                ///< to combinations and solids
-    bool has_unused = false;                                     ///< leaves that no tree holds any more
+    std::uint64_t references = 0;  ///< to combinations and solids
+    bool has_unused = false;       ///< leaves that no tree holds any more
 };
 
 /// Throws Error (scene) if there are more references than any model has.
@@ -31,8 +30,8 @@ void check_references(std::uint64_t count);
 /// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
 class Flattener {
 public:
-    Flattener(const Scene& scene, const ObjectIndex& index, bool skip_unsupported, FlatPart& result)
-        : scene_(scene), index_(index), skip_unsupported_(skip_unsupported), result_(result) {}
+    Flattener(const Scene& scene, const ObjectIndex& index, FlatPart& result)
+        : scene_(scene), index_(index), result_(result) {}
 
     enum class Kind { tree, nothing, everything };
     /// Leaves are numbers in `result.leaves`.
@@ -60,7 +59,6 @@ private:
 
     const Scene& scene_;
     const ObjectIndex& index_;
-    const bool skip_unsupported_;
     FlatPart& result_;
     FlatTree* tree_ = nullptr;
     std::vector<Operand> operands_;

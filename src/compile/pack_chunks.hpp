@@ -37,7 +37,7 @@ struct PackedChunk {
     std::vector<PackedPlane> planes;  ///< faces, then cuts, one solid's after the other's
     std::vector<std::pair<std::uint32_t, SurfaceTable::Surface>> surfaces;  ///< and whose they are, within the chunk
     std::vector<std::vector<PackedPlane>> large_faces;  ///< of each large solid; not among `planes` yet
-    std::vector<std::string> notes;
+    std::vector<Warning> warnings;
     std::uint32_t solid_types = 0;
 };
 

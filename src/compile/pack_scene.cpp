@@ -104,7 +104,7 @@ public:
         share_planes(chunks_, planes_, common_, compiled_);
         for (PackedChunk& chunk : chunks_) {
             compiled_.solid_types |= chunk.solid_types;
-            std::move(chunk.notes.begin(), chunk.notes.end(), std::back_inserter(compiled_.notes));
+            std::move(chunk.warnings.begin(), chunk.warnings.end(), std::back_inserter(compiled_.warnings));
         }
     }
 
@@ -123,9 +123,10 @@ private:
         compiled_.solid_info[number] = {solid.name, type_name(solid.shape), instance.piece};
         compiled_.solid_boxes[number] = own;
         if (!is_finite(own) && !std::holds_alternative<Half>(shape))
-            chunk.notes.push_back("the faces of " + solid.name + " do not close: it is not bounded");
+            chunk.warnings.push_back({solid.name, solid.place, "its faces do not close: it is not bounded", 1});
         if (const auto* revolve = std::get_if<Revolve>(&shape))
-            if (std::string note = note_on(*revolve, solid.name); !note.empty()) chunk.notes.push_back(std::move(note));
+            if (std::string note = note_on(*revolve); !note.empty())
+                chunk.warnings.push_back({solid.name, solid.place, std::move(note), 1});
 
         PackedChunk::Part part{};
         part.stands = static_cast<std::uint32_t>(number);
@@ -238,8 +239,8 @@ private:
         std::visit(packer, shape_of(scene_, flat_, instance));
         compiled_.solids[number] = packer.record;
         chunk.solid_types |= 1u << packer.record.type;
-        const std::string& name = std::get<Solid>(scene_.objects[instance.object]).name;
-        for (const std::string& note : packer.notes) chunk.notes.push_back("bot " + name + ": " + note);
+        const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
+        for (const std::string& note : packer.notes) chunk.warnings.push_back({solid.name, solid.place, note, 1});
         part.faces = static_cast<std::uint32_t>(faces.size());
         part.is_polyhedron = packer.is_polyhedron;
         append_keys(faces, chunk.large_faces.emplace_back());

@@ -88,12 +88,12 @@ void Packer::operator()(const Ebm& s) {
             {cell_outline(s), {}}, &s);
 }
 
-std::string note_on(const Revolve& s, const std::string& name) {
+std::string note_on(const Revolve& s) {
     if (turn_of(s) != Turn::none) return {};
-    char text[120];
-    std::snprintf(text, sizeof text, "is empty: its angle is %g, and ends of a turn that are no more than %g radians apart are one",
+    char text[128];
+    std::snprintf(text, sizeof text, "it is empty: its angle is %g, and ends of a turn that are no more than %g radians apart are one",
                   s.angle, PlaneTable::gap);
-    return "revolve " + name + " " + text;
+    return text;
 }
 
 void Packer::operator()(const Revolve& s) {

@@ -30,7 +30,7 @@ void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& meas
                  const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled);
 
 /// What is worth telling of a revolve's turn; usually nothing.
-std::string note_on(const Revolve& s, const std::string& name);
+std::string note_on(const Revolve& s);
 
 /// Throws Error (scene) if so many numbers cannot be told apart by 32 bits.
 void check_numbers(std::size_t count);

@@ -50,7 +50,7 @@ double ObjectIndex::solids_below(std::uint32_t object) {
             continue;
         }
         const std::size_t number = frame.next;
-        if (children[number] != Names::operation) {
+        if (children[number] != Names::operation && children[number] != Names::left_out) {
             const std::uint32_t child = this->child(frame.object, number);
             const double solids = known_solids(child);
             if (solids < 0) {
@@ -82,6 +82,8 @@ RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const std::st
         if (children[number] == Names::operation) {
             const TreeNode& node = std::get<Combination>(scene.objects[above.object]).tree.nodes[number];
             operate(node.op, node.arity);
+        } else if (children[number] == Names::left_out) {
+            operands_.push_back(nothing);
         } else {
             visit({index.child(above.object, number), frame.path, frame.above, number}, dropped);
         }
@@ -118,6 +120,10 @@ void RegionForest::visit(RegionStart start, std::vector<std::string>& dropped) {
         const auto above = static_cast<std::uint32_t>(above_.size());
         above_.push_back({object, matrix_of(start), attributes_of(start)});
         frames_.push_back({above, path, 0, starts_.size()});
+        return;
+    }
+    if (kind == Names::Kind::left_out) {
+        operands_.push_back(nothing);
         return;
     }
     if (kind == Names::Kind::air_region && !air_) {

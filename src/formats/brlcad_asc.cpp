@@ -21,15 +21,15 @@ bool is_v4(std::string_view text) {
 
 }  // namespace
 
-Scene read_brlcad_asc(const std::string& path) {
+Scene read_brlcad_asc(const std::string& path, bool lenient) {
     try {
-        return parse_brlcad_asc(TextSource::read(path));
+        return parse_brlcad_asc(TextSource::read(path), lenient);
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, path + ": the model does not fit the memory");
     }
 }
 
-Scene parse_brlcad_asc(const TextSource& source) {
+Scene parse_brlcad_asc(const TextSource& source, bool lenient) {
     const std::string_view text = source.text();
     Findings findings(source);
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
@@ -38,7 +38,7 @@ Scene parse_brlcad_asc(const TextSource& source) {
         findings.add(0, {}, "the file is empty");
     }
     findings.throw_if_any();
-    return is_v4(text) ? parse_brlcad_asc_v4(source) : parse_brlcad_asc_v5(source);
+    return is_v4(text) ? parse_brlcad_asc_v4(source, lenient) : parse_brlcad_asc_v5(source, lenient);
 }
 
 }  // namespace csgrt

@@ -74,8 +74,12 @@ bool starts_record(const Line& line) {
 
 class V4Reader {
 public:
-    explicit V4Reader(const TextSource& source)
-        : source_(source), findings_(source), lines_(source.text()), objects_(findings_) {}
+    V4Reader(const TextSource& source, bool lenient)
+        : source_(source),
+          scene_(brlcad_scene(lenient)),
+          findings_(source, lenient ? &scene_.warnings : nullptr),
+          lines_(source.text()),
+          objects_(findings_) {}
 
     Scene read() {
         while (!lines_.at_end() && !findings_.full()) {
@@ -99,9 +103,9 @@ private:
         const Field letter = fields.next("the record's letter");
         if (letter.text.size() != 1 || line.text[0] != letter.text[0]) return refuse_record(line);
         switch (letter.text[0]) {
-            case 'I': return read_ident(fields);
+            case 'I': return bear_faults([&] { read_ident(fields); });
             case 'C': return read_combination(line, fields);
-            case 'm': return read_color(fields);
+            case 'm': return bear_faults([&] { read_color(fields); });
             case 'F': return;  // a free record
             default: break;
         }
@@ -109,11 +113,46 @@ private:
         BrlcadItem item;
         try {
             item = read_v4_solid(line, lines_, object_);
-        } catch (const Fault&) {
+        } catch (Fault& fault) {
             skip_data();
-            throw;
+            return add_broken(type_of(line), std::move(fault));
         }
         objects_.add(object_, std::move(item), source_.place(line.offset, object_), line.offset);
+    }
+
+    template <class Read>
+    void bear_faults(const Read& read) {
+        try {
+            read();
+        } catch (Fault& fault) {
+            findings_.bear(std::move(fault), object_, passed_over);
+        }
+    }
+
+    /// A record that ends with the file tells that the file is cut off.
+    void add_broken(const char* type, Fault fault) {
+        if (source_.text().find_first_not_of(" \t\r\n", fault.offset) == std::string_view::npos) {
+            findings_.add(std::move(fault), object_);
+        } else {
+            objects_.add_broken(object_, type, std::move(fault));
+        }
+    }
+
+    static const char* type_of(const Line& record) {
+        switch (record.text[0]) {
+            case 'n': return "arbn";
+            case 't': return "bot";
+            case 'w': return "pipe";
+            case 'N': return "nmg";
+            case 'p': return "part";
+            case 'P': return "poly";
+            case 'b': return "bspline";
+            case 'A': return "ars";
+            case 'e': return "extrude";
+            case 'c': return "cline";
+            case 'd': return "sketch";
+            default: return "solid";
+        }
     }
 
     /// One finding for a run of lines that have lost their record.
@@ -158,11 +197,12 @@ private:
 
     void read_combination(const Line& line, Fields& fields) {
         Combination combination;
+        std::vector<Fault> faults;
         bool sound = true;
         try {
             read_attributes(fields, combination);
         } catch (Fault& fault) {
-            findings_.add(std::move(fault), object_);
+            faults.push_back(std::move(fault));
             sound = false;
             while (!lines_.at_end() && !starts_record(lines_.peek())) lines_.take();
         }
@@ -171,9 +211,11 @@ private:
             try {
                 members.push_back(read_member(lines_.take()));
             } catch (Fault& fault) {
-                findings_.add(std::move(fault), object_);
+                faults.push_back(std::move(fault));
             }
         }
+        if (!faults.empty() && findings_.is_lenient()) return add_broken("comb", std::move(faults.front()));
+        for (Fault& fault : faults) findings_.add(std::move(fault), object_);
         if (!sound) return;
         combination.tree = tree_of(std::move(members));
         combination.place = source_.place(line.offset, combination.name);
@@ -232,17 +274,17 @@ private:
     }
 
     const TextSource& source_;
+    Scene scene_;
     Findings findings_;
     LineReader lines_;
     BrlcadObjects objects_;
-    Scene scene_ = brlcad_scene();
     std::string object_;  ///< the name of what is being read, as far as it is known
 };
 
 }  // namespace
 
-Scene parse_brlcad_asc_v4(const TextSource& source) {
-    return V4Reader(source).read();
+Scene parse_brlcad_asc_v4(const TextSource& source, bool lenient) {
+    return V4Reader(source, lenient).read();
 }
 
 }  // namespace csgrt

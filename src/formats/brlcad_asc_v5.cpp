@@ -26,8 +26,12 @@ namespace {
 
 class V5Reader {
 public:
-    explicit V5Reader(const TextSource& source)
-        : source_(source), findings_(source), commands_(source.text(), store_), objects_(findings_) {}
+    V5Reader(const TextSource& source, bool lenient)
+        : source_(source),
+          scene_(brlcad_scene(lenient)),
+          findings_(source, lenient ? &scene_.warnings : nullptr),
+          commands_(source.text(), store_),
+          objects_(findings_) {}
 
     Scene read() {
         while (!findings_.full()) {
@@ -48,8 +52,7 @@ public:
             try {
                 read_command();
             } catch (Fault& fault) {
-                if (words_[0].text == "put") broken_.insert(object_);
-                findings_.add(std::move(fault), object_);
+                bear(std::move(fault));
             }
         }
         findings_.throw_if_any();
@@ -63,6 +66,19 @@ private:
         const TclWord& last = words_.back();
         const std::size_t end = last.offset_at(last.text.size());
         throw Fault{end, std::string("the command ends early: ") + what + " is missing", {}};
+    }
+
+    /// A command that is none tells that this is another kind of file.
+    void bear(Fault fault) {
+        const std::string_view command = words_[0].text;
+        if (command == "put") {
+            broken_.insert(object_);
+            objects_.add_broken(object_, words_.size() > 2 ? tcl_name(words_[2]) : "solid", std::move(fault));
+        } else if (command == "attr" || command == "color" || command == "title" || command == "units") {
+            findings_.bear(std::move(fault), object_, passed_over);
+        } else {
+            findings_.add(std::move(fault), object_);
+        }
     }
 
     void read_command() {
@@ -123,8 +139,14 @@ private:
             const TclWord& value = rest[i + 1];
             if (key.text == "tree") {
                 combination.tree = read_v5_tree(value, source_, object_, store_);
-            } else if (!set_attribute(combination, {key.text, value})) {
-                throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
+                continue;
+            }
+            try {
+                if (!set_attribute(combination, {key.text, value}))
+                    throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
+            } catch (Fault& fault) {
+                if (!findings_.is_lenient()) throw;
+                findings_.bear(std::move(fault), object_, passed_over);
             }
         }
         return combination;
@@ -141,7 +163,13 @@ private:
         std::vector<Attribute> attributes;
         for (std::size_t i = 3; i < words_.size(); i += 2) attributes.push_back({words_[i].text, words_[i + 1]});
         if (object_ == "_GLOBAL") {
-            for (const Attribute& attribute : attributes) set_global_attribute(scene_, attribute);
+            for (const Attribute& attribute : attributes) {
+                try {
+                    set_global_attribute(scene_, attribute);
+                } catch (Fault& fault) {
+                    findings_.bear(std::move(fault), object_, passed_over);
+                }
+            }
             return;
         }
         if (!objects_.contains(object_)) {
@@ -150,24 +178,24 @@ private:
         }
         Combination* combination = objects_.find_combination(object_);
         if (combination == nullptr) return;  // those of a solid do not matter to its shape
-        set_attributes(*combination, attributes);
+        set_attributes(*combination, attributes, findings_);
     }
 
     const TextSource& source_;
+    Scene scene_;
     Findings findings_;
     TclStore store_;
     TclReader commands_;
     std::vector<TclWord> words_;
     BrlcadObjects objects_;
     std::unordered_set<std::string> broken_;  ///< objects whose put had a finding; their attributes are not another
-    Scene scene_ = brlcad_scene();
     std::string object_;  ///< the name of what is being read, as far as it is known
 };
 
 }  // namespace
 
-Scene parse_brlcad_asc_v5(const TextSource& source) {
-    return V5Reader(source).read();
+Scene parse_brlcad_asc_v5(const TextSource& source, bool lenient) {
+    return V5Reader(source, lenient).read();
 }
 
 }  // namespace csgrt

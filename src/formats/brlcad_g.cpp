@@ -27,7 +27,11 @@ bool is_release_4(std::string_view bytes) {
 
 class GReader {
 public:
-    explicit GReader(const ByteSource& source) : source_(source), findings_(source), objects_(findings_) {}
+    GReader(const ByteSource& source, bool lenient)
+        : source_(source),
+          scene_(brlcad_scene(lenient)),
+          findings_(source, lenient ? &scene_.warnings : nullptr),
+          objects_(findings_) {}
 
     Scene read() {
         const std::string_view bytes = source_.bytes();
@@ -50,23 +54,36 @@ private:
             GObject object;
             try {
                 read_g_object(source_, at, object);
+                check_header(object);
                 read_object(object);
             } catch (Fault& fault) {
-                findings_.add(std::move(fault), object.name);
+                // Without its end there is no next object; without a header at the start this is another kind of file.
+                if (object.end == 0 || is_misplaced(object)) {
+                    findings_.add(std::move(fault), object.name);
+                } else {
+                    findings_.bear(std::move(fault), object.name, "left out");
+                }
             }
             if (object.end == 0) return;
             at = object.end;
         }
     }
 
-    void read_object(const GObject& object) {
+    static bool is_misplaced(const GObject& object) {
+        return (object.kind == GObject::Kind::header) != (object.offset == 0);
+    }
+
+    static void check_header(const GObject& object) {
         if (object.kind == GObject::Kind::unknown) {
             throw Fault{object.offset + 1, "the object is neither data, nor header, nor free", {}};
         }
-        if ((object.kind == GObject::Kind::header) != (object.offset == 0)) {
+        if (is_misplaced(object)) {
             throw Fault{object.offset, object.offset == 0 ? "the file does not start with the header of a database"
                                                           : "a second header of a database", {}};
         }
+    }
+
+    void read_object(const GObject& object) {
         if (object.kind != GObject::Kind::data) return;
         if (object.major == major_attributes && object.name == "_GLOBAL") return read_global(object);
         if (object.major == major_geometry) return read_geometry(object);
@@ -74,17 +91,25 @@ private:
     }
 
     void read_global(const GObject& object) {
-        for (const Attribute& attribute : read_g_attributes(object.attributes)) set_global_attribute(scene_, attribute);
+        try {
+            for (const Attribute& attribute : read_g_attributes(object.attributes)) set_global_attribute(scene_, attribute);
+        } catch (Fault& fault) {
+            findings_.bear(std::move(fault), object.name, passed_over);
+        }
     }
 
     void read_geometry(const GObject& object) {
         if (object.name.empty()) throw Fault{object.offset, "the object has no name", {}};
         Place place = source_.place(object.offset, object.name);
-        if (object.minor == minor_combination) {
-            objects_.add(read_combination(object, std::move(place)), object.offset);
-        } else {
-            BrlcadItem item = read_g_solid(object.minor, object.body);
-            objects_.add(object.name, std::move(item), std::move(place), object.offset);
+        try {
+            if (object.minor == minor_combination) {
+                objects_.add(read_combination(object, std::move(place)), object.offset);
+            } else {
+                BrlcadItem item = read_g_solid(object.minor, object.body);
+                objects_.add(object.name, std::move(item), std::move(place), object.offset);
+            }
+        } catch (Fault& fault) {
+            objects_.add_broken(object.name, g_type_name(object.minor), std::move(fault));
         }
     }
 
@@ -101,28 +126,32 @@ private:
         combination.name = object.name;
         combination.tree = read_g_tree(object.body, source_, object.name);
         combination.place = std::move(place);
-        set_attributes(combination, read_g_attributes(object.attributes));
+        try {
+            set_attributes(combination, read_g_attributes(object.attributes), findings_);
+        } catch (Fault& fault) {
+            findings_.bear(std::move(fault), object.name, passed_over);
+        }
         return combination;
     }
 
     const ByteSource& source_;
+    Scene scene_;
     Findings findings_;
     BrlcadObjects objects_;
-    Scene scene_ = brlcad_scene();
 };
 
 }  // namespace
 
-Scene read_brlcad_g(const std::string& path) {
+Scene read_brlcad_g(const std::string& path, bool lenient) {
     try {
-        return parse_brlcad_g(ByteSource(path, read_file(path)));
+        return parse_brlcad_g(ByteSource(path, read_file(path)), lenient);
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, path + ": the model does not fit the memory");
     }
 }
 
-Scene parse_brlcad_g(const ByteSource& source) {
-    return GReader(source).read();
+Scene parse_brlcad_g(const ByteSource& source, bool lenient) {
+    return GReader(source, lenient).read();
 }
 
 }  // namespace csgrt

@@ -11,9 +11,10 @@ class ByteSource;
 
 /// Reads a .g file. Throws Error: file if it cannot be read, scene with every finding if it is wrong, out_of_memory if
 /// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
-Scene read_brlcad_g(const std::string& path);
+/// `lenient`: see load_scene.
+Scene read_brlcad_g(const std::string& path, bool lenient = false);
 
 /// The same for a database in memory.
-Scene parse_brlcad_g(const ByteSource& source);
+Scene parse_brlcad_g(const ByteSource& source, bool lenient = false);
 
 }  // namespace csgrt

@@ -142,9 +142,14 @@ Type type_of(int minor) { return minor >= 0 && minor < static_cast<int>(std::siz
 
 }  // namespace
 
+std::string g_type_name(int minor) {
+    const Type type = type_of(minor);
+    return type.name != nullptr ? type.name : "type " + std::to_string(minor);
+}
+
 BrlcadItem read_g_solid(int minor, const GBlock& body) {
     const Type type = type_of(minor);
-    const std::string name = type.name != nullptr ? type.name : "type " + std::to_string(minor);
+    const std::string name = g_type_name(minor);
     if (is_brlcad_nothing(name)) return {BrlcadNothing{}};
     if (type.read == nullptr) return {Shape(Unsupported{name})};
 

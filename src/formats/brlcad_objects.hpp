@@ -15,12 +15,12 @@
 namespace csgrt {
 
 /// An empty scene with BRL-CAD's tolerance, which its files do not state.
-inline Scene brlcad_scene() {
+inline Scene brlcad_scene(bool lenient) {
     Scene scene;
     scene.tolerance = 0.0005;
+    scene.lenient = lenient;
     return scene;
 }
-
 
 /// Numbers under a name (BRL-CAD's binunif), as they stand in a binary database: highest byte first.
 struct BrlcadNumbers {
@@ -45,10 +45,13 @@ class BrlcadObjects {
 public:
     explicit BrlcadObjects(Findings& findings) : findings_(findings) {}
 
-    /// Keeps the object; a second one of a name is a finding at `offset` and is dropped. An extrude or revolve comes
+    /// Keeps the object; a second one of a name is a finding at `offset`, or borne, and is dropped. An extrude or revolve comes
     /// with no more of its sketch than the name; an ebm, vol or dsp without cells.
     void add(Combination combination, std::size_t offset);
     void add(const std::string& name, BrlcadItem item, Place place, std::size_t offset);
+
+    /// An object that cannot be read: in a lenient scene it is Unsupported, with the reason.
+    void add_broken(const std::string& name, std::string type, Fault fault);
 
     bool contains(const std::string& name) const { return index_.count(name) != 0; }
     /// The combination of that name, or nullptr. Valid until the next `add`.

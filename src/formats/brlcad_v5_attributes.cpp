@@ -118,10 +118,15 @@ bool set_attribute(Combination& combination, const Attribute& attribute) {
     return true;
 }
 
-void set_attributes(Combination& combination, std::span<const Attribute> attributes) {
+void set_attributes(Combination& combination, std::span<const Attribute> attributes, Findings& findings) {
     for (const bool standard : {false, true}) {
         for (const Attribute& attribute : attributes) {
-            if (is_standard(attribute.key) == standard) set_attribute(combination, attribute);
+            if (is_standard(attribute.key) != standard) continue;
+            try {
+                set_attribute(combination, attribute);
+            } catch (Fault& fault) {
+                findings.bear(std::move(fault), combination.name, passed_over);
+            }
         }
     }
 }

@@ -6,6 +6,7 @@
 
 #include <csgrt/scene.hpp>
 
+#include "formats/source.hpp"
 #include "formats/tcl_words.hpp"
 
 namespace csgrt {
@@ -19,8 +20,8 @@ struct Attribute {
 bool set_attribute(Combination& combination, const Attribute& attribute);
 
 /// Sets all that csgrt knows. Where one thing is given in two spellings (shader and oshader), the standard one holds,
-/// whatever their order, as in BRL-CAD. Throws Fault.
-void set_attributes(Combination& combination, std::span<const Attribute> attributes);
+/// whatever their order, as in BRL-CAD. What is wrong with one is borne, if `findings` can; the others hold.
+void set_attributes(Combination& combination, std::span<const Attribute> attributes, Findings& findings);
 
 /// Sets the title, the unit or the region colours, which _GLOBAL, the database itself, has as attributes; other keys
 /// are passed over. Throws Fault.

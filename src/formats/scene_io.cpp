@@ -74,11 +74,11 @@ void write_through(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-Scene load_scene(const std::string& path) {
+Scene load_scene(const std::string& path, bool strict) {
     const std::string extension = extension_of(path);
     if (extension == ".json") return read_json(path);
-    if (extension == ".asc") return read_brlcad_asc(path);
-    if (extension == ".g") return read_brlcad_g(path);
+    if (extension == ".asc") return read_brlcad_asc(path, !strict);
+    if (extension == ".g") return read_brlcad_g(path, !strict);
     refuse(path, "this is no scene by its name", "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
 }
 

@@ -50,6 +50,11 @@ void Findings::add(std::size_t offset, std::string object, std::string message, 
                             source_.excerpt(offset)});
 }
 
+void Findings::bear(Fault fault, const std::string& object, const char* done) {
+    if (borne_ == nullptr) return add(std::move(fault), object);
+    borne_->push_back({object, source_.place(fault.offset, object), std::move(fault.message) + "; " + done, 1});
+}
+
 void Findings::throw_if_any() {
     if (diagnostics_.empty()) return;
     std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {

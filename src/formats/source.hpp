@@ -34,18 +34,26 @@ struct Fault {
     std::string suggestion;
 };
 
+/// What was done about a fault of an attribute or a setting that is borne.
+inline constexpr const char* passed_over = "passed over";
+
 /// What is wrong in one file, reported all at once.
 class Findings {
 public:
     /// More than these help nobody; a reader stops when `full`.
     static constexpr std::size_t limit = 50;
 
-    explicit Findings(const Source& source) : source_(source) {}
+    /// Of a lenient scene, what can be borne goes to `borne`.
+    explicit Findings(const Source& source, std::vector<Warning>* borne = nullptr) : source_(source), borne_(borne) {}
 
     void add(std::size_t offset, std::string object, std::string message, std::string suggestion = {});
     void add(Fault fault, std::string object) {
         add(fault.offset, std::move(object), std::move(fault.message), std::move(fault.suggestion));
     }
+    /// A fault that leaves the rest of the file its meaning: a warning that ends in `done`, or a finding if the scene is strict.
+    void bear(Fault fault, const std::string& object, const char* done);
+    bool is_lenient() const noexcept { return borne_ != nullptr; }
+    Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }
     bool empty() const noexcept { return diagnostics_.empty(); }
     bool full() const noexcept { return diagnostics_.size() >= limit; }
 
@@ -54,6 +62,7 @@ public:
 
 private:
     const Source& source_;
+    std::vector<Warning>* borne_;
     std::vector<Diagnostic> diagnostics_;
 };
 

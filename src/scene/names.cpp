@@ -100,7 +100,7 @@ std::vector<std::string> Names::top_objects() const {
     if (!scene_.top.empty()) return scene_.top;
     std::vector<bool> used(scene_.objects.size());
     for (const std::uint32_t child : children_)
-        if (child < operation) used[child] = true;
+        if (child < left_out) used[child] = true;
     for (const std::uint32_t object : taken_) used[object] = used[find(name_of(scene_.objects[object]))];
     std::vector<std::string> top;
     for (std::size_t i = 0; i < scene_.objects.size(); ++i)

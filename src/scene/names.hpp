@@ -14,7 +14,7 @@ namespace csgrt {
 /// Refers to the scene, which must neither change nor go while this is used.
 class Names {
 public:
-    static constexpr std::uint32_t none = 0xffffffff, operation = 0xfffffffe;
+    static constexpr std::uint32_t none = 0xffffffff, operation = 0xfffffffe, left_out = 0xfffffffd;
 
     explicit Names(const Scene& scene);
 
@@ -23,17 +23,20 @@ public:
     /// The object that a leaf names: node `node` of the tree of combination `object`.
     std::uint32_t child(std::uint32_t object, std::size_t node) const { return children_[first_child_[object] + node]; }
     /// That of each node of a combination's tree, which are walked several times and take far less memory than the
-    /// objects; `operation` for what is no leaf. None for a solid.
+    /// objects; `operation` for what is no leaf, `left_out` for a leaf that is the empty set. None for a solid.
     std::span<const std::uint32_t> children(std::uint32_t object) const {
         return std::span(children_).subspan(first_child_[object], first_child_[object + 1] - first_child_[object]);
     }
     /// Told without the object, which takes far more memory.
-    enum class Kind : std::uint8_t { combination, region, air_region, solid, composite, unsupported };
+    enum class Kind : std::uint8_t { combination, region, air_region, solid, composite, unsupported, left_out };
     Kind kind(std::uint32_t object) const { return kinds_[object]; }
     bool is_solid(std::uint32_t object) const { return kinds_[object] >= Kind::solid; }
+    /// From now on the object is the empty set, or one leaf of a tree is.
+    void leave_out(std::uint32_t object) { kinds_[object] = Kind::left_out; }
+    void leave_out(std::uint32_t object, std::size_t node) { children_[first_child_[object] + node] = left_out; }
     /// Objects with names that others before them have.
     const std::vector<std::uint32_t>& taken() const { return taken_; }
-    /// See csgrt::top_objects.
+    /// See csgrt::top_objects. What is left out by then uses nothing.
     std::vector<std::string> top_objects() const;
 
 private:

@@ -31,9 +31,11 @@ private:
     const Report& report_;
 };
 
-void check_tree(const Tree& tree, const Place& combination, const Report& report) {
+}  // namespace
+
+void check_tree(const Combination& combination, const Report& report) {
     std::uint64_t waiting = 0;  // operands that no operator has taken yet
-    for (const TreeNode& node : tree.nodes) {
+    for (const TreeNode& node : combination.tree.nodes) {
         const auto name = [&] { return std::string(operator_name(node.op)); };
         if (operator_name(node.op).empty()) {
             report(node.place, "this is no operator of a tree", {});
@@ -51,7 +53,7 @@ void check_tree(const Tree& tree, const Place& combination, const Report& report
         }
         waiting = waiting - node.arity + 1;
     }
-    if (waiting > 1) report(combination, "the tree has operands that no operator combines", {});
+    if (waiting > 1) report(combination.place, "the tree has operands that no operator combines", {});
 }
 
 void check_matrix(const TreeNode& leaf, const Report& report) {
@@ -76,8 +78,6 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
         report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
     }
 }
-
-}  // namespace
 
 void check_settings(const Scene& scene, const Report& report) {
     const Settings settings(report);
@@ -106,7 +106,7 @@ void check_settings(const Scene& scene, const Report& report) {
                      "the size of the view must be greater than 0, and finite");
 }
 
-void check_combination(const Combination& combination, const Report& report) {
+void check_attributes(const Combination& combination, const Report& report) {
     if (combination.color && !is_color(*combination.color)) {
         report(combination.place, "a colour has components from 0 to 1", {});
     }
@@ -123,7 +123,11 @@ void check_combination(const Combination& combination, const Report& report) {
             report(combination.place, "'shine' must be from 0 to " + std::to_string(Limits::shine), {});
         }
     }
-    check_tree(combination.tree, combination.place, report);
+}
+
+void check_combination(const Combination& combination, const Report& report) {
+    check_attributes(combination, report);
+    check_tree(combination, report);
     for (const TreeNode& node : combination.tree.nodes) {
         if (node.op == Operator::leaf) check_matrix(node, report);
     }

@@ -14,7 +14,13 @@ using Report = std::function<void(const Place& place, std::string message, std::
 /// Camera, lights, background, tolerance. They have no place but their name.
 void check_settings(const Scene& scene, const Report& report);
 
-/// Colour, finish, operators and matrices. Names are not looked up.
+/// Colour and finish.
+void check_attributes(const Combination& combination, const Report& report);
+/// Operators and their operands.
+void check_tree(const Combination& combination, const Report& report);
+/// Where a leaf places its object.
+void check_matrix(const TreeNode& leaf, const Report& report);
+/// All of these. Names are not looked up.
 void check_combination(const Combination& combination, const Report& report);
 
 }  // namespace csgrt

@@ -2,15 +2,19 @@
 // stack, and how many solids stand below an object is summed on the way back, so neither depth nor sharing costs.
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
+#include <utility>
 
 #include "parallel.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/nearest.hpp"
 #include "scene/object_faults.hpp"
 #include "scene/solid_faults.hpp"
+#include "scene/unsupported.hpp"
 #include "scene/validate.hpp"
 
 namespace csgrt {
@@ -30,10 +34,10 @@ std::string count_of_solids(std::uint64_t count) {
 
 class Validation {
 public:
-    Validation(const Scene& scene, const Names& names, bool allow_unsupported)
-        : scene_(scene), names_(names), allow_unsupported_(allow_unsupported), objects_(scene.objects.size()) {}
+    Validation(const Scene& scene, Names& names, bool skip_unsupported)
+        : scene_(scene), names_(names), skip_unsupported_(skip_unsupported || scene.lenient), objects_(scene.objects.size()) {}
 
-    std::vector<Diagnostic> run(const std::vector<std::string>& named) {
+    std::vector<Diagnostic> run(const std::vector<std::string>& named, std::vector<Warning>& warnings) {
         for (const std::uint32_t object : names_.taken())
             add(place_of(scene_.objects[object]),
                 "there are two objects named '" + name_of(scene_.objects[object]) + "'", "rename one of them");
@@ -45,12 +49,14 @@ public:
             walk(root);
             solids = saturating_sum(solids, objects_[root].solids);
         }
-        if (!allow_unsupported_) report_unsupported();
-        if (found_.empty() && solids == 0) {
+        report_unsupported();
+        if (scene_.lenient) report_hollow();
+        if (found_.empty() && solids == 0 && warnings_.empty()) {
             add(roots.empty() ? Place{} : place_of(scene_.objects[roots.front()]),
                 "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
         }
         if (solids > Limits::instances && !too_many_reported_) report_too_many({}, "the scene", solids);
+        take_warnings(warnings);
         return finish();
     }
 
@@ -126,7 +132,8 @@ private:
             const std::span<const std::uint32_t> children = names_.children(frame.object);
             if (frame.next_node < children.size()) {
                 const std::size_t number = frame.next_node++;
-                if (children[number] != Names::operation) follow(frame.object, number, children[number]);
+                if (children[number] != Names::operation && children[number] != Names::left_out)
+                    follow(frame.object, number, children[number]);
             } else {
                 leave();
             }
@@ -139,12 +146,63 @@ private:
         path_.push_back({object, 0});
         if (objects_[object].sound) return;
         if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
+            std::string all;
             for (const std::string& fault : solid_faults(solid->shape)) {
-                add(solid->place, "solid '" + solid->name + "': " + fault);
+                if (!scene_.lenient) add(solid->place, "solid '" + solid->name + "': " + fault);
+                all += (all.empty() ? "" : "; ") + fault;
             }
+            if (scene_.lenient) leave_out(object, solid->place, all);
+        } else if (scene_.lenient) {
+            leave_out_parts(object);
         } else {
             check_combination(std::get<Combination>(scene_.objects[object]), report_);
         }
+    }
+
+    void bear(const std::string& object, const Place& place, std::string reason) {
+        warnings_.push_back({object, place, std::move(reason), 1});
+    }
+
+    /// The legs that use the object are counted when all are known.
+    void leave_out(std::uint32_t object, const Place& place, const std::string& reason) {
+        names_.leave_out(object);
+        counted_.emplace_back(warnings_.size(), object);
+        bear(name_of(scene_.objects[object]), place, "left out: " + reason);
+    }
+
+    /// Of a combination, no more than what is wrong.
+    void leave_out_parts(std::uint32_t object) {
+        const Combination& combination = std::get<Combination>(scene_.objects[object]);
+        check_attributes(combination, [&](const Place& place, const std::string& message, const std::string&) {
+            bear(combination.name, place, message + "; taken as it is");
+        });
+        bool sound = true;
+        check_tree(combination, [&](const Place& place, const std::string& message, const std::string&) {
+            if (sound) leave_out(object, place, message);
+            sound = false;
+        });
+        if (!sound) {
+            path_.back().next_node = names_.children(object).size();
+            return;
+        }
+        for (std::size_t i = 0; i < combination.tree.nodes.size(); ++i) {
+            if (combination.tree.nodes[i].op != Operator::leaf) continue;
+            check_matrix(combination.tree.nodes[i], [&](const Place& place, const std::string& message, const std::string&) {
+                names_.leave_out(object, i);
+                bear(combination.name, place, message + "; the leg is left out");
+            });
+        }
+    }
+
+    /// One warning for all legs that name the same missing object.
+    void leave_out_missing(std::uint32_t parent, std::size_t node, const TreeNode& leg) {
+        names_.leave_out(parent, node);
+        const auto [known, is_new] = missing_.try_emplace(leg.object, warnings_.size());
+        if (!is_new) {
+            ++warnings_[known->second].count;
+            return;
+        }
+        bear(leg.object, leg.place, "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
     }
 
     /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
@@ -152,6 +210,7 @@ private:
         const auto combination = [&]() -> const Combination& { return std::get<Combination>(scene_.objects[parent]); };
         if (object == Names::none) {
             const TreeNode& leg = combination().tree.nodes[node];
+            if (scene_.lenient) return leave_out_missing(parent, node, leg);
             add(leg.place, "'" + combination().name + "' uses '" + leg.object + "', which does not exist",
                 did_you_mean_object(leg.object));
             return;
@@ -159,7 +218,7 @@ private:
         Reached& child = objects_[object];
         if (child.users++ == 0) child.first_user = parent;
         if (child.state == State::open) {
-            report_cycle(object, combination().tree.nodes[node]);
+            report_cycle(parent, node, object, combination().tree.nodes[node]);
         } else if (child.state == State::done) {
             add_below(parent, child);
         } else if (child.sound && names_.is_solid(object)) {
@@ -178,7 +237,9 @@ private:
         reached.state = State::done;
         const auto name = [&] { return "'" + name_of(scene_.objects[object]) + "'"; };
         const auto place = [&]() -> const Place& { return place_of(scene_.objects[object]); };
-        if (names_.is_solid(object)) {
+        if (names_.kind(object) == Names::Kind::left_out) {
+            reached.solids = 0;
+        } else if (names_.is_solid(object)) {
             reached.solids = 1;
         } else if (++reached.height == Limits::nesting + 1) {
             add(place(),
@@ -202,14 +263,40 @@ private:
             "render fewer objects, or use fewer copies");
     }
 
-    void report_cycle(std::uint32_t object, const TreeNode& leg) {
+    void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object, const TreeNode& leg) {
         std::string cycle;
         bool on_cycle = false;
         for (const Frame& frame : path_) {
             on_cycle = on_cycle || frame.object == object;
             if (on_cycle) cycle += name_of(scene_.objects[frame.object]) + "/";
         }
+        if (scene_.lenient) {
+            names_.leave_out(parent, node);
+            bear(leg.object, leg.place, "contains itself: " + cycle + leg.object + "; that leg is left out");
+            return;
+        }
         add(leg.place, "'" + leg.object + "' contains itself: " + cycle + leg.object, "take one of these legs out");
+    }
+
+    /// Combinations without a tree, which BRL-CAD's objects without an inside are, too. Regions are told by flattening.
+    void report_hollow() {
+        for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+            if (objects_[i].state == State::unseen || objects_[i].users == 0) continue;
+            if (names_.kind(i) != Names::Kind::combination || !names_.children(i).empty()) continue;
+            leave_out(i, place_of(scene_.objects[i]), "there is nothing in it");
+        }
+    }
+
+    void take_warnings(std::vector<Warning>& to) {
+        for (const auto& [warning, object] : counted_) {
+            warnings_[warning].count = std::max<std::uint64_t>(objects_[object].users, 1);
+            warnings_[warning].reason += first_user(object);
+        }
+        std::stable_sort(warnings_.begin(), warnings_.end(), [](const Warning& a, const Warning& b) {
+            return std::tie(a.place.line, a.place.column, a.place.offset) <
+                   std::tie(b.place.line, b.place.column, b.place.offset);
+        });
+        std::move(warnings_.begin(), warnings_.end(), std::back_inserter(to));
     }
 
     void report_unsupported() {
@@ -217,10 +304,14 @@ private:
             if (names_.kind(i) != Names::Kind::unsupported || objects_[i].state == State::unseen) continue;
             const auto* solid = std::get_if<Solid>(&scene_.objects[i]);
             const auto* shape = std::get_if<Unsupported>(&solid->shape);
+            if (skip_unsupported_) {
+                leave_out(i, solid->place, why_left_out(*shape));
+                continue;
+            }
             std::string message = "'" + solid->name + "' is a solid of type '" + shape->type + "', which ";
             message += shape->reason.empty() ? "csgrt does not support" : "is not complete: " + shape->reason;
+            message += first_user(i);
             if (objects_[i].users > 0) {
-                message += "; used by '" + name_of(scene_.objects[objects_[i].first_user]) + "'";
                 if (const std::uint32_t others = objects_[i].users - 1; others > 0) {
                     message += " and on " + std::to_string(others) + (others == 1 ? " other leg" : " other legs");
                 }
@@ -229,6 +320,11 @@ private:
                 std::string(shape->reason.empty() ? "" : "add what it lacks, ") +
                     "render objects that do not use it, replace it, or leave it out with --skip-unsupported");
         }
+    }
+
+    std::string first_user(std::uint32_t object) const {
+        if (objects_[object].users == 0) return {};
+        return "; used by '" + name_of(scene_.objects[objects_[object].first_user]) + "'";
     }
 
     std::vector<Diagnostic> finish() {
@@ -242,12 +338,15 @@ private:
     }
 
     const Scene& scene_;
-    const Names& names_;
-    const bool allow_unsupported_;
+    Names& names_;
+    const bool skip_unsupported_;
     std::vector<Reached> objects_;
     std::vector<Frame> path_;
     std::vector<Diagnostic> found_;
     std::size_t left_out_ = 0;
+    std::vector<Warning> warnings_;
+    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;     ///< warnings, and the objects whose legs they count
+    std::unordered_map<std::string, std::size_t> missing_;           ///< names, and their warnings
     const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
         add(place, std::move(message), std::move(suggestion));
     };
@@ -256,13 +355,16 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> validate(const Scene& scene, const Names& names, const std::vector<std::string>& objects,
-                                 bool allow_unsupported) {
-    return Validation(scene, names, allow_unsupported).run(objects);
+std::vector<Diagnostic> validate(const Scene& scene, Names& names, const std::vector<std::string>& objects,
+                                 bool skip_unsupported, std::vector<Warning>& warnings) {
+    return Validation(scene, names, skip_unsupported).run(objects, warnings);
 }
 
-std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool allow_unsupported) {
-    return validate(scene, Names(scene), objects, allow_unsupported);
+std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported,
+                                 std::vector<Warning>* warnings) {
+    Names names(scene);
+    std::vector<Warning> passed_over;
+    return validate(scene, names, objects, skip_unsupported, warnings != nullptr ? *warnings : passed_over);
 }
 
 }  // namespace csgrt

@@ -18,7 +18,7 @@ TEST_CASE("scenes of parts have the solids asked for and compile") {
         const CompiledScene compiled = compile(scene);
         CHECK(compiled.solids.size() == count);
         CHECK(compiled.regions.size() >= count / 5);
-        CHECK(compiled.notes.empty());
+        CHECK(compiled.warnings.empty());
     }
 }
 

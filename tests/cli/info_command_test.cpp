@@ -50,10 +50,14 @@ TEST_CASE("info shows the tree of a scene that cannot be rendered, and says why 
     const Folder folder;
     const std::string scene =
         folder.write("lost.asc", std::string(two_balls) + "put lost.r comb region yes tree {l gone.s}\n");
-    const Result result = run({"info", scene, "lost.r"});
+    const Result result = run({"info", scene, "lost.r", "--strict"});
     CHECK(result.status == 3);
     CHECK(contains(result.out, "    gone.s  (missing)\n"));
     CHECK(contains(result.err, "gone.s"));
+    const Result lenient = run({"info", scene, "lost.r"});
+    CHECK(lenient.status == 0);
+    CHECK(contains(lenient.out, "    gone.s  (missing)\n"));
+    CHECK(contains(lenient.out, "gone.s: left out: there is no such object; used by 'lost.r'"));
     CHECK(run({"info", folder / "absent.asc"}).status == 6);
 }
 

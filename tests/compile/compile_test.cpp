@@ -6,6 +6,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
+#include "scene/texts.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -154,7 +155,7 @@ TEST_CASE("an arb whose faces do not close ends at the box of its corners") {
         CHECK((box.low.x > -1e-6 && box.low.y > -1e-6 && box.low.z > -1e-6));
         CHECK((box.high.x < 3.000001 && box.high.y < 3.000001 && box.high.z < 2.000001));
     }
-    CHECK(c.notes.empty());
+    CHECK(c.warnings.empty());
 }
 
 TEST_CASE("nothing to render is an error that says why") {
@@ -169,7 +170,7 @@ TEST_CASE("nothing to render is an error that says why") {
     options.air = true;
     const CompiledScene c = compile(s, {"air", "hollow"}, options);
     CHECK(c.regions.size() == 1);
-    CHECK(c.notes == std::vector<std::string>{"1 region without solids left out: /hollow"});
+    CHECK(test::texts(c.warnings) == std::vector<std::string>{"1 region without solids left out: /hollow"});
 }
 
 TEST_CASE("what validation finds is thrown with every finding") {

@@ -124,8 +124,8 @@ TEST_CASE("air regions are left out, with a note, unless they are wanted") {
     std::get<Combination>(s.objects[3]).air = 2;  // B
     const FlatScene flat = flatten(s, {"top"}, false);
     CHECK(regions_of(s, {"top"}) == Lines{"/top/A: a c -"});
-    REQUIRE(flat.notes.size() == 1);
-    CHECK(flat.notes[0] == "1 air region left out: /top/B");
+    REQUIRE(flat.warnings.size() == 1);
+    CHECK(format(flat.warnings[0]) == "1 air region left out: /top/B");
     CHECK(regions_of(s, {"top"}, true) == Lines{"/top/A: a c -", "/top/B: b c -"});
     // An air region that would be subtracted is not there, either; one below a region is only a part of its tree.
     std::get<Combination>(s.objects[5]).air = 1;  // C
@@ -156,9 +156,9 @@ TEST_CASE("what is empty vanishes from trees, and empty regions are left out wit
           Lines{"/same: a", "/sum: a b u", "/flip: a", "/inside: a"});
     CHECK(regions_of(s, {"but", "odd"}) == Lines{"/but: b ! a +", "/odd: b ! a +"});
     const FlatScene flat = flatten(s, {"hollow", "both", "A", "none"}, false);
-    REQUIRE(flat.notes.size() == 2);
-    CHECK(flat.notes[0] == "object none holds no solid");
-    CHECK(flat.notes[1] == "2 regions without solids left out: /hollow, /both");
+    REQUIRE(flat.warnings.size() == 2);
+    CHECK(format(flat.warnings[0]) == "none: the object holds no solid");
+    CHECK(format(flat.warnings[1]) == "2 regions without solids left out: /hollow, /both");
     CHECK(flat.instances.size() == 1);  // a of "both" is not needed
 }
 
@@ -166,8 +166,8 @@ TEST_CASE("an object that is named twice is rendered once") {
     const Scene s = alphabet({});
     const FlatScene flat = flatten(s, {"A", "B", "A"}, false);
     CHECK(flat.regions.size() == 2);
-    REQUIRE(flat.notes.size() == 1);
-    CHECK(flat.notes[0].find("named twice") != std::string::npos);
+    REQUIRE(flat.warnings.size() == 1);
+    CHECK(flat.warnings[0].reason.find("named twice") != std::string::npos);
 }
 
 TEST_CASE("a region must not contain the empty space") {

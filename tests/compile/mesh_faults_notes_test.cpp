@@ -5,6 +5,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/mesh_faults.hpp"
 #include "compile/model.hpp"
+#include "scene/texts.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -167,5 +168,5 @@ TEST_CASE("notes carry the bot's name, once for all its places") {
     bot.faces.push_back({2, 1, 3});
     const Matrix aside{1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const CompiledScene c = compile(scene({solid("b", bot), region("r", {leg("b"), leg("b", aside), either})}));
-    CHECK(c.notes == Notes{"bot b: 1 face that was given before does not count again"});
+    CHECK(test::texts(c.warnings) == Notes{"scene.json:1:1: b: 1 face that was given before does not count again"});
 }

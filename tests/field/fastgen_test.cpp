@@ -45,7 +45,7 @@ TEST_CASE("a FASTGEN volume that the model lists first yields, and a note says w
     CHECK(renderer.regions()[answer.partitions[0].region].fastgen == Fastgen::volume);
     CHECK(answer.partitions[0].out == 13);
     CHECK(answer.partitions[1].out == 19);
-    REQUIRE(renderer.notes().size() == 1);
-    CHECK(renderer.notes()[0].find("1 FASTGEN region, /r1 (volume): ") == 0);
-    CHECK(renderer.notes()[0].find("thickness along the ray are not followed") != std::string::npos);
+    REQUIRE(renderer.warnings().size() == 1);
+    CHECK(renderer.warnings()[0].reason.find("1 FASTGEN region, /r1 (volume): ") == 0);
+    CHECK(renderer.warnings()[0].reason.find("thickness along the ray are not followed") != std::string::npos);
 }

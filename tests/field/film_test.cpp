@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "field/judge.hpp"
+#include "scene/texts.hpp"
 #include "stress/build.hpp"
 
 using namespace csgrt;
@@ -18,7 +19,7 @@ std::vector<std::string> notes_of(Shape shape, const Matrix& matrix = identity) 
     to.region(leaf(to.solid(box({0, 0, -0.5}, {100, 100, 0}))));
     const StressScene made = to.take();
     Renderer renderer(made.scene, made.objects, test::on_reference());
-    return renderer.notes();
+    return test::texts(renderer.warnings());
 }
 bool says(const std::vector<std::string>& notes, const std::string& part) {
     return notes.size() == 1 && notes.front().find(part) != std::string::npos;
@@ -30,18 +31,18 @@ Arb film(double thickness) { return box({0, 0, 0}, {100, 100, thickness}); }
 }  // namespace
 
 TEST_CASE("a film whose two faces are one surface is named", "[field]") {
-    CHECK(says(notes_of(film(1e-8)), "nothing is left of s0: two of its faces are 1e-08 mm apart, and faces within 1.4142"));
+    CHECK(says(notes_of(film(1e-8)), "s0: nothing is left of it: two of its faces are 1e-08 mm apart, and faces within 1.4142"));
     CHECK(says(notes_of(film(1e-8)), "e-08 mm, 1e-10 of its size, are one surface"));
-    CHECK(says(notes_of(film(1), scaling(1e-9)), "nothing is left of s0") == false);  // small, and not thin
+    CHECK(says(notes_of(film(1), scaling(1e-9)), "s0: nothing is left of it") == false);  // small, and not thin
     CHECK(says(notes_of(cylinder({3, 4, 0}, {0, 0, 1e-9}, 50)), "two of its faces are 1e-09 mm apart"));
     CHECK(says(notes_of(film(1), Matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1e-9, 7, 0, 0, 0, 1}), "1e-09 mm apart"));
     // However it lies in space.
     Random random(3);
     for (int i = 0; i < 20; ++i) {
         const Matrix turn = rotation(random);
-        CHECK(says(notes_of(film(1e-9), turn), "nothing is left of s0"));
+        CHECK(says(notes_of(film(1e-9), turn), "s0: nothing is left of it"));
         CHECK(notes_of(film(1e-6), turn).empty());
-        CHECK(says(notes_of(cylinder({3, 4, 0}, {0, 0, 1e-9}, 50), turn), "nothing is left of s0"));
+        CHECK(says(notes_of(cylinder({3, 4, 0}, {0, 0, 1e-9}, 50), turn), "s0: nothing is left of it"));
         CHECK(notes_of(cylinder({3, 4, 0}, {0, 0, 1e-6}, 50), turn).empty());
     }
 }
@@ -59,8 +60,8 @@ TEST_CASE("what is noted as gone is met by no ray, and what is not noted is met"
         settings.tolerance_rule = Tolerance::surfaces;
         Renderer renderer(made.scene, made.objects, settings);
         const auto answer = renderer.shoot({{moved_point(turn, {50, 50, 10}), moved_direction(turn, {0, 0, -1})}});
-        CHECK(answer.front().partitions.empty() == says(renderer.notes(), "nothing is left of s0"));
-        ++(renderer.notes().empty() ? there : gone);
+        CHECK(answer.front().partitions.empty() == says(test::texts(renderer.warnings()), "s0: nothing is left of it"));
+        ++(renderer.warnings().empty() ? there : gone);
     }
     CHECK(gone > 10);
     CHECK(there > 10);
@@ -70,7 +71,7 @@ TEST_CASE("of many films the first few are named, and the others counted", "[fie
     Builder to("films", 1, 1);
     for (int i = 0; i < 9; ++i) to.region(leaf(to.solid(film(1e-9)), translation({0, 0, 3.0 * i})));
     const StressScene made = to.take();
-    const std::vector<std::string> notes = Renderer(made.scene, made.objects, test::on_reference()).notes();
+    const std::vector<std::string> notes = test::texts(Renderer(made.scene, made.objects, test::on_reference()).warnings());
     REQUIRE(notes.size() == 6);
     CHECK(notes.back() == "nothing is left of 4 more such solids");
 }

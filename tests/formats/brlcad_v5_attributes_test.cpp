@@ -1,6 +1,7 @@
 // Attributes by themselves: spellings and which of them holds.
 #include "catch.hpp"
 #include "formats/brlcad_v5_attributes.hpp"
+#include "formats/text_source.hpp"
 
 using namespace csgrt;
 
@@ -8,7 +9,10 @@ namespace {
 
 Combination with(const std::vector<Attribute>& attributes) {
     Combination combination;
-    set_attributes(combination, attributes);
+    const TextSource source("attributes", {});
+    Findings findings(source);
+    set_attributes(combination, attributes, findings);
+    findings.throw_if_any();
     return combination;
 }
 
