@@ -13,7 +13,9 @@ Status run(const ConvertArguments& arguments) {
         throw Error(Status::usage, "OUT: '" + arguments.output + "' must end in .json, the format that is written");
     check_outputs({{"OUT", arguments.output, true}}, {{"IN", arguments.input}});
     Scene scene = load_with_progress(arguments.input, arguments.strict);
-    report(scene.warnings);
+    std::vector<Warning> warnings = scene.warnings;
+    if (scene.lenient) validate(scene, {}, false, &warnings);  // for what is left out: findings are the reader's to show
+    report(warnings);
     save_scene(scene, arguments.output);
     return Status::ok;
 }

@@ -61,17 +61,14 @@ Status run(const InfoArguments& arguments) {
         "\n" + tree_text(scene, arguments.objects.empty() ? top_objects(scene) : arguments.objects, arguments.depth);
     print(text);
 
-    // What is left out is told even if nothing remains; an object that is not there has been named by mistake.
-    std::vector<Warning> warnings = scene.warnings;
-    if (std::vector<Diagnostic> findings =
-            validate(scene, arguments.objects, arguments.settings.skip_unsupported, &warnings);
-        !findings.empty())
-        throw Error(Status::scene, std::move(findings));
     std::optional<Renderer> compiled;
     try {
         compiled.emplace(compile_with_progress(scene, arguments));
     } catch (const Error& error) {
-        if (error.status() != Status::scene || !scene.lenient) throw;
+        // What is left out is told even if nothing remains; an object that is not there has been named by mistake.
+        std::vector<Warning> warnings = scene.warnings;
+        if (error.status() != Status::scene || !scene.lenient || !validate(scene, arguments.objects, false, &warnings).empty())
+            throw;
         text = "\n" + row("compiled", "no: " + error.diagnostics().front().message);
         for (const Warning& warning : warnings) text += row("warning", format(warning));
         print(text);

@@ -150,7 +150,7 @@ std::string g_type_name(int minor) {
 BrlcadItem read_g_solid(int minor, const GBlock& body) {
     const Type type = type_of(minor);
     const std::string name = g_type_name(minor);
-    if (is_brlcad_nothing(name)) return {BrlcadNothing{}};
+    if (is_brlcad_nothing(name)) return {BrlcadNothing{name}};
     if (type.read == nullptr) return {Shape(Unsupported{name})};
 
     ByteReader bytes = read_g_block(body, "the numbers");

@@ -14,6 +14,11 @@ bool is_brlcad_nothing(std::string_view type) {
     return std::find(std::begin(types), std::end(types), type) != std::end(types);
 }
 
+static std::string type_of(const BrlcadItem& item) {
+    if (const auto* nothing = std::get_if<BrlcadNothing>(&item.content)) return nothing->type;
+    return std::holds_alternative<Sketch>(item.content) ? "sketch" : "binunif";
+}
+
 void BrlcadObjects::add(Combination combination, std::size_t offset) {
     add(Entry{combination.name, combination.place, std::move(combination)}, offset);
 }
@@ -86,6 +91,9 @@ std::vector<Object> BrlcadObjects::take(const std::string& model) {
         if (auto* shape = std::get_if<Shape>(&item.content)) {
             parts.complete(*shape, item.cells_in_object);
             objects.emplace_back(Solid{entry.name, std::move(*shape), entry.place});
+        } else if (used[i] && findings_.is_lenient()) {
+            const std::string type = type_of(item);
+            objects.emplace_back(Solid{entry.name, Shape(Unsupported{type, "a " + type + " has no inside"}), entry.place});
         } else if (used[i]) {
             Combination empty;
             empty.name = entry.name;

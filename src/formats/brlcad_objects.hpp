@@ -30,7 +30,9 @@ struct BrlcadNumbers {
 };
 
 /// An object that has no inside and is no part of a solid: a grip, a joint, a note.
-struct BrlcadNothing {};
+struct BrlcadNothing {
+    std::string type;
+};
 
 /// What stands under a name, unless it is a combination.
 struct BrlcadItem {
@@ -60,7 +62,7 @@ public:
     /// Solids and combinations in the order in which they came; leaves none. Solids are completed from the other
     /// objects and from files, whose names are relative to the folder of `model`; one whose parts are not to be had
     /// becomes Unsupported, with the reason. What has no inside is left out, or, if a combination uses it, is the empty
-    /// set.
+    /// set; in a lenient scene, Unsupported.
     std::vector<Object> take(const std::string& model);
 
 private:

@@ -78,7 +78,7 @@ BrlcadItem parameter_solid(Fields& fields, std::string& name) {
     const Parameters p = fields.numbers<24>("parameters");
     fields.end();
     constexpr int grip = 31;
-    if (number == grip) return {BrlcadNothing{}};
+    if (number == grip) return {BrlcadNothing{"grip"}};
     return {shape_of(number, p, type)};
 }
 

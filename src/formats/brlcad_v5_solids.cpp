@@ -114,7 +114,7 @@ BrlcadItem read_v5_object(const TclWord& type, std::span<const TclWord> keys_and
         parameters.end();
         return item;
     }
-    if (is_brlcad_nothing(type.text)) return {BrlcadNothing{}};
+    if (is_brlcad_nothing(type.text)) return {BrlcadNothing{std::string(type.text)}};
     return {Shape(Unsupported{std::string(type.text)})};
 }
 

@@ -13,6 +13,7 @@
 #include "formats/brlcad_g.hpp"
 #include "formats/json_reader.hpp"
 #include "formats/json_writer.hpp"
+#include "formats/mended.hpp"
 
 namespace csgrt {
 
@@ -86,7 +87,7 @@ void save_scene(const Scene& scene, const std::string& path) {
     if (path != "-" && extension_of(path) != ".json" && !is_special(path)) {
         refuse(path, "scenes are written as .json", "give the file a name that ends in .json");
     }
-    const std::string text = json_scene_text(scene);
+    const std::string text = json_scene_text(scene.lenient ? mended(scene) : scene);  // JSON is strict
     if (path == "-") {
         if (const int failed = write_all(stdout, text); failed != 0) {
             refuse("standard output", std::string("cannot be written: ") + std::strerror(failed));

@@ -1,0 +1,12 @@
+// A lenient scene as a strict one.
+#pragma once
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// The scene with an empty combination for everything that its top objects use and that is left out of them. Solids of unknown
+/// types stay what they are.
+Scene mended(const Scene& scene);
+
+}  // namespace csgrt
