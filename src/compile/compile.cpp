@@ -98,7 +98,8 @@ void set_surroundings(const Scene& scene, CompiledScene& compiled) {
     compiled.tolerance = scene.tolerance;
 }
 
-/// Whether solids are left out because of where they stand, so that the trees change. Throws Error (scene) if the scene is strict.
+/// Whether solids are left out because of where they stand, so that the trees change. Throws Error (scene) if the scene
+/// is strict.
 bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measured& measured, Names& names,
                         std::vector<Warning>& warnings) {
     const std::vector<ExtentFault> faults = extent_faults(scene, flat, measured);
@@ -107,7 +108,8 @@ bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measure
         for (const auto& [object, text] : faults) {
             const bool is_new = names.kind(object) != Names::Kind::left_out;
             names.leave_out(object);
-            if (is_new) warnings.push_back({name_of(scene.objects[object]), place_of(scene.objects[object]), "left out: it " + text, 1});
+            const Object& solid = scene.objects[object];
+            if (is_new) warnings.push_back({name_of(solid), place_of(solid), "left out: it " + text, 1});
         }
         return true;
     }

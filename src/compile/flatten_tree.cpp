@@ -88,7 +88,10 @@ void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
         return;
     }
     auto known = result_.composites.find(object);
-    if (known == result_.composites.end()) known = result_.composites.emplace(object, pieces_of(std::get<Solid>(scene_.objects[object]).shape)).first;
+    if (known == result_.composites.end()) {
+        const Shape& shape = std::get<Solid>(scene_.objects[object]).shape;
+        known = result_.composites.emplace(object, pieces_of(shape)).first;
+    }
     for (FlatTree::Node node : known->second.tree.nodes) {
         if (node.op == Operator::leaf) node.solid = instance_of(object, node.solid, matrix);
         tree_->nodes.push_back(node);

@@ -85,13 +85,11 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
             if (++count > shown) continue;
             const Box& box = is_finite(compiled.solid_boxes[solid]) ? compiled.solid_boxes[solid] : common;
             const double of_size = PlaneTable::gap * diagonal(box), of_place = coordinate_rounding * largest_coordinate(box);
-            compiled.warnings.push_back({compiled.solid_info[solid].name,
-                                         {},
-                                         "nothing is left of it: two of its faces are " + rounded_text(thickness) +
-                                             " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
-                                             (of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates") +
-                                             ", are one surface",
-                                         1});
+            const char* const what = of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates";
+            std::string reason = "nothing is left of it: two of its faces are " + rounded_text(thickness) +
+                                 " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
+                                 what + ", are one surface";
+            compiled.warnings.push_back({compiled.solid_info[solid].name, {}, std::move(reason), 1});
         }
     }
     if (count > shown)

@@ -91,7 +91,8 @@ void Packer::operator()(const Ebm& s) {
 std::string note_on(const Revolve& s) {
     if (turn_of(s) != Turn::none) return {};
     char text[128];
-    std::snprintf(text, sizeof text, "it is empty: its angle is %g, and ends of a turn that are no more than %g radians apart are one",
+    std::snprintf(text, sizeof text,
+                  "it is empty: its angle is %g, and ends of a turn that are no more than %g radians apart are one",
                   s.angle, PlaneTable::gap);
     return text;
 }

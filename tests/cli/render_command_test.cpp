@@ -76,9 +76,13 @@ TEST_CASE("scenes that cannot be rendered say where they are wrong") {
     CHECK(contains(object.err, "all.gg"));
 
     const std::string broken = folder.write("broken.asc", std::string(two_balls) + "put bad.s ell V {0 0 zero}\n");
-    const Result syntax = run({broken, "--reference", "--stats", "-"});
+    const Result syntax = run({broken, "--reference", "--stats", "-", "--strict"});
     CHECK(syntax.status == 3);
     CHECK(contains(syntax.err, "csgrt: error: " + broken + ":9:"));
+
+    const Result borne = run({broken, "--reference", "--size", "16", "--stats", "-"});
+    CHECK(borne.status == 0);
+    CHECK(contains(borne.err, "csgrt: warning: " + broken + ":9:"));
 
     const Result absent = run({folder / "absent.json", "--reference", "--stats", "-"});
     CHECK(absent.status == 6);
