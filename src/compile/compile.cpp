@@ -13,6 +13,7 @@
 #include "compile/extent.hpp"
 #include "compile/flatten.hpp"
 #include "compile/hash.hpp"
+#include "compile/lights.hpp"
 #include "compile/linear.hpp"
 #include "compile/measured.hpp"
 #include "compile/pack_regions.hpp"
@@ -85,11 +86,7 @@ Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& c
 }
 
 void set_surroundings(const Scene& scene, CompiledScene& compiled) {
-    for (const Light& light : scene.lights) {
-        const auto shade = [&](double c) { return static_cast<float>(c * light.intensity); };
-        compiled.lights.push_back({light.position.x, light.position.y, light.position.z, shade(light.color.x),
-                                   shade(light.color.y), shade(light.color.z)});
-    }
+    for (const Light& light : scene.lights) compiled.lights.push_back(light_record(light));
     compiled.background = {scene.background.x, scene.background.y, scene.background.z};
     compiled.ambient = scene.ambient;
     compiled.tolerance = scene.tolerance;
@@ -118,6 +115,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     set_surroundings(scene, compiled);
     std::optional<Measured> measured(std::in_place, scene, flat);
     check_extent(scene, flat, *measured);
+    add_region_lights(flat, measured->brlcad_boxes, compiled);
     const std::size_t unbounded = set_sphere(measured->boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
     pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);
