@@ -96,8 +96,8 @@ Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
     if (arguments.eye) {
         camera.eye = arguments.eye;
         camera.up.reset();
-        if (camera.perspective > 0) camera.view_size.reset();  // the scene's
     }
+    if (camera.eye && camera.perspective > 0) camera.view_size.reset();  // the scene's, or the saved view's
     if (arguments.center || arguments.look_at) {
         camera.center = arguments.center;
         camera.look_at = arguments.look_at;

@@ -63,7 +63,8 @@ Scene random_scene(unsigned seed) {
     if (n.coin()) scene.lights = {{n.vector(), n.color(), 0.25}, {n.vector(), n.color(), 2}};
     if (n.coin()) scene.lights.push_back({n.vector(), n.color(), 1, n.coin(), 30, n.direction()});
     if (n.coin()) {
-        scene.camera = {35, 25, n.coin() ? 30.0 : 0.0};
+        scene.camera = Camera();
+        scene.camera.perspective = n.coin() ? 30 : 0;
         scene.camera.eye = n.vector();
         if (n.coin()) scene.camera.look_at = n.vector();
         if (n.coin()) scene.camera.up = n.direction();
