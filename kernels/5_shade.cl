@@ -31,11 +31,12 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     {
         // The first claimed partition that does not end before t_min.
         const real t_min = t_min_along(frame, r);
+        const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;
         for (next = firsts[id]; next != NONE; next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += region >> 31;
-            if (seen == NONE && (region & ~OVERLAP) != NONE && ends[nodes[next].out_end].t > t_min) seen = next;
+            if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > t_min) seen = next;
         }
     }
     if (seen == NONE) {

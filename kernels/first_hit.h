@@ -39,6 +39,7 @@ typedef struct {
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
+    u32 seen_end;  // the number behind the last region that pictures show
 } scene_tables;
 
 FN void start_front(front* w) {
@@ -105,6 +106,7 @@ FN u32 claim_of_one(const front* w, scene_tables s) {
     return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->ends[2 * slot].solid].alone;
 }
 
+// NONE, too, if no picture shows what claims: all others are before it, so nothing else does.
 FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
     u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
@@ -125,7 +127,7 @@ FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
         list_covered(c, &covered);
         region = find_claim_beside(c, starting, &covered, 0, changed).least;
     }
-    return region;
+    return region < s.seen_end ? region : NONE;
 }
 
 // In the order in which kernel 3 links ends: by distance, then solid.

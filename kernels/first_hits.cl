@@ -37,6 +37,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     s.starts = starts;
     s.leaves = leaves;
     s.trees = trees;
+    s.seen_end = frame->rank_ends[RANK_AIR];
     a.regions = regions;
     a.materials = materials;
     a.lights = lights;

@@ -76,7 +76,7 @@ typedef struct {
 } packet_view;
 
 FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit) {
-    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], t[PACKET];
+    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], glow[PACKET], t[PACKET];
     ulong shine[PACKET];
     float region[PACKET], solid[PACKET];
     u32 within = 0, k;
@@ -97,6 +97,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
         specular[k] = m.specular;
         diffuse[k] = m.diffuse;
         ambient[k] = m.ambient;
+        glow[k] = m.glow;
         shine[k] = m.shine;
     }
     finish.color.r = vload8(0, red);
@@ -105,6 +106,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     finish.specular = vload8(0, specular);
     finish.diffuse = vload8(0, diffuse);
     finish.ambient = vload8(0, ambient);
+    finish.glow = vload8(0, glow);
     finish.shine = vload8(0, shine);
     n = unit_or_against(seen_normals(p, g, hit, vload8(0, t)), p->rays.d);
     flipped = convert_long8(of_bits(within));

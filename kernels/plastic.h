@@ -2,6 +2,9 @@
 //
 //   colour * (ambient cos(n, eye)) + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
+// A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What shines itself adds
+// colour * glow.
+//
 // The power is by squaring: multiplications only, so every device gives the same bits.
 #ifndef CSGRT_PLASTIC_H
 #define CSGRT_PLASTIC_H
@@ -14,7 +17,7 @@ typedef struct {
 
 typedef struct {
     rgb color;
-    real specular, diffuse, ambient;
+    real specular, diffuse, ambient, glow;
     tag shine;
 } finish;
 
@@ -32,7 +35,7 @@ FN real whole_power(real x, tag n) {
 FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, wide3 at, vec3 n, vec3 d) {
     const vec3 view = scale(normalize3(d), REAL(-1));
     const real facing = dot3(n, view);
-    const real ambient = facing > 0 ? facing * REAL(f->ambient) * m.ambient : REAL(0);
+    const real ambient = (facing > 0 ? facing * REAL(f->ambient) * m.ambient : REAL(0)) + m.glow;
     rgb c;
     u32 i;
     c.r = ambient * m.color.r;
@@ -40,11 +43,13 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m
     c.b = ambient * m.color.b;
     for (i = 0; i < f->light_count; ++i) {
         const LightRecord light = lights[i];
-        const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), at)));
+        const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), wide_scale(at, light.w))));
         const real cosine = dot3(n, to_light), diffuse = cosine * m.diffuse;
         const real mirrored = dot3(subtract(scale(n, REAL(2) * cosine), to_light), view);
-        const truth lit = cosine > 0, shines = lit && mirrored > 0;
+        truth lit = cosine > 0, shines;
         real specular = REAL(0);
+        if (light.beam) lit = lit && dot3(to_light, make_vec3(REAL(light.bx), REAL(light.by), REAL(light.bz))) <= REAL(-light.cosine);
+        shines = lit && mirrored > 0;
         if (none(lit)) continue;
         if (!none(shines)) specular = shines ? whole_power(mirrored, m.shine) * m.specular : specular;
         c.r = lit ? c.r + REAL(light.r) * (diffuse * m.color.r + specular) : c.r;

@@ -34,6 +34,7 @@ FN finish finish_of(MaterialRecord m) {
     f.specular = REAL(m.specular);
     f.diffuse = REAL(m.diffuse);
     f.ambient = REAL(m.ambient);
+    f.glow = REAL(m.glow);
     f.shine = m.shine;
     return f;
 }

@@ -49,6 +49,7 @@ private:
 
 /// Channels in the order R G B A Z N.X N.Y N.Z region solid depth partitions overlap, as far as the view wants them; each
 /// width x height floats, row by row from the TOP left. Z is the distance along the ray in millimetres (infinity: nothing hit),
+/// from the eye, or of an orthographic view from the plane on which its rays start, which the matrix worldToCamera tells;
 /// region and solid are index + 1 (0: nothing), depth the number of segments on the ray.
 struct Image {
     int width = 0, height = 0;

@@ -41,12 +41,26 @@ struct Tree {
     std::vector<TreeNode> nodes;
 };
 
+/// What a region of BRL-CAD's shader `light` sends out, from the centre of its box. Where a rendered region has one, the light
+/// by the eye is off. Lights cast no shadows, and are as bright near as far.
+struct Emission {
+    double intensity = 1;  ///< of the brightest without a fraction: 1 / (1 + half the scene's ambient light); others in proportion
+    double fraction = 0;   ///< of full brightness, in place of the intensity; 0: not given
+    double angle = 180;    ///< between the beam's axis and its edge, degrees
+    std::optional<Vec3> target = {};     ///< a point on the beam's axis
+    std::optional<Vec3> direction = {};  ///< along that axis; default: down, -z of the region's first solid
+    bool infinite = false;  ///< as far away as the sun, in the direction from the model's origin to the region
+    bool visible = true;    ///< false: the region is not drawn, and yields to whatever stands in it
+    int shadows = 1;        ///< kept for conversion
+};
+
 /// BRL-CAD's plastic: colour = material colour x (ambient x cos(eye) + diffuse x cos(light)) + specular x cos^shine.
 struct Finish {
     std::string shader = "plastic";
     double specular = 0.7, diffuse = 0.3, ambient = 1.0;  ///< ambient scales the scene's ambient light
     int shine = 10;
     double transmit = 0, reflect = 0;  ///< kept for conversion; first-hit shading does not use them
+    std::optional<Emission> light = {};  ///< of the shader "light": it shines, and does not look like plastic
 };
 
 /// FASTGEN's kinds of regions. Where regions overlap, one with a kind yields to one without, and a volume to a plate.
@@ -68,19 +82,34 @@ using Object = std::variant<Solid, Combination>;
 
 // ---- The scene ----
 
+/// It casts no shadows, and is as bright near as far.
 struct Light {
     Vec3 position;
     Vec3 color{1, 1, 1};
     double intensity = 1;
+    bool infinite = false;  ///< as far away as the sun, in the direction from the origin to `position`
+    double angle = 180;     ///< between the beam's axis and its edge, degrees
+    Vec3 direction{0, 0, -1};  ///< along that axis; of any length but 0
 };
 
 /// The view is BRL-CAD's: a square (or rectangle; then `view_size` is its height) centred on the model's box;
 /// azimuth from +x about z, elevation upward, both in degrees.
+///
+/// An orthographic view has no eye. Its rays start on a plane before the whole model, so that all of it is seen, however
+/// small the view is; a half-space without end is cut there.
 struct Camera {
     double azimuth = 35, elevation = 25;
     double perspective = 0;           ///< angle of view in degrees, across the height; 0 is orthographic
     std::optional<Vec3> center;       ///< default: the centre of the model's box
     std::optional<double> view_size;  ///< default: the diagonal of the model's box
+
+    /// Where the eye stands, in place of azimuth and elevation, which then have no meaning. With a perspective it gives the
+    /// size of the view, too, and `view_size` must be absent; an orthographic view takes the direction from it alone.
+    std::optional<Vec3> eye = {};
+    std::optional<Vec3> look_at = {};  ///< another name of `center`, which must be absent then
+    /// What points upward in the picture; not along the line of sight. Default: +z; for a view straight down or up, what
+    /// azimuth 0 gives.
+    std::optional<Vec3> up = {};
 };
 
 /// BRL-CAD's colour table: regions with low <= id <= high get the colour.
@@ -94,7 +123,7 @@ struct Scene {
     std::string units = "mm";     ///< as the file says; values are millimetres already
     double unit_length = 1;       ///< millimetres a unit
     Camera camera;
-    std::vector<Light> lights;    ///< empty: one light by the eye
+    std::vector<Light> lights;    ///< without any, and without regions that shine: one light by the eye
     double ambient = 0.4;         ///< intensity of the ambient light from the eye
     Vec3 background{0, 0, 0};
     /// Ends of segments closer than this along a ray are one, millimetres. 0: those of one surface, see Tolerance::surfaces;

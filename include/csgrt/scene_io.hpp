@@ -18,4 +18,8 @@ CSGRT_API Scene load_scene(const std::string& path, bool strict = false);
 /// Writes the scene as .json; it loads to the same model, bit for bit. Written whole or not at all. "-": standard output.
 CSGRT_API void save_scene(const Scene& scene, const std::string& path);
 
+/// Reads the view of a script as MGED's `saveview` writes it and rt reads it: viewsize, orientation (or viewrot, ae, lookat_pt)
+/// and eye_pt, and the perspective of rt's option -p. Of several frames the first. Throws Error (file, scene).
+CSGRT_API Camera load_view(const std::string& path);
+
 }  // namespace csgrt

@@ -102,7 +102,8 @@ typedef struct {
 #define RANK_PLATE 1   // FASTGEN's
 #define RANK_VOLUME 2  // FASTGEN's
 #define RANK_AIR 3
-#define RANKS 4
+#define RANK_HIDDEN 4  // lights that are not drawn: no pixel shows them
+#define RANKS 5
 // `ends`: Frame.rank_ends.
 FN u32 same_rank(GLOBAL const u32* ends, u32 a, u32 b) {
     u32 rank, same = 1;
@@ -155,11 +156,16 @@ typedef struct {
     float r, g, b;
     float specular, diffuse, ambient;
     u32 shine;
+    float glow;  // what it shows of its colour whatever lights it
 } MaterialRecord;
 
 typedef struct {
-    wide x, y, z;       // position
-    float r, g, b;      // colour x intensity
+    wide x, y, z;     // position, or the direction to it if it is infinitely far away
+    wide w;           // 1, or 0 of such a light
+    wide bx, by, bz;  // unit vector along the beam's axis
+    wide cosine;      // of the angle between that and the beam's edge
+    float r, g, b;    // colour x intensity
+    u32 beam;         // 0: it shines everywhere, without regard to the axis
 } LightRecord;
 
 // ---- Bounding volume hierarchy ----
@@ -185,7 +191,7 @@ typedef struct {
 
 typedef struct {
     // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
-    wide eye[3];   // perspective: the eye. Orthographic: the centre of the picture plane
+    wide eye[3];   // perspective: the eye. Orthographic: the middle of where rays start, before the whole model
     wide u[3], v[3];  // one pixel to the right, one pixel up, millimetres on the picture plane
     wide w[3];     // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
     wide center[3];  // of the sphere around all bounded solids; the hierarchy's boxes are relative to it

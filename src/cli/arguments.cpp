@@ -106,6 +106,30 @@ void define(Options& options, RenderArguments& arguments) {
                    arguments.elevation, -unlimited, unlimited, "an angle in degrees");
     options.number("--perspective", "DEG", "angle of view, 0 is orthographic; the scene's, or 0, if not given",
                    arguments.perspective, 0, 180, "an angle in degrees, from 0 to less than 180");
+    const auto vector = [&options](const char* name, const char* help, std::optional<Vec3>& target, const char* what) {
+        options.value(name, "X,Y,Z", help, target, parse_vector,
+                      std::string(what) + ": three numbers with commas between them, such as 10,0,-5");
+    };
+    vector("--center", "middle of the picture, in millimetres; the scene's, or the middle of the model's box, if not given",
+           arguments.center, "a point");
+    auto parse_length = [](const std::string& text) {
+        auto number = parse_number(text);
+        return number && *number > 0 ? number : std::nullopt;
+    };
+    options.value("--view-size", "MM",
+                  "height of the picture at its middle; the scene's, or the diagonal of the model's box, if not given. Of a "
+                  "parallel view it is a zoom: everything before the viewing plane is seen, and lit as in the whole picture",
+                  arguments.view_size, parse_length, "a length in millimetres, greater than 0");
+    vector("--eye",
+           "where the eye stands, in place of azimuth and elevation; with a perspective it also gives the size of the view, "
+           "without one, where there is no eye, only the direction, from there to the middle of the picture",
+           arguments.eye, "a point");
+    vector("--look-at", "what the eye looks at, the middle of the picture: another name of --center", arguments.look_at,
+           "a point");
+    vector("--up", "what points upward in the picture; +z if not given", arguments.up, "a direction");
+    options.text("--view", "FILE",
+                 "a view as MGED's saveview writes it: viewsize, orientation and eye_pt; databases themselves hold no views",
+                 arguments.view);
     options.flag("--first-hit", "draw the first hits only, several times faster: no depth, partitions and overlap",
                  arguments.first_hit);
     define_either(options, arguments.settings);

@@ -25,7 +25,9 @@ struct RenderArguments : SceneArguments {
     std::vector<std::string> outputs;  ///< "-" is standard output
     std::string format;                ///< of "-": "exr" or "png"; empty: not given
     int width = 1024, height = 1024;
-    std::optional<double> azimuth, elevation, perspective;  ///< absent: the scene's
+    std::optional<double> azimuth, elevation, perspective, view_size;  ///< absent: the scene's
+    std::optional<Vec3> center, eye, look_at, up;
+    std::string view;  ///< file of a saved view; empty: none
     bool first_hit = false;
     std::string stats;  ///< file, "-" or empty
     int repeat = 1;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csgrt/image.hpp>
+#include <csgrt/scene_io.hpp>
 
 #include "clock.hpp"
 #include "commands.hpp"
@@ -36,6 +37,25 @@ std::string extension_of(const std::string& path) {
 }
 #endif
 
+/// Options that say the same thing twice, or two things.
+void check_view(const RenderArguments& arguments) {
+    const std::pair<const char*, bool> given[] = {
+        {"--azimuth", arguments.azimuth.has_value()},     {"--elevation", arguments.elevation.has_value()},
+        {"--center", arguments.center.has_value()},       {"--look-at", arguments.look_at.has_value()},
+        {"--view-size", arguments.view_size.has_value()}, {"--eye", arguments.eye.has_value()},
+        {"--up", arguments.up.has_value()}};
+    for (const auto& [option, is_given] : given)
+        if (is_given && !arguments.view.empty())
+            refuse(option, "cannot be combined with --view", "the saved view says where the eye is, and what it sees");
+    if (arguments.eye && (arguments.azimuth || arguments.elevation))
+        refuse("--eye", std::string("cannot be combined with ") + (arguments.azimuth ? "--azimuth" : "--elevation"),
+               "the eye and what it looks at give the direction");
+    if (arguments.look_at && arguments.center)
+        refuse("--look-at", "cannot be combined with --center", "they are one point, the middle of the picture");
+    if (arguments.eye && arguments.view_size && arguments.perspective.value_or(0) > 0)
+        refuse("--view-size", "cannot be combined with --eye and --perspective", "these two give the size of the view");
+}
+
 /// Everything that can be known to go wrong before the work begins.
 void check(const RenderArguments& arguments) {
     if (arguments.outputs.empty() && arguments.stats.empty())
@@ -60,14 +80,30 @@ void check(const RenderArguments& arguments) {
     if (to_standard_output && isatty(STDOUT_FILENO) == 1)
         refuse("--output", "a terminal cannot show a picture", "redirect standard output, or name a file with -o");
     if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
+    check_view(arguments);
     check_outputs(outputs, {{"SCENE", arguments.scene}});
 }
 
 Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
-    Camera camera = scene.camera;
+    Camera camera = arguments.view.empty() ? scene.camera : load_view(arguments.view);
+    camera.perspective = arguments.perspective.value_or(camera.perspective);
+    if (arguments.azimuth || arguments.elevation) {  // in place of the scene's eye, and upright
+        camera.eye.reset();
+        camera.up.reset();
+    }
     camera.azimuth = arguments.azimuth.value_or(camera.azimuth);
     camera.elevation = arguments.elevation.value_or(camera.elevation);
-    camera.perspective = arguments.perspective.value_or(camera.perspective);
+    if (arguments.eye) {
+        camera.eye = arguments.eye;
+        camera.up.reset();
+    }
+    if (camera.eye && camera.perspective > 0) camera.view_size.reset();  // the scene's, or the saved view's
+    if (arguments.center || arguments.look_at) {
+        camera.center = arguments.center;
+        camera.look_at = arguments.look_at;
+    }
+    if (arguments.view_size) camera.view_size = arguments.view_size;
+    if (arguments.up) camera.up = arguments.up;
     return camera;
 }
 
@@ -81,9 +117,23 @@ std::string canonical_command(const Scene& scene, const RenderArguments& argumen
         text += std::string(" ") + name + " ";
         append_shortest(text, value);
     };
-    option("--azimuth", camera.azimuth);
-    option("--elevation", camera.elevation);
+    auto vector = [&text](const char* name, const std::optional<Vec3>& v) {
+        if (!v) return;
+        text += std::string(" ") + name + " ";
+        append_shortest(text, v->x);
+        append_shortest(text += ",", v->y);
+        append_shortest(text += ",", v->z);
+    };
+    if (!camera.eye) {
+        option("--azimuth", camera.azimuth);
+        option("--elevation", camera.elevation);
+    }
     option("--perspective", camera.perspective);
+    vector("--eye", camera.eye);
+    vector("--look-at", camera.look_at);
+    vector("--center", camera.center);
+    vector("--up", camera.up);
+    if (camera.view_size) option("--view-size", *camera.view_size);
     option("--tolerance", tolerance);
     if (arguments.settings.precision != Precision::double_)
         text.append(" --precision ").append(name_of(precision_names, arguments.settings.precision));

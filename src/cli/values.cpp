@@ -27,6 +27,19 @@ std::optional<double> parse_number(std::string_view text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+std::optional<Vec3> parse_vector(std::string_view text) {
+    double numbers[3];
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t comma = text.find(',');
+        if ((comma == text.npos) != (i == 2)) return std::nullopt;
+        const auto number = parse_number(text.substr(0, comma));
+        if (!number) return std::nullopt;
+        numbers[i] = *number;
+        text.remove_prefix(comma == text.npos ? text.size() : comma + 1);
+    }
+    return Vec3{numbers[0], numbers[1], numbers[2]};
+}
+
 std::optional<std::uint64_t> parse_count(std::string_view text) { return parse_whole<std::uint64_t>(text); }
 
 std::optional<std::pair<int, int>> parse_size(std::string_view text) {

@@ -8,12 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include <csgrt/solids.hpp>
+
 namespace csgrt::cli {
 
 inline constexpr int max_side = 32'768;  ///< pixels; more than a billion rays are a mistake rather than a wish
 
 /// A finite number, the whole of `text`; a leading plus is fine.
 std::optional<double> parse_number(std::string_view text);
+
+/// "X,Y,Z": three finite numbers.
+std::optional<Vec3> parse_vector(std::string_view text);
 
 /// A decimal whole number, the whole of `text`.
 std::optional<std::uint64_t> parse_count(std::string_view text);

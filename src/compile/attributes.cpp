@@ -5,6 +5,7 @@
 namespace csgrt {
 
 std::uint32_t rank_of(const RegionInfo& region) {
+    if (region.finish.light && !region.finish.light->visible) return RANK_HIDDEN;
     if (region.air != 0) return RANK_AIR;
     return region.fastgen == Fastgen::none ? RANK_SOLID : region.fastgen == Fastgen::plate ? RANK_PLATE : RANK_VOLUME;
 }

@@ -15,6 +15,7 @@
 #include "compile/extent.hpp"
 #include "compile/flatten.hpp"
 #include "compile/hash.hpp"
+#include "compile/lights.hpp"
 #include "compile/linear.hpp"
 #include "compile/measured.hpp"
 #include "compile/pack_regions.hpp"
@@ -88,11 +89,7 @@ Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& c
 }
 
 void set_surroundings(const Scene& scene, CompiledScene& compiled) {
-    for (const Light& light : scene.lights) {
-        const auto shade = [&](double c) { return static_cast<float>(c * light.intensity); };
-        compiled.lights.push_back({light.position.x, light.position.y, light.position.z, shade(light.color.x),
-                                   shade(light.color.y), shade(light.color.z)});
-    }
+    for (const Light& light : scene.lights) compiled.lights.push_back(light_record(light));
     compiled.background = {scene.background.x, scene.background.y, scene.background.z};
     compiled.ambient = scene.ambient;
     compiled.tolerance = scene.tolerance;
@@ -172,6 +169,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     if (flat.regions.empty()) throw Error(Status::scene, nothing_to_render(compiled.warnings));
 
     set_surroundings(scene, compiled);
+    add_region_lights(flat, measured->brlcad_boxes, compiled);
     const std::size_t unbounded = set_sphere(measured->boxes, compiled);
     const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
     pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);

@@ -22,6 +22,7 @@ struct Instance {
 struct FlatRegion {
     RegionInfo info;  ///< all but the bounds
     FlatTree tree;    ///< leaves are instances
+    double brightness = 0;  ///< of one that shines; see add_region_lights
 };
 
 struct FlatScene {

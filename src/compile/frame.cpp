@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/lights.hpp"
 #include "compile/window.hpp"
 #include "scene/range.hpp"
 
@@ -52,6 +53,101 @@ void sine_cosine(double degrees, double& sine, double& cosine) {
     }
 }
 
+/// The model as a view frames it: the middle of its box, and half the box's diagonal.
+struct Surroundings {
+    dvec3 low, high, center;
+    double half;
+};
+Surroundings surroundings_of(const CompiledScene& scene) {
+    const Box box = framing_box(scene);
+    const dvec3 low = to_glm(box.low), high = to_glm(box.high);
+    return {low, high, 0.5 * (low + high), 0.5 * glm::distance(low, high)};
+}
+
+/// BRL-CAD's eye stands back so many halves of the view.
+constexpr double standoff = std::numbers::sqrt2;
+
+dvec3 center_of(const Camera& camera, const Surroundings& model) {
+    if (camera.center && camera.look_at) refuse("the centre of the view and the point that it looks at are one: give one of them");
+    if (camera.look_at) return in_range(*camera.look_at, "the point that the view looks at");
+    return camera.center ? in_range(*camera.center, "the centre of the view") : model.center;
+}
+
+/// The view's axes: unit vectors, perpendicular to each other. `back` points to the eye, `distance` tells how far it is.
+struct Axes {
+    dvec3 right, up, back;
+    double distance = 0;
+};
+
+/// The direction of v, and in `length` how long that is; of any length but 0, without overflow on the way.
+dvec3 direction_of(dvec3 v, double& length) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    length = 0;
+    if (!(largest > 0)) return v;
+    v /= largest;
+    const double rest = glm::length(v);
+    length = largest * rest;
+    return v / rest;
+}
+
+Axes axes_of(const Camera& camera, dvec3 center) {
+    Axes axes;
+    if (camera.eye) {
+        axes.back = direction_of(in_range(*camera.eye, "the place of the eye") - center, axes.distance);
+        if (!(axes.distance > 0)) refuse("the eye stands at the point that it looks at");
+        // To the right is what lies level; seen along z, as from azimuth 0.
+        double level = 0;
+        axes.right = direction_of({-axes.back.y, axes.back.x, 0}, level);
+        if (!(level > 0)) axes.right = {0, 1, 0};
+        axes.up = glm::cross(axes.back, axes.right);
+    } else {
+        double sin_a, cos_a, sin_e, cos_e;
+        sine_cosine(finite(camera.azimuth, "azimuth"), sin_a, cos_a);
+        sine_cosine(finite(camera.elevation, "elevation"), sin_e, cos_e);
+        axes = {{-sin_a, cos_a, 0}, {-sin_e * cos_a, -sin_e * sin_a, cos_e}, {cos_e * cos_a, cos_e * sin_a, sin_e}};
+    }
+    if (camera.up) {
+        constexpr double least_sine = 1e-9;  // below it rounding decides which way is right
+        double length = 0, sine = 0;
+        for (const double x : {camera.up->x, camera.up->y, camera.up->z}) finite(x, "the direction upward");
+        const dvec3 up = direction_of(to_glm(*camera.up), length);
+        if (!(length > 0)) refuse("the direction upward has no length");
+        axes.right = direction_of(glm::cross(up, axes.back), sine);
+        if (!(sine > least_sine)) refuse("the direction upward runs along the line of sight");
+        axes.up = glm::cross(axes.back, axes.right);
+    }
+    return axes;
+}
+
+/// How far before its centre the rays of an orthographic view start: where BRL-CAD's eye stands, or before the whole model if
+/// that is farther.
+double plane_to_center(const CompiledScene& scene, const Surroundings& model, dvec3 center, dvec3 back, double half) {
+    const double eye = standoff * half;
+    double model_end = 0;
+    for (int i = 0; i < 3; ++i) model_end += std::max(back[i] * (model.low[i] - center[i]), back[i] * (model.high[i] - center[i]));
+    if (model_end <= eye) return eye;
+    constexpr double rounding = 0x1p-40;
+    const double to_scene = glm::dot(to_glm(scene.center) - center, back);
+    const double scene_end = to_scene + scene.radius + rounding * (scene.radius + std::abs(to_scene));
+    return std::max({eye, model_end, scene_end});
+}
+
+/// BRL-CAD's own light, where a scene has none: half a view back from the eye and half a view to its left, of the view that
+/// shows the whole model orthographically. It stays there when the view shows a part. Fitted to BRL-CAD's pictures of spheres.
+dvec3 light_of_model(const Surroundings& model, const Axes& axes) {
+    const dvec3 eye = model.center + standoff * model.half * axes.back;
+    return eye + model.half * (axes.back - axes.right);
+}
+
+/// The same with a perspective: by the eye, if that is near. The farther away it stands, the nearer the light is to that of an
+/// orthographic view, which is what a perspective of nearly 0 shows.
+dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, double half) {
+    const double near = standoff * model.half, distance = glm::dot(eye - model.center, axes.back);
+    const dvec3 at = eye + half * (axes.back - axes.right);
+    if (distance <= near) return at;
+    return glm::mix(light_of_model(model, axes), at - (distance - near) * axes.back, near / distance);
+}
+
 void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& frame) {
     put(to_glm(scene.center), frame.center);
     frame.radius = scene.radius;
@@ -84,55 +180,54 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
         refuse("perspective must be 0 or an angle below 180 degrees");
 
     PreparedFrame result;
-    const Box box = framing_box(scene);
-    const dvec3 low = to_glm(box.low), high = to_glm(box.high);
-    const dvec3 center = camera.center ? in_range(*camera.center, "the centre of the view") : 0.5 * (low + high);
-    if (camera.view_size && !(*camera.view_size > 0)) refuse("the size of the view must be positive");
-    result.view_size = camera.view_size ? in_range(*camera.view_size, Limits::least_length, "the size of the view")
-                                        : glm::distance(low, high);
-
-    double sin_a, cos_a, sin_e, cos_e;
-    sine_cosine(finite(camera.azimuth, "azimuth"), sin_a, cos_a);
-    sine_cosine(finite(camera.elevation, "elevation"), sin_e, cos_e);
-    const dvec3 back(cos_e * cos_a, cos_e * sin_a, sin_e), right(-sin_a, cos_a, 0),
-        up(-sin_e * cos_a, -sin_e * sin_a, cos_e);
-
-    // Orthographic, BRL-CAD's eye stands back sqrt(2) times half the view's size; in perspective where the picture
-    // plane through the centre just fills the angle of view.
-    const double half = 0.5 * result.view_size;
-    result.eye_to_center = camera.perspective > 0 ? half / std::tan(camera.perspective * std::numbers::pi / 360.0)
-                                                  : std::numbers::sqrt2 * half;
-    const dvec3 eye = center + in_range(result.eye_to_center, 0, "the distance of the eye") * back;
+    const Surroundings model = surroundings_of(scene);
+    const dvec3 center = center_of(camera, model);
+    const Axes axes = axes_of(camera, center);
+    const bool perspective = camera.perspective > 0;
+    const double slope = std::tan(camera.perspective * std::numbers::pi / 360.0);
+    if (camera.eye && perspective) {
+        if (camera.view_size)
+            refuse("the eye and the perspective give the size of the view: leave one of the three out");
+        result.eye_to_center = in_range(axes.distance, Limits::least_length, "the distance of the eye");
+        result.view_size = in_range(2 * slope * axes.distance, Limits::least_length, "the size of the view");
+    } else {
+        if (camera.view_size && !(*camera.view_size > 0)) refuse("the size of the view must be positive");
+        result.view_size = camera.view_size ? in_range(*camera.view_size, Limits::least_length, "the size of the view")
+                                            : 2 * model.half;
+        const double half = 0.5 * result.view_size;
+        result.eye_to_center = in_range(perspective ? half / slope : plane_to_center(scene, model, center, axes.back, half), 0,
+                                        "the distance of the eye");
+    }
+    const dvec3 eye =
+        camera.eye && perspective ? to_glm(*camera.eye) : center + result.eye_to_center * axes.back;
     const double pixel = result.view_size / view.height;
 
     kernel::Frame& frame = result.frame;
     fill_scene(scene, tolerance, frame);
     put(eye, frame.eye);
-    put(pixel * right, frame.u);
-    put(pixel * up, frame.v);
-    put(camera.perspective > 0 ? center - eye : -back, frame.w);
+    put(pixel * axes.right, frame.u);
+    put(pixel * axes.up, frame.v);
+    put(perspective ? center - eye : -axes.back, frame.w);
     frame.t_min = 0;
     for (int i = 0; i < 3; ++i) frame.background[i] = static_cast<float>(scene.background[static_cast<std::size_t>(i)]);
     frame.width = static_cast<std::uint32_t>(view.width);
     frame.height = static_cast<std::uint32_t>(view.height);
-    frame.perspective = camera.perspective > 0;
+    frame.perspective = perspective;
     frame.every_partition = view.every_partition;
     frame.channels = view.channels & (view.every_partition ? channel::all : channel::all & ~channel::counts);
 
     result.lights = scene.lights;
     if (result.lights.empty()) {
-        // BRL-CAD's own light: half a view back from the eye and half a view to its left. Fitted to its pictures of
-        // spheres.
-        const dvec3 at = eye + half * (back - right);
-        result.lights.push_back({at.x, at.y, at.z, 1, 1, 1});
+        const dvec3 at = perspective ? light_by_eye(model, axes, eye, 0.5 * result.view_size) : light_of_model(model, axes);
+        result.lights.push_back(light_at(from_glm(at), {1, 1, 1}));
     }
     frame.light_count = static_cast<std::uint32_t>(result.lights.size());
 
     frame.window = window_of(scene, frame);
     result.rays = std::uint64_t{kernel::blocks_across(frame.window)} * kernel::blocks_down(frame.window) * BLOCK * BLOCK;
-    result.right = from_glm(right);
-    result.up = from_glm(up);
-    result.back = from_glm(back);
+    result.right = from_glm(axes.right);
+    result.up = from_glm(axes.up);
+    result.back = from_glm(axes.back);
     result.center = from_glm(center);
     return result;
 }

@@ -10,7 +10,7 @@ namespace csgrt {
 struct PreparedFrame {
     kernel::Frame frame{};
     std::vector<kernel::LightRecord> lights;
-    double eye_to_center = 0;  ///< millimetres
+    double eye_to_center = 0;  ///< millimetres; orthographic: from where the rays start
     double view_size = 0;      ///< height of the picture at the centre, millimetres
     Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
     Vec3 center;

@@ -27,12 +27,18 @@ struct RegionChunk {
     Box bounds = empty_box;
 };
 
-kernel::MaterialRecord material_of(const RegionInfo& info) {
+kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, double ambient) {
     const Finish& f = info.finish;
     const auto to_float = [](double x) { return static_cast<float>(x); };
-    return {to_float(info.color.x), to_float(info.color.y),  to_float(info.color.z),
-            to_float(f.specular),   to_float(f.diffuse),     to_float(f.ambient),
-            static_cast<std::uint32_t>(std::max(f.shine, 0))};
+    kernel::MaterialRecord m{to_float(info.color.x), to_float(info.color.y),  to_float(info.color.z),
+                             to_float(f.specular),   to_float(f.diffuse),     to_float(f.ambient),
+                             static_cast<std::uint32_t>(std::max(f.shine, 0)), 0};
+    if (!f.light) return m;
+    // A body that shines has half of its colour everywhere, and the other half where it faces the eye, by which it looks round.
+    m.specular = m.diffuse = 0;
+    m.ambient = ambient > 0 ? to_float(0.5 * brightness / ambient) : 0;
+    m.glow = to_float((ambient > 0 ? 0.5 : 1) * brightness);
+    return m;
 }
 
 /// Materials, each once, in the order of first use.
@@ -43,7 +49,7 @@ public:
 
     std::uint32_t number(const kernel::MaterialRecord& m) {
         std::uint64_t hash = m.shine;
-        for (const float x : {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient}) {
+        for (const float x : {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.glow}) {
             // -0 and 0 are one colour.
             hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.0f)) * 0x9e3779b97f4a7c15u;
             hash ^= hash >> 32;
@@ -61,7 +67,7 @@ private:
     static constexpr std::uint32_t none = 0xffffffff;
     static bool equal(const kernel::MaterialRecord& a, const kernel::MaterialRecord& b) {
         return a.r == b.r && a.g == b.g && a.b == b.b && a.specular == b.specular && a.diffuse == b.diffuse &&
-               a.ambient == b.ambient && a.shine == b.shine;
+               a.ambient == b.ambient && a.shine == b.shine && a.glow == b.glow;
     }
 
     std::vector<kernel::MaterialRecord>& materials_;
@@ -99,7 +105,7 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
             const LinearTree tree = linearize(region.tree, chunk.words);
             if (!tree.union_only) chunk.operators |= tree.operators;
             compiled.regions[i] = {tree.first_word, tree.word_count, tree.union_only ? REGION_UNION_ONLY : 0u, 0};
-            materials[i] = material_of(region.info);
+            materials[i] = material_of(region.info, region.brightness, compiled.ambient);
             compiled.region_info[i] = std::move(region.info);
             compiled.flat_trees[i] = std::move(region.tree);
         }

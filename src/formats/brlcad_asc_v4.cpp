@@ -93,6 +93,7 @@ public:
         }
         findings_.throw_if_any();
         scene_.objects = objects_.take(source_.name());
+        warn_of_shaders(scene_);
         return std::move(scene_);
     }
 

@@ -14,6 +14,7 @@
 
 #include "formats/brlcad_asc.hpp"
 #include "formats/brlcad_objects.hpp"
+#include "formats/brlcad_shader.hpp"
 #include "formats/brlcad_v5_attributes.hpp"
 #include "formats/brlcad_v5_solids.hpp"
 #include "formats/brlcad_v5_tree.hpp"
@@ -57,6 +58,7 @@ public:
         }
         findings_.throw_if_any();
         scene_.objects = objects_.take(source_.name());
+        warn_of_shaders(scene_);
         return std::move(scene_);
     }
 

@@ -11,6 +11,7 @@
 #include "formats/brlcad_g_solids.hpp"
 #include "formats/brlcad_g_tree.hpp"
 #include "formats/brlcad_objects.hpp"
+#include "formats/brlcad_shader.hpp"
 #include "formats/brlcad_v5_attributes.hpp"
 
 namespace csgrt {
@@ -45,6 +46,7 @@ public:
         }
         findings_.throw_if_any();
         scene_.objects = objects_.take(source_.name());
+        warn_of_shaders(scene_);
         return std::move(scene_);
     }
 

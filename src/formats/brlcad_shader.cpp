@@ -1,9 +1,15 @@
 #include "formats/brlcad_shader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
+
+#include "formats/brlcad_values.hpp"
 
 namespace csgrt {
 
@@ -114,6 +120,65 @@ void set_parameters(Finish& finish, std::string_view parameters) {
     }
 }
 
+/// The next `count` numbers; nothing, and `parameters` as it was, if there are not as many.
+template <std::size_t count>
+std::optional<std::array<double, count>> next_numbers(std::string_view& parameters) {
+    std::string_view rest = parameters;
+    std::array<double, count> numbers{};
+    for (double& x : numbers) {
+        // A vector may have commas in it, as in "1,0,0".
+        const std::size_t begin = std::min(rest.find_first_not_of(" \t\r\n={}\","), rest.size());
+        const std::size_t end = std::min(rest.find_first_of(" \t\r\n={}\",", begin), rest.size());
+        const auto value = number(rest.substr(begin, end - begin));
+        if (!value) return std::nullopt;
+        x = *value;
+        rest.remove_prefix(end);
+    }
+    parameters = rest;
+    return numbers;
+}
+
+/// BRL-CAD reads a flag as a whole number.
+bool is_set(double flag) { return static_cast<int>(std::clamp(flag, -1e9, 1e9)) != 0; }
+
+void set_parameter(Emission& light, std::string_view key, double value) {
+    if (key == "b" || key == "bright" || key == "inten") {
+        light.intensity = value > 0 ? value : 1;
+    } else if (key == "f" || key == "fract") {
+        light.fraction = std::max(value, 0.0);
+    } else if (key == "a" || key == "angle") {
+        light.angle = std::clamp(value, 0.0, 180.0);
+    } else if (key == "s" || key == "shadows") {
+        light.shadows = static_cast<int>(std::clamp(value, 0.0, 1e9));
+    } else if (key == "i" || key == "infinite") {
+        light.infinite = is_set(value);
+    } else if (key == "v" || key == "visible") {
+        light.visible = is_set(value);
+    } else if (key == "invisible") {
+        light.visible = !is_set(value);
+    }
+}
+
+/// `t`, `target` and `aim` are a point, `d` is a direction, as the oldest files have it.
+Emission read_light(std::string_view parameters) {
+    Emission light;
+    while (true) {
+        const std::string_view key = next_token(parameters);
+        if (key.empty()) return light;
+        const bool is_target = key == "t" || key == "target" || key == "aim", is_direction = key == "d";
+        if (is_target || is_direction) {
+            const auto v = next_numbers<3>(parameters);
+            const auto in_range = [](double x) { return std::abs(x) <= Limits::length; };
+            if (!v || !std::all_of(v->begin(), v->end(), in_range)) continue;
+            const Vec3 vector{(*v)[0], (*v)[1], (*v)[2]};
+            if (is_target) light.target = vector;
+            if (is_direction && vector != Vec3{}) light.direction = vector;
+        } else if (const auto value = next_numbers<1>(parameters)) {
+            set_parameter(light, key, value->front());
+        }
+    }
+}
+
 /// The look of a stack: of its last shader that belongs to the Phong model.
 Finish stack_finish(std::string_view stack) {
     stack = unwrapped(stack);
@@ -137,9 +202,37 @@ Finish read_finish(std::string_view shader, std::string_view parameters) {
         set_parameters(finish, parameters);
     } else if (shader == "stack") {
         finish = stack_finish(parameters);
+    } else if (shader == "light") {
+        finish.light = read_light(parameters);
     }
     finish.shader = shader;
     return finish;
+}
+
+std::string shader_warning(std::string_view shader) {
+    for (const std::string_view known : {"", "plastic", "phong", "default", "light"})
+        if (shader == known) return {};
+    if (shader == "mirror") return "the shader 'mirror' is drawn without reflections, as plastic";
+    if (shader == "glass") return "the shader 'glass' is drawn opaque, as plastic: neither transparent nor with reflections";
+    if (shader == "stack") return "the shader 'stack' is drawn as the last plastic, mirror or glass in it, or as plastic";
+    return "the shader " + quoted(shader) + " is drawn as plastic";
+}
+
+void warn_of_shaders(Scene& scene) {
+    std::map<std::string, Warning> warnings;  // by reason: the order does not hang on that of the file
+    const auto add = [&](const Combination& combination, std::string reason) {
+        if (reason.empty()) return;
+        const auto [found, is_new] = warnings.try_emplace(reason, Warning{combination.name, combination.place, reason, 0});
+        ++found->second.count;
+    };
+    for (const Object& object : scene.objects) {
+        const auto* combination = std::get_if<Combination>(&object);
+        if (combination == nullptr || !combination->finish) continue;
+        add(*combination, shader_warning(combination->finish->shader));
+        if (combination->finish->light && combination->finish->light->shadows > 0)
+            add(*combination, "a light casts no shadows here, though it should");
+    }
+    for (auto& [reason, warning] : warnings) scene.warnings.push_back(std::move(warning));
 }
 
 Finish read_finish(std::string_view shader_and_parameters) {

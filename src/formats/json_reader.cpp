@@ -22,20 +22,55 @@ struct Material {
     std::optional<Finish> finish;
 };
 
+/// From 0, along the axis, to 180 degrees, everywhere.
+double read_beam(const JsonNode& node) {
+    const double angle = node.not_negative(180);
+    if (angle > 180) node.fault("must be an angle from 0 to 180 degrees, between the beam's axis and its edge");
+    return angle;
+}
+
+/// A vector of any length but 0, as it stands.
+Vec3 read_axis(const JsonNode& node) {
+    const Vec3 axis = node.vector();
+    if (node.is_vector() && axis == Vec3{}) node.fault("has no direction: all its numbers are 0");
+    return axis;
+}
+
+Emission read_emission(const JsonNode& node) {
+    Emission light;
+    if (!node.present()) return light;
+    const JsonObject o(node, json_form("emission"));
+    if (o.has("intensity")) light.intensity = o["intensity"].positive();
+    light.fraction = o["fraction"].not_negative(light.fraction);
+    light.angle = read_beam(o["angle"]);
+    if (o.has("target")) light.target = o["target"].lengths();
+    if (o.has("direction")) light.direction = read_axis(o["direction"]);
+    light.infinite = o["infinite"].boolean(light.infinite);
+    light.visible = o["visible"].boolean(light.visible);
+    light.shadows = o["shadows"].integer(0, int_max, light.shadows);
+    return light;
+}
+
 /// A finish is there as soon as one of its keys is; the others keep their defaults.
 Material read_material(const JsonNode& node) {
     const JsonObject o(node, json_form("material"));
     Material material;
     if (o.has("color")) material.color = o["color"].color();
     Finish finish;
+    if (o.has("light")) finish.shader = "light";
     if (o.has("shader")) finish.shader = o["shader"].string();
+    if (finish.shader == "light") {
+        finish.light = read_emission(o["light"]);
+    } else if (o.has("light")) {
+        o["light"].fault("has a meaning only with the shader \"light\"");
+    }
     finish.specular = o["specular"].not_negative(finish.specular);
     finish.diffuse = o["diffuse"].not_negative(finish.diffuse);
     finish.ambient = o["ambient"].not_negative(finish.ambient);
     finish.shine = o["shine"].integer(0, Limits::shine, finish.shine);
     finish.transmit = o["transmit"].not_negative(finish.transmit);
     finish.reflect = o["reflect"].not_negative(finish.reflect);
-    for (const char* key : {"shader", "specular", "diffuse", "ambient", "shine", "transmit", "reflect"}) {
+    for (const char* key : {"shader", "specular", "diffuse", "ambient", "shine", "transmit", "reflect", "light"}) {
         if (o.has(key)) material.finish = finish;
     }
     return material;
@@ -112,6 +147,9 @@ private:
             read.position = light["position"].present() ? light["position"].lengths() : Vec3{};
             if (light.has("color")) read.color = light["color"].color();
             read.intensity = light["intensity"].not_negative(read.intensity);
+            read.infinite = light["infinite"].boolean(read.infinite);
+            read.angle = read_beam(light["angle"]);
+            if (light.has("direction")) read.direction = read_axis(light["direction"]);
         }
         for (const JsonNode& item : items_of(o["region_colors"])) {
             const JsonObject range(item, json_form("region_color"));
@@ -129,6 +167,16 @@ private:
         if (camera.perspective >= 180) o["perspective"].fault("must be 0 (parallel), or an angle below 180 degrees");
         if (o.has("center")) camera.center = o["center"].lengths();
         if (o.has("size")) camera.view_size = o["size"].positive_length();
+        if (o.has("eye")) camera.eye = o["eye"].lengths();
+        if (o.has("look_at")) camera.look_at = o["look_at"].lengths();
+        if (o.has("up")) camera.up = read_axis(o["up"]);
+        if (camera.eye) {
+            for (const char* key : {"azimuth", "elevation"})
+                if (o.has(key)) o[key].fault("cannot stand beside \"eye\", which gives the direction");
+            if (camera.view_size && camera.perspective > 0)
+                o["size"].fault("cannot stand beside \"eye\" and \"perspective\", which give it");
+        }
+        if (camera.center && camera.look_at) o["look_at"].fault("cannot stand beside \"center\": they are one point");
     }
 
     /// False, and a finding, if the name is taken.

@@ -90,6 +90,20 @@ ordered_json json_of(const Tree& tree, JsonUnit& unit, std::string& fault) {
     return *depth > deepest_nested ? json_of_postfix(tree, unit) : json_of_nested(tree, unit);
 }
 
+ordered_json json_of_emission(const Emission& light, JsonUnit& unit) {
+    ordered_json out = ordered_json::object();
+    const Emission usual;
+    if (!same_bits(light.intensity, usual.intensity)) out["intensity"] = unit.number(light.intensity);
+    if (!same_bits(light.fraction, usual.fraction)) out["fraction"] = unit.number(light.fraction);
+    if (!same_bits(light.angle, usual.angle)) out["angle"] = unit.number(light.angle);
+    if (light.target) out["target"] = unit.lengths(*light.target);
+    if (light.direction) out["direction"] = unit.vector(*light.direction);
+    if (light.infinite) out["infinite"] = true;
+    if (!light.visible) out["visible"] = false;
+    if (light.shadows != usual.shadows) out["shadows"] = light.shadows;
+    return out;
+}
+
 /// The shader is always written, so that the finish is there again when all else is at its default.
 ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
     ordered_json material;
@@ -107,6 +121,7 @@ ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
         if (finish.shine != usual.shine) material["shine"] = finish.shine;
         add("transmit", finish.transmit, usual.transmit);
         add("reflect", finish.reflect, usual.reflect);
+        if (finish.light) material["light"] = json_of_emission(*finish.light, unit);
     }
     return material;
 }

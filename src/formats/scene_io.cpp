@@ -14,6 +14,7 @@
 #include "formats/json_reader.hpp"
 #include "formats/json_writer.hpp"
 #include "formats/mended.hpp"
+#include "formats/view_script.hpp"
 
 namespace csgrt {
 
@@ -82,6 +83,8 @@ Scene load_scene(const std::string& path, bool strict) {
     if (extension == ".g") return read_brlcad_g(path, !strict);
     refuse(path, "this is no scene by its name", "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
 }
+
+Camera load_view(const std::string& path) { return parse_view_script(TextSource::read(path)); }
 
 void save_scene(const Scene& scene, const std::string& path) {
     if (path != "-" && extension_of(path) != ".json" && !is_special(path)) {

@@ -154,7 +154,8 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
         claim.region = region;
         if (claimants.size() > 1) claim.claimants = claimants;
         claims.partitions.push_back(std::move(claim));
-        if (claims.first_seen == SIZE_MAX && partition.out > t_min) {
+        const bool is_seen = partition.out > t_min && rank_of(scene_.region_info[region]) != RANK_HIDDEN;
+        if (claims.first_seen == SIZE_MAX && is_seen) {
             claims.first_seen = claims.partitions.size() - 1;
             if (!frame.every_partition) return;
         }

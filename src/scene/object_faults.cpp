@@ -15,6 +15,7 @@ bool in_range(double value, double low, double high) {
     return value >= low && value <= high;  // false for what is not a number
 }
 bool not_negative(double value) { return value >= 0 && std::isfinite(value); }
+bool is_axis(const Vec3& v) { return is_finite(v) && v != Vec3{}; }
 bool is_color(const Vec3& color) {
     return in_range(color.x, 0, 1) && in_range(color.y, 0, 1) && in_range(color.z, 0, 1);
 }
@@ -79,6 +80,16 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
     }
 }
 
+void check_emission(const Emission& light, const Place& place, const Report& report) {
+    if (!not_negative(light.intensity) || !not_negative(light.fraction))
+        report(place, "the intensity and the fraction of a light must be 0 or more, and finite", {});
+    if (!in_range(light.angle, 0, 180)) report(place, "the angle of a beam must be from 0 to 180 degrees", {});
+    if (light.target && (!is_finite(*light.target) || largest(*light.target) > Limits::length))
+        report(place, "the target of a light must be finite; " + length_limit(), {});
+    if (light.direction && !is_axis(*light.direction))
+        report(place, "the direction of a light must be finite, and not 0", {});
+}
+
 void check_settings(const Scene& scene, const Report& report) {
     const Settings settings(report);
     settings.require(scene.unit_length > 0 && std::isfinite(scene.unit_length), "/units",
@@ -95,6 +106,8 @@ void check_settings(const Scene& scene, const Report& report) {
                          "a light stands at " + number_text(largest(light.position)) + " mm" + limit);
         settings.require(is_color(light.color), "/lights", "a colour has components from 0 to 1");
         settings.require(not_negative(light.intensity), "/lights", "an intensity must be 0 or more, and finite");
+        settings.require(in_range(light.angle, 0, 180), "/lights", "the angle of a beam must be from 0 to 180 degrees");
+        settings.require(is_axis(light.direction), "/lights", "the direction of a beam must be finite, and not 0");
     }
     const Camera& camera = scene.camera;
     settings.require(std::isfinite(camera.azimuth) && std::isfinite(camera.elevation), "/camera",
@@ -102,6 +115,12 @@ void check_settings(const Scene& scene, const Report& report) {
     settings.require(camera.perspective >= 0 && camera.perspective < 180, "/camera",
                      "the perspective must be 0 or an angle below 180 degrees");
     settings.require(!camera.center || is_finite(*camera.center), "/camera", "the centre must be finite");
+    settings.require(!camera.eye || is_finite(*camera.eye), "/camera", "the eye must be finite");
+    settings.require(!camera.look_at || is_finite(*camera.look_at), "/camera", "the point to look at must be finite");
+    settings.require(!camera.up || is_axis(*camera.up), "/camera", "the direction upward must be finite, and not 0");
+    settings.require(!camera.center || !camera.look_at, "/camera", "the centre and the point to look at are one: leave one out");
+    settings.require(!camera.eye || !camera.view_size || !(camera.perspective > 0), "/camera",
+                     "the eye and the perspective give the size of the view: leave one of the three out");
     settings.require(!camera.view_size || (*camera.view_size > 0 && std::isfinite(*camera.view_size)), "/camera",
                      "the size of the view must be greater than 0, and finite");
 }
@@ -119,6 +138,7 @@ void check_attributes(const Combination& combination, const Report& report) {
                 report(combination.place, std::string("'") + name + "' must be 0 or more, and finite", {});
             }
         }
+        if (finish.light) check_emission(*finish.light, combination.place, report);
         if (finish.shine < 0 || finish.shine > Limits::shine) {
             report(combination.place, "'shine' must be from 0 to " + std::to_string(Limits::shine), {});
         }

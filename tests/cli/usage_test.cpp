@@ -119,7 +119,8 @@ TEST_CASE("help lists every option, and every option listed is understood") {
     const Table tables[] = {
         {"",
          {"-o, --output FILE", "--format exr|png", "--size N|WxH", "--azimuth DEG", "--elevation DEG",
-          "--perspective DEG", "--device NAME|cpu|gpu|N", "--reference", "--stats FILE", "--repeat N",
+          "--perspective DEG", "--center X,Y,Z", "--view-size MM", "--eye X,Y,Z", "--look-at X,Y,Z", "--up X,Y,Z", "--view FILE",
+          "--device NAME|cpu|gpu|N", "--reference", "--stats FILE", "--repeat N",
           "--max-memory SIZE", "--tolerance MM|surfaces|relative|none", "--precision double|single|single-world",
           "--quartic bracketed|bracketed-unshifted|ferrari|yuksel", "--contraction on|off", "--air", "--strict", "--skip-unsupported", "--threads N", "--first-hit", "-h, --help"}},
         {"shoot",

@@ -21,8 +21,9 @@ using namespace csgrt;
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
     FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
     FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
-    FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) RECORD(LightRecord) FIELD(LightRecord, x) \
-    FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, r) FIELD(LightRecord, g) FIELD(LightRecord, b) \
+    FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) FIELD(MaterialRecord, glow) RECORD(LightRecord) \
+    FIELD(LightRecord, x) FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, w) FIELD(LightRecord, bx) FIELD(LightRecord, by) \
+    FIELD(LightRecord, bz) FIELD(LightRecord, cosine) FIELD(LightRecord, beam) FIELD(LightRecord, r) FIELD(LightRecord, g) FIELD(LightRecord, b) \
     RECORD(BvhNode) FIELD(BvhNode, low) FIELD(BvhNode, skip) FIELD(BvhNode, high) FIELD(BvhNode, leaf) RECORD(Frame) \
     FIELD(Frame, eye) FIELD(Frame, u) FIELD(Frame, v) FIELD(Frame, w) FIELD(Frame, center) FIELD(Frame, radius) \
     FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient) FIELD(Frame, background) FIELD(Frame, width) \

@@ -1,5 +1,9 @@
 // Shader strings in both notations, and what becomes of those that csgrt does not know.
 #include "catch.hpp"
+
+#include <algorithm>
+#include <string>
+
 #include "formats/brlcad_shader.hpp"
 
 using namespace csgrt;
@@ -77,4 +81,55 @@ TEST_CASE("shader: what is malformed is passed over", "[shader]") {
     const std::string braces(1'000'000, '{');
     CHECK(read_finish("stack " + braces + std::string(1'000'000, '}')).shine == 10);
     CHECK(read_finish("stack " + braces).shine == 10);
+}
+
+TEST_CASE("shader light: BRL-CAD's keys and defaults, in both notations") {
+    const Finish plain = read_finish("light");
+    REQUIRE(plain.light);
+    CHECK(plain.light->intensity == 1);
+    CHECK(plain.light->fraction == 0);
+    CHECK(plain.light->angle == 180);
+    CHECK(plain.light->shadows == 1);
+    CHECK(plain.light->visible);
+    CHECK_FALSE(plain.light->infinite);
+    CHECK_FALSE(plain.light->target);
+    for (const Finish& finish : {read_finish("light {b 2.5 f .5 a 30 t {1 -2 3} s 16 i 1 v 0}"),
+                                 read_finish("light", "inten=2.5 fract=.5 angle=30 aim=1,-2,3 shadows=16 infinite=1 invisible=1"),
+                                 read_finish("light bright 2.5 fract 0.5 angle 30 target 1 -2 3 shadows 16 infinite 1 visible 0")}) {
+        REQUIRE(finish.light);
+        CHECK(finish.light->intensity == 2.5);
+        CHECK(finish.light->fraction == 0.5);
+        CHECK(finish.light->angle == 30);
+        CHECK(finish.light->target == Vec3{1, -2, 3});
+        CHECK(finish.light->shadows == 16);
+        CHECK(finish.light->infinite);
+        CHECK_FALSE(finish.light->visible);
+    }
+    // aet.g's: an angle beyond a half turn, and a direction.
+    const Finish old = read_finish("light {a 270 d  {1 0 0} s 16 v 0}");
+    CHECK(old.light->angle == 180);
+    CHECK(old.light->direction == Vec3{1, 0, 0});
+    // What is no number is passed over, as everywhere.
+    CHECK(read_finish("light {b nan a x t {1 2} b -3}").light->intensity == 1);
+    CHECK_FALSE(read_finish("plastic {i 1}").light);
+}
+
+TEST_CASE("one warning for each shader that is drawn as plastic, with how many have it") {
+    Scene scene;
+    for (const char* shader : {"cloud", "glass tr=.5", "plastic", "cloud {thresh 1}", "light", "light {s 0}", "cloud"}) {
+        Combination region;
+        region.name = "r" + std::to_string(scene.objects.size());
+        region.finish = read_finish(shader);
+        scene.objects.push_back(region);
+    }
+    warn_of_shaders(scene);
+    REQUIRE(scene.warnings.size() == 3);
+    const auto has = [&](const char* object, const char* part, std::uint64_t count) {
+        return std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const Warning& w) {
+            return w.object == object && w.reason.find(part) != std::string::npos && w.count == count;
+        });
+    };
+    CHECK(has("r0", "the shader 'cloud' is drawn as plastic", 3));
+    CHECK(has("r1", "'glass' is drawn opaque", 1));
+    CHECK(has("r4", "casts no shadows", 1));
 }

@@ -61,6 +61,14 @@ Scene random_scene(unsigned seed) {
     scene.unit_length = length;
     if (n.coin()) scene.camera = {n(), n(), 30, n.vector(), 1e-3};
     if (n.coin()) scene.lights = {{n.vector(), n.color(), 0.25}, {n.vector(), n.color(), 2}};
+    if (n.coin()) scene.lights.push_back({n.vector(), n.color(), 1, n.coin(), 30, n.direction()});
+    if (n.coin()) {
+        scene.camera = Camera();
+        scene.camera.perspective = n.coin() ? 30 : 0;
+        scene.camera.eye = n.vector();
+        if (n.coin()) scene.camera.look_at = n.vector();
+        if (n.coin()) scene.camera.up = n.direction();
+    }
     if (n.coin()) scene.ambient = 0.1;
     if (n.coin()) scene.background = n.color();
     if (n.coin()) scene.tolerance = 0;
@@ -81,6 +89,14 @@ Scene random_scene(unsigned seed) {
         if (n.coin()) c.color = n.color();
         if (n.coin()) c.finish = Finish();
         if (n.coin()) c.finish = Finish{"glass", 0.1, n.color().x, 2, 10000, n.coin() ? 0.5 : -0.0, 0};
+        if (n.coin()) {
+            c.finish = Finish{.shader = "light", .light = Emission{n.color().x + 0.1, n.color().x, 180 * n.color().x}};
+            if (n.coin()) c.finish->light->target = n.vector();
+            if (n.coin()) c.finish->light->direction = n.direction();
+            c.finish->light->infinite = n.coin();
+            c.finish->light->visible = n.coin();
+            c.finish->light->shadows = n.coin() ? 1 : 16;
+        }
         c.color_inherits = n.coin();
         c.finish_inherits = n.coin();
         scene.objects.push_back(c);

@@ -27,7 +27,7 @@ const json& sound_example(const std::string& form) {
     static const json examples = json::parse(R"({
         "scene": {"csgrt": 1, "solids": {"s": {"type": "sphere", "center": [0, 0, 0], "radius": 1}}},
         "model_units": {"name": "cubit", "millimetres": 457},
-        "camera": {}, "light": {"position": [0, 0, 0]}, "material": {}, "region_color": {"low": 0, "high": 1, "color": [0, 0, 0]},
+        "camera": {}, "light": {"position": [0, 0, 0]}, "emission": {}, "material": {}, "region_color": {"low": 0, "high": 1, "color": [0, 0, 0]},
         "combination": {"tree": "s"},
         "leaf": {"object": "s"}, "union": {"union": ["s"]}, "intersection": {"intersection": ["s"]},
         "difference": {"difference": ["s", "s"]}, "xor": {"xor": ["s"]}, "not": {"not": "s"},
@@ -88,6 +88,8 @@ std::string scene_with(const std::string& form, const json& object) {
         scene["lights"] = json::array({object});
     else if (form == "material")
         scene["materials"]["m"] = object;
+    else if (form == "emission")
+        scene["materials"]["m"] = {{"light", object}};
     else if (form == "region_color")
         scene["region_colors"] = json::array({object});
     else if (form == "combination")

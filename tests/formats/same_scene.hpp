@@ -14,9 +14,11 @@ class SceneBytes {
 public:
     explicit SceneBytes(const Scene& scene) {
         add(scene.title, scene.units, scene.unit_length, scene.camera.azimuth, scene.camera.elevation,
-            scene.camera.perspective, scene.camera.center, scene.camera.view_size, scene.ambient, scene.background,
+            scene.camera.perspective, scene.camera.center, scene.camera.view_size, scene.camera.eye, scene.camera.look_at,
+            scene.camera.up, scene.ambient, scene.background,
             scene.tolerance, scene.lights.size(), scene.objects.size(), scene.top.size(), scene.region_colors.size());
-        for (const Light& light : scene.lights) add(light.position, light.color, light.intensity);
+        for (const Light& light : scene.lights) 
+            add(light.position, light.color, light.intensity, light.infinite, light.angle, light.direction);
         for (const std::string& name : scene.top) add(name);
         for (const RegionColor& range : scene.region_colors) add(range.low, range.high, range.color);
         for (const Object& object : scene.objects) {
@@ -100,7 +102,9 @@ private:
             c.color_inherits, c.finish_inherits);
         if (c.finish) {
             add(c.finish->shader, c.finish->specular, c.finish->diffuse, c.finish->ambient, c.finish->shine,
-                c.finish->transmit, c.finish->reflect);
+                c.finish->transmit, c.finish->reflect, c.finish->light.has_value());
+            if (const auto& l = c.finish->light)
+                add(l->intensity, l->fraction, l->angle, l->target, l->direction, l->infinite, l->visible, l->shadows);
         }
         for (const TreeNode& node : c.tree.nodes) add(node.op, node.arity, node.object, node.matrix);
     }

@@ -1,7 +1,9 @@
 // HostKernels and ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS: the
 // body of the one file that includes this.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -25,10 +27,12 @@ real convert(double x) { return static_cast<real>(x); }
     return {static_cast<wide>(p.nx), static_cast<wide>(p.ny), static_cast<wide>(p.nz), static_cast<wide>(p.d)};
 }
 [[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) {
-    return {static_cast<wide>(l.x), static_cast<wide>(l.y), static_cast<wide>(l.z), l.r, l.g, l.b};
+    const auto to_wide = [](double x) { return static_cast<wide>(x); };
+    return {to_wide(l.x),  to_wide(l.y),  to_wide(l.z),      to_wide(l.w), to_wide(l.bx), to_wide(l.by),
+            to_wide(l.bz), to_wide(l.cosine), l.r, l.g, l.b, l.beam};
 }
 [[maybe_unused]] k::MaterialRecord convert(const kernel::MaterialRecord& m) {
-    return {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine};
+    return {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine, m.glow};
 }
 
 // In single precision a ray may meet a solid a little beside where it is: the boxes make room for that, so that a
@@ -141,6 +145,7 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.channels = f.channels;
     frame.window = {f.window.left, f.window.top, f.window.right, f.window.bottom};
     frame.lines = f.lines;
+    std::copy(std::begin(f.rank_ends), std::end(f.rank_ends), std::begin(frame.rank_ends));
     return frame;
 }
 decltype(auto) convert_frame(const kernel::Frame& f) { return convert_frame(f, static_cast<const k::Frame*>(nullptr)); }
