@@ -25,12 +25,19 @@ void report_skipped(const Renderer& renderer) {
     std::fputs(text.c_str(), stderr);
 }
 
-Scene load_with_progress(const std::string& path) {
-    Progress progress;
-    progress.stage("loading");
+Scene load(const std::string& path) try {
     Scene scene = load_scene(path);
     check_interrupt();
     return scene;
+} catch (const Error&) {
+    check_interrupt();  // a signal may be why it could not be read
+    throw;
+}
+
+Scene load_with_progress(const std::string& path) {
+    Progress progress;
+    progress.stage("loading");
+    return load(path);
 }
 
 }  // namespace csgrt::cli

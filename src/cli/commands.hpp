@@ -15,7 +15,7 @@ class Progress;
 
 /// A scene file, the objects of it (none: its top objects), and how to compute.
 struct SceneArguments {
-    std::string scene;
+    std::string scene;  ///< file or "-"
     std::vector<std::string> objects;
     Settings settings;
 };
@@ -81,7 +81,10 @@ Settings with_progress(const Settings& settings, Progress& progress);
 /// Says on standard error which solids --skip-unsupported has left out, and what compilation found worth telling, a line each.
 void report_skipped(const Renderer& renderer);
 
-/// load_scene with a progress of its own.
+/// load_scene, as one that can be interrupted.
+Scene load(const std::string& path);
+
+/// load() with a progress of its own.
 Scene load_with_progress(const std::string& path);
 
 }  // namespace csgrt::cli

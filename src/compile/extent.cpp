@@ -3,11 +3,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "compile/linear.hpp"
-#include "formats/source.hpp"
+#include "scene/excerpt.hpp"
+#include "scene/finding_list.hpp"
 #include "scene/range.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -27,7 +28,8 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
     const double far = std::max(largest(box.low), largest(box.high));
     if (!(far <= most) && !(is_open && std::isinf(far)))
         return "reaches to " + rounded_text(far) + " mm from the origin where it stands; " + length_limit();
-    const double size = diagonal(box);
+    const Vec3 sides = box.high - box.low;
+    const double size = std::hypot(sides.x, sides.y, sides.z);  // the squares of what is too small may be 0
     if (size >= Limits::least_length) return {};
     return "is " + rounded_text(size) + " mm large where it stands; the least size is " +
            number_text(Limits::least_length) + " mm";
@@ -36,8 +38,8 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
 }  // namespace
 
 void check_extent(const Scene& scene, const FlatScene& flat, const Measured& measured) {
-    std::vector<Diagnostic> findings;
-    for (std::size_t i = 0; i < flat.instances.size() && findings.size() < Findings::limit; ++i) {
+    FindingList findings;
+    for (std::size_t i = 0; i < flat.instances.size(); ++i) {
         const Instance& instance = flat.instances[i];
         const Box& box = measured.boxes[i];
         const bool plain = largest(box.low) <= most && largest(box.high) <= most &&
@@ -46,9 +48,11 @@ void check_extent(const Scene& scene, const FlatScene& flat, const Measured& mea
         std::string fault = extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
         if (fault.empty()) continue;
         const Object& object = scene.objects[instance.object];
-        findings.push_back({place_of(object), "solid '" + name_of(object) + "' " + std::move(fault), {}, {}});
+        findings.add({place_of(object), "solid '" + name_of(object) + "' " + std::move(fault), {}, {}});
     }
-    if (!findings.empty()) throw Error(Status::scene, std::move(findings));
+    if (findings.empty()) return;
+    for (Diagnostic& diagnostic : findings.shown()) diagnostic.excerpt = excerpt(diagnostic.place);
+    throw Error(Status::scene, findings.take());
 }
 
 }  // namespace csgrt

@@ -11,8 +11,8 @@
 #include "compile/linearize.hpp"
 #include "compile/regions.hpp"
 #include "fetch.hpp"
-#include "formats/source.hpp"
 #include "parallel.hpp"
+#include "scene/finding_list.hpp"
 
 namespace csgrt {
 
@@ -242,13 +242,12 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
 
     // What there is to tell.
     std::vector<std::string> empty_regions;
-    std::vector<Diagnostic> findings;
+    FindingList findings;
     const auto contains_space = [&](const std::string& what, const Place& place) {
-        if (findings.size() == Findings::limit) return;
-        findings.push_back({place,
-                            what + " contains the empty space where no solid is",
-                            "intersect the complement with something that bounds it",
-                            {}});
+        findings.add({place,
+                      what + " contains the empty space where no solid is",
+                      "intersect the complement with something that bounds it",
+                      {}});
     };
     std::size_t term = 0;
     auto next = joiner.no_regions().begin();
@@ -268,7 +267,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
         if (term == end && !has_air && findings.empty()) result.notes.push_back("object " + name + " holds no solid");
         term = end;
     }
-    if (!findings.empty()) throw Error(Status::scene, std::move(findings));
+    if (!findings.empty()) throw Error(Status::scene, findings.take());
     if (const std::vector<std::string> fastgen = fastgen_regions(result); !fastgen.empty())
         result.notes.push_back(counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
                                ": plain regions are before plates, plates before volumes, then the first in the model; "

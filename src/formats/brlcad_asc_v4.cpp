@@ -78,7 +78,7 @@ public:
         : source_(source), findings_(source), lines_(source.text()), objects_(findings_) {}
 
     Scene read() {
-        while (!lines_.at_end() && !findings_.full()) {
+        while (!lines_.at_end()) {
             object_.clear();
             const Line line = lines_.take();
             try {

@@ -7,6 +7,7 @@
 //     attr set {name} {key} {value} ...       what else belongs to an object, or to _GLOBAL, the database
 //
 // Lengths are millimetres; the unit is for display.
+#include <algorithm>
 #include <span>
 #include <unordered_set>
 #include <utility>
@@ -24,13 +25,16 @@ namespace csgrt {
 
 namespace {
 
+/// Bytes. A brace that is never closed is looked for to the end of the file, and reading goes on behind it.
+constexpr std::size_t most_read_again = std::size_t{1} << 28;
+
 class V5Reader {
 public:
     explicit V5Reader(const TextSource& source)
         : source_(source), findings_(source), commands_(source.text(), store_), objects_(findings_) {}
 
     Scene read() {
-        while (!findings_.full()) {
+        while (read_again_ < most_read_again) {
             object_.clear();
             store_.clear();
             try {
@@ -42,7 +46,9 @@ public:
                     broken_.insert(object_);
                 }
                 findings_.add(std::move(fault), object_);
+                const std::size_t reached = commands_.offset();
                 commands_.skip_to({"put", "attr", "color", "title", "units"});
+                read_again_ += reached - std::min(reached, commands_.offset());
                 continue;
             }
             try {
@@ -52,6 +58,7 @@ public:
                 findings_.add(std::move(fault), object_);
             }
         }
+        if (read_again_ >= most_read_again) findings_.stop();
         findings_.throw_if_any();
         scene_.objects = objects_.take(source_.name());
         return std::move(scene_);
@@ -155,6 +162,7 @@ private:
 
     const TextSource& source_;
     Findings findings_;
+    std::size_t read_again_ = 0;
     TclStore store_;
     TclReader commands_;
     std::vector<TclWord> words_;

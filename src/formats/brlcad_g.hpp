@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <csgrt/scene.hpp>
 
@@ -12,6 +13,9 @@ class ByteSource;
 /// Reads a .g file. Throws Error: file if it cannot be read, scene with every finding if it is wrong, out_of_memory if
 /// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
 Scene read_brlcad_g(const std::string& path);
+
+/// Whether these bytes begin a binary database, of release 5 or 4.
+bool is_brlcad_g(std::string_view bytes);
 
 /// The same for a database in memory.
 Scene parse_brlcad_g(const ByteSource& source);
