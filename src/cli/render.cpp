@@ -134,6 +134,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
         check_interrupt();
     }
     image = framebuffer.take();
+    renderer.name_pixels(image);
     return median_of(frames);
 }
 
