@@ -14,6 +14,8 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", false}};
+constexpr const char* scene_help =
+    "scene file: .json, .g or .asc; - is standard input, whose first bytes tell the format";
 constexpr std::pair<std::string_view, const char*> formats[] = {{"exr", "exr"}, {"png", "png"}};
 constexpr std::uint64_t most_sampled = 10'000'000;  ///< rays are kept in memory; a file may hold more
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -23,7 +25,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 }
 
 void define_scene(Options& options, SceneArguments& arguments) {
-    options.argument("SCENE", "scene file: .json, .g or .asc; - is standard input, whose first bytes tell the format", arguments.scene);
+    options.argument("SCENE", scene_help, arguments.scene);
     options.arguments("OBJECT", "objects of the scene; without any, its top objects", arguments.objects);
     options.flag("--air", "keep air regions", arguments.settings.air);
     options.flag("--skip-unsupported", "leave out solids of types that csgrt does not know, and say which",
@@ -102,7 +104,8 @@ void define(Options& options, RenderArguments& arguments) {
     options.flag("--first-hit", "draw the first hits only, several times faster: no depth, partitions and overlap",
                  arguments.first_hit);
     define_either(options, arguments.settings);
-    options.text("--stats", "FILE", "write the figures of the frame as JSON, times in milliseconds; - is standard output", arguments.stats);
+    options.text("--stats", "FILE",
+                 "write the figures of the frame as JSON, times in milliseconds; - is standard output", arguments.stats);
     options.count("--repeat", "render N frames; the figures are medians without the first", arguments.repeat, 1,
                   1'000'000);
 }
@@ -159,20 +162,21 @@ void define(Options& options, InfoArguments& arguments) {
 }
 
 void define(Options& options, ConvertArguments& arguments) {
-    options.argument("IN", "scene file: .json, .g or .asc; - is standard input, whose first bytes tell the format", arguments.input);
+    options.argument("IN", scene_help, arguments.input);
     options.argument("OUT", "FILE.json to write; - is standard output", arguments.output);
 }
 
 // What the options do not say. Lines of at most 100 bytes.
 
 constexpr const char* render_notes = R"(
-Lengths are millimetres, whatever unit the scene's file has; angles are degrees. The view is a square or a rectangle whose
-height is the diagonal of the model's box, centred on it.
+Lengths are millimetres, whatever unit the scene's file has; angles are degrees. The view is a
+square or a rectangle whose height is the diagonal of the model's box, centred on it.
 
-An EXR holds 32-bit floats: R G B A; Z, the distance along the ray, mm, inf where nothing is hit; N.X N.Y N.Z, the surface's
-unit normal, outward; region and solid, numbers from 1, 0 where nothing is hit; depth, segments on the ray; partitions;
-overlap, how many of its partitions several regions claim. Its header names the regions and solids that occur in it
-(csgrt:regions, csgrt:solids: JSON texts such as {"17": "/all.g/x.r"}). A PNG holds the colours, 8 bits each, linear.
+An EXR holds 32-bit floats: R G B A; Z, the distance along the ray, mm, inf where nothing is hit;
+N.X N.Y N.Z, the surface's unit normal, outward; region and solid, numbers from 1, 0 where nothing
+is hit; depth, segments on the ray; partitions; overlap, how many of its partitions several regions
+claim. Its header names the regions and solids that occur in it (csgrt:regions, csgrt:solids: JSON
+texts such as {"17": "/all.g/x.r"}). A PNG holds the colours, 8 bits each, linear.
 
 A picture, and the partitions along one ray:
   csgrt scenes/operators.json -o operators.png
@@ -180,47 +184,54 @@ A picture, and the partitions along one ray:
 )";
 
 constexpr const char* shoot_notes = R"(
-A ray is six numbers on a line, apart by blanks: ox oy oz dx dy dz. Blank lines, and what follows a #, do not count.
-  ox oy oz       where it starts, millimetres (whatever unit the scene's file has), each at most 1e18
+A ray is six numbers on a line, apart by blanks: ox oy oz dx dy dz. Blank lines, and what follows a
+#, do not count.
+  ox oy oz       where it starts, millimetres (whatever unit the scene's file has), each at most
+                 1e18
   dx dy dz       its direction, of any length: the largest of the three from 1e-250 to 1e250
 A number too small for a double is 0; one too large is an error.
 
-The output begins with lines that start with #: version and model; counts of rays, solids and regions, whether air is kept
-(useair), the tolerance (tol.dist, mm); the box of the model (box, low and high corner in mm, or 'unbounded' or 'empty').
-Then there is for each ray, in the order of the input, a line of four words:
+The output begins with lines that start with #: version and model; counts of rays, solids and
+regions, whether air is kept (useair), the tolerance (tol.dist, mm); the box of the model (box, low
+and high corner in mm, or 'unbounded' or 'empty'). Then there is for each ray, in the order of the
+input, a line of four words:
   ray            this word
   INDEX          the ray's number, from 0
   PARTITIONS     how many lines of partitions follow
   OVERLAPS       how many lines of overlaps follow these
-and a line a partition, a stretch of the ray within one region, from the first to the last; 13 words:
+and a line a partition, a stretch of the ray within one region, from front to back, 13 words:
   region         its path in the model, /all.g/left.r
-  in out         where the ray enters and leaves it, counted in lengths of the direction: mm if that is 1. The point is
-                 origin + in * direction. What lies behind the start counts: in is negative where the ray starts inside,
-                 in and out where it starts behind the region. -inf or inf: the region has no end there
+  in out         where the ray enters and leaves it, counted in lengths of the direction: mm if
+                 that is 1. The point is origin + in * direction. What lies behind the start
+                 counts: in is negative where the ray starts inside, in and out where it starts
+                 behind the region. -inf or inf: the region has no end there
   inx iny inz    the unit normal where it enters, pointing out of the region: against the ray
   outx outy outz the unit normal where it leaves, pointing out of the region: along the ray
-                 (of an infinite end normal and solid mean nothing)
-  in-solid       the solid on whose surface it enters: the region's own, one that is subtracted from it, or that of another
-                 region which has the partition before it
+                 (of an infinite end, normal and solid mean nothing)
+  in-solid       the solid on whose surface it enters: the region's own, one that is subtracted
+                 from it, or that of another region which has the partition before it
   out-solid      the solid on whose surface it leaves, likewise
   in-type out-type  their types, in BRL-CAD's names: ell, tgc, arb8, ...
 and a line an overlap, a stretch that several regions claim, which is given to one of them:
   overlap        this word
   in out         as above
   region region...  the paths of all that claim it
-Numbers have 17 digits, so that they read back to the same bits. A blank or a backslash in a name is \ooo, its byte in octal.
-Ends closer than the tolerance are one. Regions touch without overlap; then nothing is listed.
-If any line of the input is wrong, all wrong ones are told, nothing is shot, and the exit status is 6.
+Numbers have 17 digits, so that they read back to the same bits. A blank or a backslash in a name
+is \ooo, its byte in octal. Ends closer than the tolerance are one. Regions touch without overlap;
+then nothing is listed. If any line of the input is wrong, all wrong ones are told, nothing is
+shot, and the exit status is 6.
 )";
 
 constexpr const char* verify_notes = R"(
-Rays and distances are as in 'csgrt help shoot'; errors of distances are told in mm and in units of the last place. The exit
-status is 8 if any ray that rounding does not decide has wrong regions, or if device and reference differ in any bit.
+Rays and distances are as in 'csgrt help shoot'; errors of distances are told in mm and in units of
+the last place. The exit status is 8 if any ray that rounding does not decide has wrong regions, or
+if device and reference differ in any bit.
 )";
 
 constexpr const char* compare_notes = R"(
-X is in the units of the channel or column: mm for Z, lengths of the direction for in and out, 0 to 1 for colours, 1 for counts
-and numbers of regions. The exit status is 0 if nothing differs, 8 if something does.
+X is in the units of the channel or column: mm for Z, lengths of the direction for in and out, 0 to
+1 for colours, 1 for counts and numbers of regions. The exit status is 0 if nothing differs, 8 if
+something does.
 )";
 
 constexpr const char* devices_notes = R"(
@@ -228,8 +239,9 @@ A line begins with the number that --device takes. Memory is in GiB (2^30 bytes)
 )";
 
 constexpr const char* info_notes = R"(
-'units' is the unit that the file says; 'bounds' is the box of the regions in millimetres, 'unbounded' or 'empty' if there is
-none. A tree's operators: u union, - difference, + intersection, ^ exclusive or, ! complement.
+'units' is the unit that the file says; 'bounds' is the box of the regions in millimetres,
+'unbounded' or 'empty' if there is none. A tree's operators: u union, - difference, + intersection,
+^ exclusive or, ! complement.
 )";
 
 constexpr const char* convert_notes = R"(

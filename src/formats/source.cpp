@@ -34,7 +34,8 @@ std::string nearest_file(const std::filesystem::path& path) {
     std::vector<std::string> names;
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end && names.size() < most; entry.increment(error))
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator() && names.size() < most; entry.increment(error))
         names.push_back(entry->path().filename().string());
     std::sort(names.begin(), names.end());
     return did_you_mean(path.filename().string(), {names.begin(), names.end()});

@@ -46,7 +46,7 @@ TEST_CASE("help says the units of each command, and one example of a picture and
         std::istringstream lines(help.out);
         for (std::string line; std::getline(lines, line);) {
             CAPTURE(line);
-            CHECK(line.size() <= 130);
+            CHECK(line.size() <= 100);
         }
     }
 }
