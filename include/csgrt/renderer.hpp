@@ -172,6 +172,10 @@ public:
     /// The rays of a picture, by row from the top left.
     std::vector<Ray> rays_of(const View& view) const;
 
+    /// Adds to a picture's header what the numbers in its channels `region` and `solid` mean: the attributes csgrt:regions and
+    /// csgrt:solids, JSON texts such as {"17": "/all.g/x.r"}, of the numbers that occur in it and no others.
+    void name_pixels(Image& image) const;
+
     const Box& bounds() const;  ///< of the model: its regions' boxes; low > high if none is bounded
     const std::vector<RegionInfo>& regions() const;
     const std::vector<SolidInfo>& solids() const;

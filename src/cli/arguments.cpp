@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -13,6 +14,9 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", false}};
+constexpr const char* scene_help =
+    "scene file: .json, .g or .asc; - is standard input, whose first bytes tell the format";
+constexpr std::pair<std::string_view, const char*> formats[] = {{"exr", "exr"}, {"png", "png"}};
 constexpr std::uint64_t most_sampled = 10'000'000;  ///< rays are kept in memory; a file may hold more
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -26,7 +30,7 @@ void define_strict(Options& options, bool& strict) {
 }
 
 void define_scene(Options& options, SceneArguments& arguments) {
-    options.argument("SCENE", "scene file: .json, .g or .asc", arguments.scene);
+    options.argument("SCENE", scene_help, arguments.scene);
     options.arguments("OBJECT", "objects of the scene; without any, its top objects", arguments.objects);
     options.flag("--air", "keep air regions", arguments.settings.air);
     define_strict(options, arguments.strict);
@@ -46,7 +50,7 @@ Option& define_settings(Options& options, Settings& settings) {
     auto& threads =
         options.count("--threads", "threads of the reference; all cores if not given", settings.threads, 1, 4096);
     options.value("--max-memory", "SIZE",
-                  "device memory to use, such as 512M or 2G; a frame that needs more is split into tiles",
+                  "device memory to use, bytes, or such as 512M or 2G (powers of 1024); a frame that needs more is split into tiles",
                   settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
     auto parse_tolerance = [&settings](const std::string& text) {
         auto rule = find_name(tolerance_names, text);
@@ -57,11 +61,12 @@ Option& define_settings(Options& options, Settings& settings) {
         }
         return rule;
     };
-    options.value("--tolerance", "MM|surfaces|relative|none",
-                  "ends of segments closer than this are one; surfaces: those on one surface; relative: closer than 1e-9 of the "
+    auto& tolerance = options.value("--tolerance", "MM|surfaces|relative|none",
+                  "ends of segments closer than this along the ray, mm, are one; surfaces: those on one surface; relative: closer than 1e-9 of the "
                   "scene's size (1e-6 in single precision); none: only equal ones; not given: the scene's, or surfaces",
                   settings.tolerance_rule, parse_tolerance,
                   "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
+    for (const auto& entry : tolerance_names) tolerance.words.push_back(entry.first);
     options.choice("--precision",
                    "of the geometry; single: relative to the eye; single-world: in the world's coordinates; double if "
                    "not given",
@@ -87,18 +92,15 @@ void define(Options& options, RenderArguments& arguments) {
         "picture to write, FILE.exr (every channel) or FILE.png; - is standard output; may be given several times",
         arguments.outputs);
     output.letter = 'o';
-    auto parse_format = [](const std::string& text) {
-        return text == "exr" || text == "png" ? std::optional(text) : std::nullopt;
-    };
-    auto& format = options.value("--format", "exr|png", "format on standard output; exr if not given", arguments.format,
-                                 parse_format, "a format: exr or png");
+    auto& format = options.choice(
+        "--format", "format on standard output, a device or a pipe; exr if not given", arguments.format, formats);
     format.needs = "--output";
     auto parse_sides = [&arguments](const std::string& text) {
         auto size = parse_size(text);
         if (size) arguments.height = size->second;
         return size ? std::optional(size->first) : std::nullopt;
     };
-    options.value("--size", "N|WxH", "pixels; 1024 if not given", arguments.width, parse_sides,
+    options.value("--size", "N|WxH", "pixels, one side or width and height; 1024 if not given", arguments.width, parse_sides,
                   "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
     options.number("--azimuth", "DEG", "where the eye is, from +x about z; the scene's, or 35, if not given",
                    arguments.azimuth, -unlimited, unlimited, "an angle in degrees");
@@ -133,7 +135,8 @@ void define(Options& options, RenderArguments& arguments) {
     options.flag("--first-hit", "draw the first hits only, several times faster: no depth, partitions and overlap",
                  arguments.first_hit);
     define_either(options, arguments.settings);
-    options.text("--stats", "FILE", "write the figures of the frame as JSON; - is standard output", arguments.stats);
+    options.text("--stats", "FILE",
+                 "write the figures of the frame as JSON, times in milliseconds; - is standard output", arguments.stats);
     options.count("--repeat", "render N frames; the figures are medians without the first", arguments.repeat, 1,
                   1'000'000);
 }
@@ -154,6 +157,9 @@ void define(Options& options, VerifyArguments& arguments) {
     define_scene(options, arguments);
     auto parse_rays = [&arguments](const std::string& text) {
         auto number = parse_count(text);
+        if (auto value = parse_number(text); !number && value && *value >= 0 && *value <= most_sampled &&
+                                             *value == std::floor(*value))
+            number = static_cast<std::uint64_t>(*value);  // 1e6
         if (!number) return text.empty() ? std::nullopt : std::optional(text);
         arguments.count = static_cast<std::size_t>(*number);
         return *number >= 1 && *number <= most_sampled ? std::optional(std::string()) : std::nullopt;
@@ -187,15 +193,98 @@ void define(Options& options, InfoArguments& arguments) {
 }
 
 void define(Options& options, ConvertArguments& arguments) {
-    options.argument("IN", "scene file: .json, .g or .asc", arguments.input);
+    options.argument("IN", scene_help, arguments.input);
     options.argument("OUT", "FILE.json to write; - is standard output", arguments.output);
     define_strict(options, arguments.strict);
 }
+
+// What the options do not say. Lines of at most 100 bytes.
+
+constexpr const char* render_notes = R"(
+Lengths are millimetres, whatever unit the scene's file has; angles are degrees. The view is a
+square or a rectangle whose height is the diagonal of the model's box, centred on it.
+
+An EXR holds 32-bit floats: R G B A; Z, the distance along the ray, mm, inf where nothing is hit;
+N.X N.Y N.Z, the surface's unit normal, outward; region and solid, numbers from 1, 0 where nothing
+is hit; depth, segments on the ray; partitions; overlap, how many of its partitions several regions
+claim. Its header names the regions and solids that occur in it (csgrt:regions, csgrt:solids: JSON
+texts such as {"17": "/all.g/x.r"}). A PNG holds the colours, 8 bits each, linear.
+
+A picture, and the partitions along one ray:
+  csgrt scenes/operators.json -o operators.png
+  printf '0 -9000 0  0 1 0\n' | csgrt shoot scenes/operators.json --rays -
+)";
+
+constexpr const char* shoot_notes = R"(
+A ray is six numbers on a line, apart by blanks: ox oy oz dx dy dz. Blank lines, and what follows a
+#, do not count.
+  ox oy oz       where it starts, millimetres (whatever unit the scene's file has), each at most
+                 1e18
+  dx dy dz       its direction, of any length: the largest of the three from 1e-250 to 1e250
+A number too small for a double is 0; one too large is an error.
+
+The output begins with lines that start with #: version and model; counts of rays, solids and
+regions, whether air is kept (useair), the tolerance (tol.dist, mm); the box of the model (box, low
+and high corner in mm, or 'unbounded' or 'empty'). Then there is for each ray, in the order of the
+input, a line of four words:
+  ray            this word
+  INDEX          the ray's number, from 0
+  PARTITIONS     how many lines of partitions follow
+  OVERLAPS       how many lines of overlaps follow these
+and a line a partition, a stretch of the ray within one region, from front to back, 13 words:
+  region         its path in the model, /all.g/left.r
+  in out         where the ray enters and leaves it, counted in lengths of the direction: mm if
+                 that is 1. The point is origin + in * direction. What lies behind the start
+                 counts: in is negative where the ray starts inside, in and out where it starts
+                 behind the region. -inf or inf: the region has no end there
+  inx iny inz    the unit normal where it enters, pointing out of the region: against the ray
+  outx outy outz the unit normal where it leaves, pointing out of the region: along the ray
+                 (of an infinite end, normal and solid mean nothing)
+  in-solid       the solid on whose surface it enters: the region's own, one that is subtracted
+                 from it, or that of another region which has the partition before it
+  out-solid      the solid on whose surface it leaves, likewise
+  in-type out-type  their types, in BRL-CAD's names: ell, tgc, arb8, ...
+and a line an overlap, a stretch that several regions claim, which is given to one of them:
+  overlap        this word
+  in out         as above
+  region region...  the paths of all that claim it
+Numbers have 17 digits, so that they read back to the same bits. A blank or a backslash in a name
+is \ooo, its byte in octal. Ends closer than the tolerance are one. Regions touch without overlap;
+then nothing is listed. If any line of the input is wrong, all wrong ones are told, nothing is
+shot, and the exit status is 6.
+)";
+
+constexpr const char* verify_notes = R"(
+Rays and distances are as in 'csgrt help shoot'; errors of distances are told in mm and in units of
+the last place. The exit status is 8 if any ray that rounding does not decide has wrong regions, or
+if device and reference differ in any bit.
+)";
+
+constexpr const char* compare_notes = R"(
+X is in the units of the channel or column: mm for Z, lengths of the direction for in and out, 0 to
+1 for colours, 1 for counts and numbers of regions. The exit status is 0 if nothing differs, 8 if
+something does.
+)";
+
+constexpr const char* devices_notes = R"(
+A line begins with the number that --device takes. Memory is in GiB (2^30 bytes).
+)";
+
+constexpr const char* info_notes = R"(
+'units' is the unit that the file says; 'bounds' is the box of the regions in millimetres,
+'unbounded' or 'empty' if there is none. A tree's operators: u union, - difference, + intersection,
+^ exclusive or, ! complement.
+)";
+
+constexpr const char* convert_notes = R"(
+The scene that is written means the same to the last bit, and keeps the unit that the file says.
+)";
 
 struct Entry {
     const char* name;  ///< "" is rendering, which needs no name
     const char* synopsis;
     const char* purpose;
+    const char* notes;
     Command (*parse)(const Entry&, const std::vector<std::string>&);
     std::string (*options)();
 };
@@ -224,18 +313,19 @@ std::string entry_options() {
 }
 
 template <class Arguments>
-constexpr Entry entry(const char* name, const char* synopsis, const char* purpose) {
-    return {name, synopsis, purpose, parse_entry<Arguments>, entry_options<Arguments>};
+constexpr Entry entry(const char* name, const char* synopsis, const char* purpose, const char* notes) {
+    return {name, synopsis, purpose, notes, parse_entry<Arguments>, entry_options<Arguments>};
 }
 
 constexpr Entry entries[] = {
-    entry<RenderArguments>("", "SCENE [OBJECT...] -o FILE.exr|FILE.png", "render a scene"),
-    entry<ShootArguments>("shoot", "SCENE [OBJECT...] --rays FILE", "the partitions along given rays"),
-    entry<VerifyArguments>("verify", "SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones"),
-    entry<CompareArguments>("compare", "A B", "compare two pictures, or two files of partitions"),
-    entry<DevicesArguments>("devices", "", "list the OpenCL devices"),
-    entry<InfoArguments>("info", "SCENE [OBJECT...]", "what a scene holds"),
-    entry<ConvertArguments>("convert", "IN OUT.json", "rewrite a scene as JSON"),
+    entry<RenderArguments>("", "SCENE [OBJECT...] -o FILE.exr|FILE.png", "render a scene", render_notes),
+    entry<ShootArguments>("shoot", "SCENE [OBJECT...] --rays FILE", "the partitions along given rays", shoot_notes),
+    entry<VerifyArguments>("verify", "SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones", verify_notes),
+    entry<CompareArguments>("compare", "A B", "compare two pictures, or two files of partitions",
+                            compare_notes),
+    entry<DevicesArguments>("devices", "", "list the OpenCL devices", devices_notes),
+    entry<InfoArguments>("info", "SCENE [OBJECT...]", "what a scene holds", info_notes),
+    entry<ConvertArguments>("convert", "IN OUT.json", "rewrite a scene as JSON", convert_notes),
 };
 
 const Entry* find_entry(const std::string& name) {
@@ -281,9 +371,9 @@ std::string help_text(const std::string& command) {
         std::string near = nearest_command(command);
         fail("no command '" + command + "'", near.empty() ? "'csgrt --help' lists the commands" : near);
     }
-    if (!command.empty()) return usage_line(*entry) + "\n\n" + entry->options() + exit_status;
+    if (!command.empty()) return usage_line(*entry) + "\n\n" + entry->options() + entry->notes + exit_status;
     return "csgrt: exact ray tracing of Constructive Solid Geometry\n\n" + overview() + "\nTo render a scene:\n\n" +
-           entry->options() + exit_status;
+           entry->options() + entry->notes + exit_status;
 }
 
 Command parse_arguments(const std::vector<std::string>& words) {

@@ -29,12 +29,19 @@ void report(const std::vector<Warning>& warnings) {
     std::fputs(text.c_str(), stderr);
 }
 
-Scene load_with_progress(const std::string& path, bool strict) {
-    Progress progress;
-    progress.stage("loading");
+Scene load(const std::string& path, bool strict) try {
     Scene scene = load_scene(path, strict);
     check_interrupt();
     return scene;
+} catch (const Error&) {
+    check_interrupt();  // a signal may be why it could not be read
+    throw;
+}
+
+Scene load_with_progress(const std::string& path, bool strict) {
+    Progress progress;
+    progress.stage("loading");
+    return load(path, strict);
 }
 
 }  // namespace csgrt::cli

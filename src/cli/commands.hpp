@@ -15,7 +15,7 @@ class Progress;
 
 /// A scene file, the objects of it (none: its top objects), and how to compute.
 struct SceneArguments {
-    std::string scene;
+    std::string scene;  ///< file or "-"
     std::vector<std::string> objects;
     bool strict = false;  ///< what is missing or broken in a database is refused
     Settings settings;
@@ -85,7 +85,10 @@ Settings with_progress(const Settings& settings, Progress& progress);
 /// Says warnings on standard error, a line each; of very many, the first and how many more.
 void report(const std::vector<Warning>& warnings);
 
-/// load_scene with a progress of its own.
+/// load_scene, as one that can be interrupted.
+Scene load(const std::string& path, bool strict);
+
+/// load() with a progress of its own.
 Scene load_with_progress(const std::string& path, bool strict);
 
 }  // namespace csgrt::cli

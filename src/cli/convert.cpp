@@ -9,9 +9,10 @@
 namespace csgrt::cli {
 
 Status run(const ConvertArguments& arguments) {
-    if (arguments.output != "-" && std::filesystem::path(arguments.output).extension() != ".json")
+    if (arguments.output != "-" && std::filesystem::path(arguments.output).extension() != ".json" &&
+        !target_of(arguments.output).direct)
         throw Error(Status::usage, "OUT: '" + arguments.output + "' must end in .json, the format that is written");
-    check_outputs({{"OUT", arguments.output, true}}, {{"IN", arguments.input}});
+    check_outputs({{"OUT", arguments.output}}, {{"IN", arguments.input}});
     Scene scene = load_with_progress(arguments.input, arguments.strict);
     std::vector<Warning> warnings = scene.warnings;
     if (scene.lenient) validate(scene, {}, false, &warnings);  // for what is left out: findings are the reader's to show

@@ -25,8 +25,6 @@ std::string decimal(double value) {
     return text;
 }
 
-std::string point(const Vec3& v) { return decimal(v.x) + " " + decimal(v.y) + " " + decimal(v.z); }
-
 std::string objects_text(const Scene& scene) {
     std::map<std::string, std::size_t> types;
     for (const Object& object : scene.objects) {
@@ -80,7 +78,7 @@ Status run(const InfoArguments& arguments) {
         if (solid.piece == 0) ++types[solid.type];
     text = "\n" + row("solids", count_text(types));
     text += row("regions", std::to_string(renderer.regions().size()));
-    text += row("bounds", point(renderer.bounds().low) + " to " + point(renderer.bounds().high) + " mm");
+    text += row("bounds", bounds_text(renderer, true, decimal));
     char compile[32];
     std::snprintf(compile, sizeof compile, "%.3g ms", renderer.statistics().ms.compile);
     text += row("compiled", compile);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,6 +23,8 @@ constexpr std::size_t longest_line = std::size_t{1} << 24;  ///< beyond this it 
 
 LineReader::LineReader(const std::string& path, Passes passes)
     : name_(path == "-" ? "standard input" : path), buffer_(first_buffer, '\0') {
+    const bool closed = path == "-" && (fcntl(STDIN_FILENO, F_GETFL) & O_ACCMODE) == O_WRONLY;  // see main.cpp
+    if (closed) fail("cannot read", EBADF);
     file_.reset(path == "-" ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
     if (!file_) fail("cannot read", errno);
     struct stat about {};
@@ -31,7 +34,7 @@ LineReader::LineReader(const std::string& path, Passes passes)
 
 void LineReader::fail(const std::string& what, int code) const {
     check_interrupt();  // a signal may be why
-    throw Error(Status::file, name_ + ": " + what + ": " + std::strerror(code));
+    throw Error(Status::file, name_ + ": " + what + ": " + (code == EBADF ? "it is closed" : std::strerror(code)));
 }
 
 std::size_t LineReader::read(char* into, std::size_t size) {

@@ -1,10 +1,13 @@
 // csgrt: the command. What goes wrong becomes a message and an exit status here.
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "arguments.hpp"
@@ -16,8 +19,7 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr std::size_t most_findings = 50;  ///< printed; more help nobody
-constexpr int defect = 1;                  ///< exit status of what should not happen
+constexpr int defect = 1;  ///< exit status of what should not happen
 
 void print_error(const std::string& text) {
     const char* plain = std::getenv("NO_COLOR");
@@ -31,14 +33,19 @@ int fail(Status status, const std::string& text) {
 }
 
 int fail(const Error& error) {
-    const auto& diagnostics = error.diagnostics();
-    for (std::size_t i = 0; i < diagnostics.size() && i < most_findings; ++i) print_error(format(diagnostics[i]));
-    if (diagnostics.size() > most_findings)
-        print_error(std::to_string(diagnostics.size() - most_findings) + " more errors are not shown");
+    for (const Diagnostic& diagnostic : error.diagnostics()) print_error(format(diagnostic));
     return static_cast<int>(error.status());
 }
 
 constexpr const char* more_memory = "not enough memory: try a smaller --size, fewer objects, or --max-memory";
+
+/// Gives each of the three standard files that is closed one that cannot be used either: else the next file that is opened
+/// would have its number, and be read or written in its place.
+void hold_standard_files() {
+    for (int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(file, F_GETFD) < 0 && errno == EBADF)
+            static_cast<void>(open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
 
 int main_status(const std::vector<std::string>& words) {
     try {
@@ -66,6 +73,7 @@ Status run(const TextArguments& arguments) {
 }  // namespace csgrt::cli
 
 int main(int argc, char** argv) {
+    csgrt::cli::hold_standard_files();
     csgrt::cli::catch_interrupts();
     return csgrt::cli::main_status({argv + (argc > 0), argv + argc});
 }

@@ -128,7 +128,8 @@ void Options::parse_option(const std::vector<std::string>& words, std::size_t& p
             return found(option->name, "a value is missing: " + option->value);
         value = words[++position];
     }
-    if (!option->take(value.value_or(""))) found(option->name, "'" + *value + "' is not " + option->expected);
+    if (!option->take(value.value_or("")))
+        found(option->name, "'" + *value + "' is not " + option->expected, suggestion(*value, option->words));
 }
 
 void Options::parse_arguments(const std::vector<std::string>& words) {

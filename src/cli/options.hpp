@@ -6,6 +6,7 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <csgrt/error.hpp>
@@ -21,6 +22,7 @@ struct Option {
     std::string value;  ///< how help calls its value; empty: a flag, without one
     std::string help;
     std::string expected;                          ///< "'x' is not ..."
+    std::vector<std::string_view> words;           ///< values that it knows by name, to suggest the nearest
     std::function<bool(const std::string&)> take;  ///< false: the value is not what was expected
     bool repeatable = false, required = false, given = false;
     std::string needs, excludes;  ///< names of other options
@@ -72,7 +74,9 @@ public:
         std::string type;
         for (const auto& entry : names) type.append(type.empty() ? "" : "|").append(entry.first);
         auto read = [&names](const std::string& text) { return find_name(names, text); };
-        return value(std::move(name), type, std::move(help), target, read, "one of " + type);
+        Option& option = value(std::move(name), type, std::move(help), target, read, "one of " + type);
+        for (const auto& entry : names) option.words.push_back(entry.first);
+        return option;
     }
 
     Option& text(std::string name, std::string type, std::string help, std::string& target);

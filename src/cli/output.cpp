@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <csgrt/error.hpp>
@@ -18,39 +19,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool special(const fs::path& path) {
-    std::error_code ignored;
-    auto type = fs::status(path, ignored).type();
-    return type != fs::file_type::not_found && type != fs::file_type::regular && type != fs::file_type::directory &&
-           type != fs::file_type::none;
-}
-
-/// The file itself where `path` leads over links, so that a link stays a link.
-fs::path behind_links(const fs::path& path) {
+/// The file itself where the name leads over links.
+fs::path behind_links(const std::string& name) {
     std::error_code error;
-    fs::path real = fs::weakly_canonical(path, error);
+    const fs::path path = fs::absolute(target_of(name).path, error), real = fs::weakly_canonical(path, error);
     return error ? path : real;
 }
 
 bool same_file(const std::string& a, const std::string& b) {
     std::error_code error;
-    if (fs::equivalent(a, b, error) && !error) return !special(a);
-    return behind_links(fs::absolute(a, error)) == behind_links(fs::absolute(b, error));
+    if (fs::equivalent(a, b, error) && !error) return !target_of(a).direct;
+    return behind_links(a) == behind_links(b);
 }
 
 /// Why nothing can be written at `path`, or "".
-std::string obstacle(const NamedFile& output) {
+std::string obstacle(const std::string& name) {
     std::error_code error;
-    fs::path path = behind_links(output.path);
-    if (fs::is_directory(path, error)) return "is a folder";
-    if (special(path)) return output.replaced ? "is no regular file" : "";
-    fs::path folder = fs::absolute(path, error).parent_path();
-    if (!fs::exists(folder, error))
-        return "the folder " + fs::path(output.path).parent_path().string() + " does not exist";
-    if (!fs::is_directory(folder, error)) return fs::path(output.path).parent_path().string() + " is no folder";
+    const Target target = target_of(name);
+    if (target.endless) return "is a link that leads to itself";
+    if (target.descriptor >= 0 && fcntl(target.descriptor, F_GETFD) < 0) return "is not open";
+    if (target.direct) return "";
+    if (fs::is_directory(target.path, error)) return "is a folder";
+    fs::path folder = fs::absolute(target.path, error).parent_path();
+    if (!fs::exists(folder, error)) return "the folder " + target.path.parent_path().string() + " does not exist";
+    if (!fs::is_directory(folder, error)) return target.path.parent_path().string() + " is no folder";
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         return std::string("cannot write in its folder: ") + std::strerror(errno);
-    if (fs::exists(path, error) && access(path.c_str(), W_OK) != 0)
+    if (fs::exists(target.path, error) && access(target.path.c_str(), W_OK) != 0)
         return std::string("cannot replace it: ") + std::strerror(errno);
     return "";
 }
@@ -85,57 +80,43 @@ void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<Name
         if (!message.empty()) {
             status = Status::usage;
             findings.push_back(finding(*output, message));
-        } else if (std::string why = output->path == "-" ? "" : obstacle(*output); !why.empty()) {
+        } else if (std::string why = output->path == "-" ? "" : obstacle(output->path); !why.empty()) {
             findings.push_back(finding(*output, why));
         }
+    }
+    std::vector<std::string> piped;
+    for (const NamedFile& input : inputs)
+        if (input.path == "-") piped.push_back(input.option);
+    if (piped.size() > 1) {
+        status = Status::usage;
+        Diagnostic both;
+        both.place.pointer = piped[1];
+        both.message = "standard input is taken by " + piped[0];
+        both.suggestion = "give one of the two as a file";
+        findings.push_back(std::move(both));
     }
     if (!findings.empty()) throw Error(status, std::move(findings));
 }
 
-OutputFile::OutputFile(const std::string& path) : name_(path == "-" ? "standard output" : path) {
-    if (path == "-") {
-        file_ = stdout;
-        return;
-    }
-    target_ = behind_links(path).string();
-    if (special(target_)) {
-        file_ = std::fopen(target_.c_str(), "wb");
-    } else {
-        // Another name where a process that ended badly, and had our number, left its own.
-        for (int attempt = 0; attempt < 100 && !file_; ++attempt) {
-            temporary_ = target_ + "." + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".part";
-            file_ = std::fopen(temporary_.c_str(), "wbx");
-            if (!file_ && errno != EEXIST) break;
-        }
-    }
-    if (!file_) {
-        temporary_.clear();
-        fail("cannot create");
-    }
-}
-
-OutputFile::~OutputFile() {
-    if (file_ && file_ != stdout) std::fclose(file_);
-    if (!temporary_.empty()) unlink(temporary_.c_str());
-}
-
-void OutputFile::fail(const char* what) const {
-    int code = errno;
-    check_interrupt();  // a signal may be why
-    throw Error(Status::file, name_ + ": " + what + ": " + std::strerror(code));
+OutputFile::OutputFile(const std::string& path) {
+    if (path != "-") file_.emplace(path, check_interrupt);
 }
 
 void OutputFile::write(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail("cannot write");
+    if (file_) return file_->write(text);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail();
 }
 
 void OutputFile::commit() {
-    if (std::fflush(file_) != 0) fail("cannot write");
-    if (file_ == stdout) return;
-    if (std::fclose(std::exchange(file_, nullptr)) != 0) fail("cannot write");
-    if (temporary_.empty()) return;
-    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot replace");
-    temporary_.clear();
+    if (file_) return file_->keep();
+    if (std::fflush(stdout) != 0) fail();
+}
+
+void OutputFile::fail() const {
+    int code = errno;
+    check_interrupt();  // a signal may be why
+    throw Error(Status::file, std::string("standard output: cannot write: ") +
+                                  (code == EBADF ? "it is closed" : std::strerror(code)));
 }
 
 void print(std::string_view text) {

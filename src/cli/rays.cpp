@@ -5,18 +5,12 @@
 
 namespace csgrt::cli {
 
-namespace {
-
-constexpr std::size_t most_findings = 20;  ///< more help nobody
-
-}  // namespace
-
 RayReader::RayReader(const std::string& path) : lines_(path, LineReader::Passes::several) {
     std::string_view line;
     Ray ray;
-    while (findings_.size() < most_findings && lines_.next(line))
+    while (lines_.next(line))
         if (parse(line, ray)) ++count_;
-    if (!findings_.empty()) throw Error(Status::file, std::move(findings_));
+    if (!findings_.empty()) throw Error(Status::file, findings_.take());
     lines_.rewind();
 }
 
@@ -40,29 +34,27 @@ bool RayReader::parse(std::string_view line, Ray& ray) {
     for (std::size_t i = 0; i < std::size(numbers); ++i) {
         if (i == words_.size()) {
             int end = words_.back().column + static_cast<int>(words_.back().text.size());
-            findings_.push_back(lines_.finding(end, std::string(names[i]) + " is missing", form));
+            findings_.add(lines_.finding(end, std::string(names[i]) + " is missing", form));
             return false;
         }
         auto number = parse_number(words_[i].text);
         if (!number) {
-            std::string message =
-                std::string(names[i]) + ": '" + std::string(words_[i].text) + "' is not a finite number";
-            findings_.push_back(lines_.finding(words_[i].column, message, form));
+            findings_.add(lines_.finding(words_[i].column, std::string(names[i]) + ": " + number_fault(words_[i].text), form));
             return false;
         }
         *numbers[i] = *number;
     }
     if (words_.size() > std::size(numbers)) {
-        findings_.push_back(lines_.finding(words_[std::size(numbers)].column, "more than six numbers", form));
+        findings_.add(lines_.finding(words_[std::size(numbers)].column, "more than six numbers", form));
         return false;
     }
     if (ray.direction == Vec3{}) {
-        findings_.push_back(lines_.finding(words_[3].column, "the direction is 0 0 0", "a ray needs a direction"));
+        findings_.add(lines_.finding(words_[3].column, "the direction is 0 0 0", "a ray needs a direction"));
         return false;
     }
     bool in_direction = false;
     if (const std::string fault = ray_fault(ray.origin, ray.direction, in_direction); !fault.empty()) {
-        findings_.push_back(lines_.finding(words_[in_direction ? 3 : 0].column, fault, form));
+        findings_.add(lines_.finding(words_[in_direction ? 3 : 0].column, fault, form));
         return false;
     }
     return true;

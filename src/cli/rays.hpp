@@ -8,13 +8,14 @@
 #include <csgrt/renderer.hpp>
 
 #include "lines.hpp"
+#include "scene/finding_list.hpp"
 
 namespace csgrt::cli {
 
 class RayReader {
 public:
     /// Reads all rays once, to count and check them. "-" is standard input.
-    /// Throws Error (file) if it cannot be read, or with every wrong line (up to a limit).
+    /// Throws Error (file) if it cannot be read, or with the wrong lines, and how many more there are.
     explicit RayReader(const std::string& path);
 
     std::uint64_t count() const { return count_; }
@@ -27,7 +28,7 @@ private:
 
     LineReader lines_;
     std::vector<Word> words_;
-    std::vector<Diagnostic> findings_;
+    FindingList findings_;
     std::uint64_t count_ = 0;
 };
 

@@ -35,6 +35,11 @@ std::string extension_of(const std::string& path) {
     for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
     return extension;
 }
+
+bool names_format(const std::string& path) { return extension_of(path) == ".exr" || extension_of(path) == ".png"; }
+
+/// Standard output, a device or a pipe, whose name does not say which picture is meant.
+bool has_no_format(const std::string& path) { return path == "-" || (!names_format(path) && target_of(path).direct); }
 #endif
 
 /// Options that say the same thing twice, or two things.
@@ -62,12 +67,13 @@ void check(const RenderArguments& arguments) {
         refuse("", "nothing to write",
                "name a picture with -o FILE.exr or -o FILE.png, or ask for figures with --stats -");
     std::vector<NamedFile> outputs;
-    bool to_standard_output = false;
+    [[maybe_unused]] bool needs_format = false, to_standard_output = false;
     for (const std::string& path : arguments.outputs) {
-        outputs.push_back({"--output", path, true});
+        outputs.push_back({"--output", path});
         to_standard_output |= path == "-";
 #ifdef CSGRT_HAVE_IMAGE
-        if (path != "-" && extension_of(path) != ".exr" && extension_of(path) != ".png")
+        needs_format |= has_no_format(path);
+        if (!names_format(path) && !has_no_format(path))
             refuse("--output", "'" + path + "' is no picture's name",
                    "FILE.exr holds every channel, FILE.png the colours");
 #else
@@ -75,8 +81,8 @@ void check(const RenderArguments& arguments) {
                "--stats works without it");
 #endif
     }
-    if (!arguments.format.empty() && !to_standard_output)
-        refuse("--format", "has a meaning only with -o -", "a file's name says its format");
+    if (!arguments.format.empty() && !needs_format)
+        refuse("--format", "has a meaning only with -o -, a device or a pipe", "a file's name says its format");
     if (to_standard_output && isatty(STDOUT_FILENO) == 1)
         refuse("--output", "a terminal cannot show a picture", "redirect standard output, or name a file with -o");
     if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
@@ -109,9 +115,9 @@ Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
 
 #ifdef CSGRT_HAVE_IMAGE
 /// The command that makes this picture: only what decides its pixels, so that it is the same wherever it was made.
-std::string canonical_command(const Scene& scene, const RenderArguments& arguments, const Camera& camera,
+std::string canonical_command(const RenderArguments& arguments, const Camera& camera,
                               double tolerance) {
-    std::string text = "csgrt " + model_text(scene, arguments) + " --size " + std::to_string(arguments.width) + "x" +
+    std::string text = "csgrt " + model_text(arguments) + " --size " + std::to_string(arguments.width) + "x" +
                        std::to_string(arguments.height);
     auto option = [&text](const char* name, double value) {
         text += std::string(" ") + name + " ";
@@ -153,7 +159,7 @@ bool only_colors(const RenderArguments& arguments) {
 #ifdef CSGRT_HAVE_IMAGE
     return !arguments.outputs.empty() && arguments.stats.empty() &&
            std::all_of(arguments.outputs.begin(), arguments.outputs.end(), [&](const std::string& path) {
-               return path == "-" ? arguments.format == "png" : extension_of(path) == ".png";
+               return has_no_format(path) ? arguments.format == "png" : extension_of(path) == ".png";
            });
 #else
     static_cast<void>(arguments);
@@ -179,6 +185,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
         check_interrupt();
     }
     image = framebuffer.take();
+    renderer.name_pixels(image);
     return median_of(frames);
 }
 
@@ -199,7 +206,7 @@ Status run(const RenderArguments& arguments) {
     Statistics statistics = render_frames(scene, arguments, view, image);
     statistics.ms.load = load;
 #ifdef CSGRT_HAVE_IMAGE
-    image.attributes["csgrt:command"] = canonical_command(scene, arguments, view.camera, statistics.tolerance);
+    image.attributes["csgrt:command"] = canonical_command(arguments, view.camera, statistics.tolerance);
     begin = Clock::now();
     for (const std::string& path : arguments.outputs) {
         write_image(image, path, arguments.format.empty() ? "exr" : arguments.format);

@@ -1,6 +1,7 @@
 #include "scene_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <unordered_map>
 #include <unordered_set>
@@ -108,13 +109,32 @@ private:
 
 }  // namespace
 
-std::string model_text(const Scene& scene, const SceneArguments& arguments) {
+std::string model_text(const SceneArguments& arguments) {
     std::string text;
     append_name(text, std::filesystem::path(arguments.scene).filename().string());
-    for (const std::string& object : arguments.objects.empty() ? top_objects(scene) : arguments.objects) {
+    for (const std::string& object : arguments.objects) {
         text += ' ';
         append_name(text, object);
     }
+    return text;
+}
+
+std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*number)(double)) {
+    std::size_t unbounded = 0;
+    for (const RegionInfo& region : renderer.regions()) {
+        const Vec3 &low = region.bounds.low, &high = region.bounds.high;
+        const bool empty = !(low.x <= high.x && low.y <= high.y && low.z <= high.z);
+        const double sum = std::abs(low.x) + std::abs(low.y) + std::abs(low.z) + std::abs(high.x) + std::abs(high.y) +
+                           std::abs(high.z);
+        if (!empty && !std::isfinite(sum)) ++unbounded;
+    }
+    const Vec3 &low = renderer.bounds().low, &high = renderer.bounds().high;
+    if (!(low.x <= high.x)) return unbounded > 0 ? "unbounded" : "empty";
+    const auto point = [&](const Vec3& v) { return number(v.x) + " " + number(v.y) + " " + number(v.z); };
+    if (!in_words) return point(low) + " " + point(high);
+    std::string text = point(low) + " to " + point(high) + " mm";
+    if (unbounded > 0)
+        text += ", and " + std::to_string(unbounded) + (unbounded == 1 ? " unbounded region" : " unbounded regions");
     return text;
 }
 

@@ -1,8 +1,6 @@
 // csgrt shoot: the partitions along given rays, a chunk at a time, so that any number of rays fits the memory.
 #include <unistd.h>
 
-#include <csgrt/scene_io.hpp>
-
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
@@ -17,19 +15,18 @@ namespace {
 
 constexpr std::size_t chunk = 65'536;  ///< rays; enough to fill a device, and some 100 MB of answers in deep scenes
 
-std::string header(const ShootArguments& arguments, const Scene& scene, const Renderer& renderer, std::uint64_t rays) {
-    std::string text = std::string("# csgrt ") + version() + " model " + model_text(scene, arguments) + "\n# rays " +
+std::string header(const ShootArguments& arguments, const Renderer& renderer, std::uint64_t rays) {
+    std::string text = std::string("# csgrt ") + version() + " model " + model_text(arguments) + "\n# rays " +
                        std::to_string(rays) + " solids " + std::to_string(renderer.solids().size()) + " regions " +
                        std::to_string(renderer.regions().size()) + " useair " + (arguments.settings.air ? "1" : "0") +
                        " tol.dist ";
     append_shortest(text, renderer.statistics().tolerance);
-    text += "\n# box";
-    const Box& box = renderer.bounds();
-    for (double value : {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z}) {
-        text += ' ';
-        append_shortest(text, value);
-    }
-    return text + "\n";
+    const auto number = [](double value) {
+        std::string digits;
+        append_shortest(digits, value);
+        return digits;
+    };
+    return text + "\n# box " + bounds_text(renderer, false, number) + "\n";
 }
 
 }  // namespace
@@ -39,7 +36,7 @@ Status run(const ShootArguments& arguments) {
     Progress progress(arguments.output != "-" || isatty(STDOUT_FILENO) != 1);
     progress.stage("loading");
     if (!arguments.settings.reference) prepare_devices();
-    Scene scene = load_scene(arguments.scene, arguments.strict);
+    Scene scene = load(arguments.scene, arguments.strict);
     progress.stage("reading rays");
     RayReader reader(arguments.rays);
     progress.stage("compiling");
@@ -48,7 +45,7 @@ Status run(const ShootArguments& arguments) {
     check_interrupt();
 
     OutputFile out(arguments.output);
-    out.write(header(arguments, scene, renderer, reader.count()));
+    out.write(header(arguments, renderer, reader.count()));
     PartitionWriter writer(renderer);
     progress.stage("shooting");
     std::vector<Ray> rays;

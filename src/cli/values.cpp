@@ -5,26 +5,25 @@
 #include <cmath>
 #include <limits>
 
+#include "decimal.hpp"
 #include "scene/nearest.hpp"
 
 namespace csgrt::cli {
 
 namespace {
 
-template <class Number>
-std::optional<Number> parse_whole(std::string_view text) {
-    Number value{};
-    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string_view without_blanks(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-    auto value = parse_whole<double>(text);
-    return value && std::isfinite(*value) ? value : std::nullopt;
+    double value = 0;
+    return read_decimal(text, value) == Decimal::number ? std::optional(value) : std::nullopt;
 }
 
 std::optional<Vec3> parse_vector(std::string_view text) {
@@ -40,30 +39,59 @@ std::optional<Vec3> parse_vector(std::string_view text) {
     return Vec3{numbers[0], numbers[1], numbers[2]};
 }
 
-std::optional<std::uint64_t> parse_count(std::string_view text) { return parse_whole<std::uint64_t>(text); }
+std::string number_fault(std::string_view text) {
+    double value = 0;
+    return decimal_fault(read_decimal(text, value), std::string(text));
+}
+
+std::optional<std::uint64_t> parse_count(std::string_view text) {
+    std::uint64_t value = 0;
+    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
 
 std::optional<std::pair<int, int>> parse_size(std::string_view text) {
-    auto cross = text.find('x');
-    auto width = parse_count(text.substr(0, cross));
-    auto height = cross == text.npos ? width : parse_count(text.substr(cross + 1));
+    constexpr std::string_view sign = "\xC3\x97";  // of multiplication
+    const std::size_t cross = std::min(text.find_first_of("xX*"), text.find(sign));
+    const std::size_t length = text.substr(std::min(cross, text.size())).starts_with(sign) ? sign.size() : 1;
+    auto width = parse_count(without_blanks(text.substr(0, cross)));
+    auto height = cross == text.npos ? width : parse_count(without_blanks(text.substr(cross + length)));
     auto fits = [](const std::optional<std::uint64_t>& side) { return side && *side >= 1 && *side <= max_side; };
     if (!fits(width) || !fits(height)) return std::nullopt;
     return std::pair{static_cast<int>(*width), static_cast<int>(*height)};
 }
 
 std::optional<std::uint64_t> parse_memory(std::string_view text) {
-    constexpr std::string_view suffixes = "KMGT";
+    constexpr std::string_view prefixes = "kmgt";
     int shift = 0;
+    text = without_blanks(text);
+    if (!text.empty() && lower(text.back()) == 'b') {
+        text.remove_suffix(1);
+        if (text.size() > 1 && text.back() == 'i' && prefixes.find(lower(text[text.size() - 2])) != prefixes.npos)
+            text.remove_suffix(1);
+    }
     if (!text.empty()) {
-        auto suffix = suffixes.find(text.back());
-        if (suffix != suffixes.npos) {
-            shift = 10 * static_cast<int>(suffix + 1);
+        auto prefix = prefixes.find(lower(text.back()));
+        if (prefix != prefixes.npos) {
+            shift = 10 * static_cast<int>(prefix + 1);
             text.remove_suffix(1);
         }
     }
-    auto count = parse_count(text);
-    if (!count || *count == 0 || *count > std::numeric_limits<std::uint64_t>::max() >> shift) return std::nullopt;
-    return *count << shift;
+    text = without_blanks(text);
+    if (auto count = parse_count(text)) {
+        if (*count == 0 || *count > std::numeric_limits<std::uint64_t>::max() >> shift) return std::nullopt;
+        return *count << shift;
+    }
+    // A fraction of a unit, as 1.5G.
+    constexpr double most = 1e18;
+    const auto fraction = text.find('.') != text.npos && shift > 0 ? parse_number(text) : std::nullopt;
+    const double bytes = fraction ? std::ldexp(*fraction, shift) : 0;
+    return bytes >= 1 && bytes <= most ? std::optional(static_cast<std::uint64_t>(bytes)) : std::nullopt;
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& names) {

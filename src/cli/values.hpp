@@ -14,8 +14,11 @@ namespace csgrt::cli {
 
 inline constexpr int max_side = 32'768;  ///< pixels; more than a billion rays are a mistake rather than a wish
 
-/// A finite number, the whole of `text`; a leading plus is fine.
+/// A finite number, the whole of `text`; a leading plus is fine. See decimal.hpp.
 std::optional<double> parse_number(std::string_view text);
+
+/// What keeps `text` from being such a number.
+std::string number_fault(std::string_view text);
 
 /// "X,Y,Z": three finite numbers.
 std::optional<Vec3> parse_vector(std::string_view text);
@@ -23,17 +26,20 @@ std::optional<Vec3> parse_vector(std::string_view text);
 /// A decimal whole number, the whole of `text`.
 std::optional<std::uint64_t> parse_count(std::string_view text);
 
-/// "1024" or "1920x1080", each side from 1 to max_side.
+/// "1024" or "1920x1080", each side from 1 to max_side; X, * and the sign of multiplication are fine, and blanks.
 std::optional<std::pair<int, int>> parse_size(std::string_view text);
 
-/// Bytes: a whole number, with K, M, G or T for powers of 1024; at least 1.
+/// Bytes: a number, with K, M, G or T for powers of 1024, as "512M", "512 MiB" or "1.5gb"; at least 1.
 std::optional<std::uint64_t> parse_memory(std::string_view text);
 
-/// The value that `text` names in a table of pairs.
+/// Whether the two are the same but for upper and lower case.
+bool same_word(std::string_view a, std::string_view b);
+
+/// The value that `text` names in a table of pairs, in upper or lower case.
 template <class Value, std::size_t count>
 std::optional<Value> find_name(const std::pair<std::string_view, Value> (&names)[count], std::string_view text) {
     for (const auto& [name, value] : names)
-        if (name == text) return value;
+        if (same_word(name, text)) return value;
     return std::nullopt;
 }
 

@@ -1,8 +1,6 @@
 // csgrt verify: a sample of rays judged by 113-bit answers, some thousand at a time.
 #include <algorithm>
 
-#include <csgrt/scene_io.hpp>
-
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
@@ -28,7 +26,7 @@ Status run(const VerifyArguments& arguments) {
         Progress progress;
         progress.stage("loading");
         if (!arguments.settings.reference) prepare_devices();
-        Scene scene = load_scene(arguments.scene, arguments.strict);
+        Scene scene = load(arguments.scene, arguments.strict);
         std::optional<RayReader> reader;
         if (!arguments.rays.empty()) {
             progress.stage("reading rays");

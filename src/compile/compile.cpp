@@ -24,6 +24,7 @@
 #include "compile/terms.hpp"
 #include "formats/source.hpp"
 #include "parallel.hpp"
+#include "scene/excerpt.hpp"
 #include "scene/validate.hpp"
 
 namespace csgrt {
@@ -110,12 +111,13 @@ bool leave_out_extremes(const Scene& scene, const FlatScene& flat, const Measure
         }
         return true;
     }
-    std::vector<Diagnostic> findings;
-    for (std::size_t i = 0; i < std::min(faults.size(), Findings::limit); ++i) {
-        const Object& object = scene.objects[faults[i].object];
-        findings.push_back({place_of(object), "solid '" + name_of(object) + "' " + faults[i].text, {}, {}});
+    FindingList findings;
+    for (const auto& [index, text] : faults) {
+        const Object& object = scene.objects[index];
+        findings.add({place_of(object), "solid '" + name_of(object) + "' " + text, {}, {}});
     }
-    throw Error(Status::scene, std::move(findings));
+    for (Diagnostic& diagnostic : findings.shown()) diagnostic.excerpt = excerpt(diagnostic.place);
+    throw Error(Status::scene, findings.take());
 }
 
 /// Warnings about one object that say the same become one, at the first of them.
@@ -137,13 +139,13 @@ void join_equal(std::vector<Warning>& warnings) {
 std::vector<Diagnostic> nothing_to_render(std::vector<Warning>& warnings) {
     join_equal(warnings);
     std::vector<Diagnostic> diagnostics{{{}, "there is nothing to render", {}, {}}};
-    for (std::size_t i = 0; i < std::min(warnings.size(), Findings::limit); ++i) {
+    for (std::size_t i = 0; i < std::min(warnings.size(), FindingList::most); ++i) {
         Place place = warnings[i].place;
         place.pointer = warnings[i].object;
         diagnostics.push_back({std::move(place), warnings[i].reason, {}, {}});
     }
-    if (warnings.size() > Findings::limit)
-        diagnostics.push_back({{}, "and " + std::to_string(warnings.size() - Findings::limit) + " more warnings", {}, {}});
+    if (warnings.size() > FindingList::most)
+        diagnostics.push_back({{}, "and " + std::to_string(warnings.size() - FindingList::most) + " more warnings", {}, {}});
     return diagnostics;
 }
 

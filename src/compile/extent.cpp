@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "compile/linear.hpp"
 #include "scene/range.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -26,7 +26,8 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
     const double far = std::max(largest(box.low), largest(box.high));
     if (!(far <= most) && !(is_open && std::isinf(far)))
         return "reaches to " + rounded_text(far) + " mm from the origin where it stands; " + length_limit();
-    const double size = diagonal(box);
+    const Vec3 sides = box.high - box.low;
+    const double size = std::hypot(sides.x, sides.y, sides.z);  // the squares of what is too small may be 0
     if (size >= Limits::least_length) return {};
     return "is " + rounded_text(size) + " mm large where it stands; the least size is " +
            number_text(Limits::least_length) + " mm";

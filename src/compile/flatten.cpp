@@ -11,8 +11,8 @@
 #include "compile/linearize.hpp"
 #include "compile/regions.hpp"
 #include "fetch.hpp"
-#include "formats/source.hpp"
 #include "parallel.hpp"
+#include "scene/finding_list.hpp"
 
 namespace csgrt {
 
@@ -238,18 +238,17 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
 
     // What there is to tell.
     std::vector<std::string> empty_regions;
-    std::vector<Diagnostic> findings;
+    FindingList findings;
     const auto warn = [&](std::string object, const Place& place, std::string reason) {
         result.warnings.push_back({std::move(object), place, std::move(reason), 1});
     };
     const auto contains_space = [&](const char* what, const std::string& name, const Place& place) {
         if (scene.lenient)
             return warn(name, place, std::string("left out: the ") + what + " contains the empty space where no solid is");
-        if (findings.size() == Findings::limit) return;
-        findings.push_back({place,
-                            std::string(what) + " " + name + " contains the empty space where no solid is",
-                            "intersect the complement with something that bounds it",
-                            {}});
+        findings.add({place,
+                      std::string(what) + " " + name + " contains the empty space where no solid is",
+                      "intersect the complement with something that bounds it",
+                      {}});
     };
     std::size_t term = 0;
     auto next = joiner.no_regions().begin();
@@ -271,7 +270,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
             warn(name, {}, "the object holds no solid");
         term = end;
     }
-    if (!findings.empty()) throw Error(Status::scene, std::move(findings));
+    if (!findings.empty()) throw Error(Status::scene, findings.take());
     if (const std::vector<std::string> fastgen = fastgen_regions(result); !fastgen.empty())
         warn({}, {}, counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
                          ": plain regions are before plates, plates before volumes, then the first in the model; "

@@ -58,7 +58,9 @@ void add_region_lights(FlatScene& flat, const std::vector<Box>& boxes, CompiledS
         region.brightness = light->fraction > 0 ? light->fraction : intensity_of(*light) / full;
         const Box box = tree_box(region.tree, boxes);
         if (is_empty(box) || !is_finite(box)) {
-            compiled.warnings.push_back({region.info.path, {}, "it gives no light: it has no end"});
+            Warning& warning = compiled.warnings.emplace_back();
+            warning.object = region.info.path;
+            warning.reason = "it gives no light: it has no end";
             continue;
         }
         Light found;

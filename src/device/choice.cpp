@@ -9,6 +9,7 @@
 
 #include "device/cache_folder.hpp"
 #include "device/opencl.hpp"
+#include "scene/nearest.hpp"
 
 namespace csgrt {
 
@@ -66,7 +67,23 @@ void ensure_cache_folder_once() {
     std::call_once(once, ensure_cache_folder);
 }
 
-[[noreturn]] void refuse(const std::vector<DeviceInfo>& devices, const std::string& why) {
+/// What --device may have meant: a type, a device's or a platform's name, or a word of one.
+std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+    std::vector<std::string> known = {"accelerator", "cpu", "gpu", "gpus"};
+    for (const DeviceInfo& device : devices) {
+        for (const std::string& name : {device.name, device.platform}) {
+            known.push_back(name);
+            std::string blanks = name;
+            for (char& c : blanks) c = std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
+            std::istringstream words(blanks);
+            for (std::string word; words >> word;)
+                if (word.size() > 2) known.push_back(word);
+        }
+    }
+    return did_you_mean(wanted, {known.begin(), known.end()});
+}
+
+[[noreturn]] void refuse(const std::vector<DeviceInfo>& devices, const std::string& why, const std::string& wanted = {}) {
     std::string list;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         list += (i ? "\n" : "") + std::to_string(i) + ": " + devices[i].name + " (" + devices[i].type + ", " +
@@ -79,6 +96,8 @@ void ensure_cache_folder_once() {
             ? "Install an OpenCL driver: on Debian and Ubuntu the package pocl-opencl-icd brings one that runs on the "
               "processor. Or render with the CPU reference."
             : "There is:\n" + list;
+    if (const std::string near = wanted.empty() ? "" : nearest_device(devices, wanted); !near.empty() && !devices.empty())
+        finding.suggestion = near + "\n" + finding.suggestion;
     throw Error(Status::no_device, std::vector<Diagnostic>{finding});
 }
 
@@ -143,7 +162,8 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     if (first < devices.size()) return first;
     const std::string which = choice.empty() ? "" : by_type ? " of the type " + wanted : " has \"" + choice + "\" in its name";
     refuse(devices, without_fp64 ? "no OpenCL device" + which + (choice.empty() || by_type ? " has" : " and") + " double precision"
-                                 : "no OpenCL device" + which + (by_type ? " was found" : ""));
+                                 : "no OpenCL device" + which + (by_type ? " was found" : ""),
+           by_type || without_fp64 ? "" : choice);
 }
 
 std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, const std::string& choice) {

@@ -82,7 +82,7 @@ public:
           objects_(findings_) {}
 
     Scene read() {
-        while (!lines_.at_end() && !findings_.full()) {
+        while (!lines_.at_end()) {
             object_.clear();
             const Line line = lines_.take();
             try {

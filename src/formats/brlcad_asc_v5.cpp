@@ -7,6 +7,7 @@
 //     attr set {name} {key} {value} ...       what else belongs to an object, or to _GLOBAL, the database
 //
 // Lengths are millimetres; the unit is for display.
+#include <algorithm>
 #include <span>
 #include <unordered_set>
 #include <utility>
@@ -25,6 +26,9 @@ namespace csgrt {
 
 namespace {
 
+/// Bytes. A brace that is never closed is looked for to the end of the file, and reading goes on behind it.
+constexpr std::size_t most_read_again = std::size_t{1} << 28;
+
 class V5Reader {
 public:
     V5Reader(const TextSource& source, bool lenient)
@@ -35,7 +39,7 @@ public:
           objects_(findings_) {}
 
     Scene read() {
-        while (!findings_.full()) {
+        while (read_again_ < most_read_again) {
             object_.clear();
             store_.clear();
             try {
@@ -47,7 +51,9 @@ public:
                     broken_.insert(object_);
                 }
                 findings_.add(std::move(fault), object_);
+                const std::size_t reached = commands_.offset();
                 commands_.skip_to({"put", "attr", "color", "title", "units"});
+                read_again_ += reached - std::min(reached, commands_.offset());
                 continue;
             }
             try {
@@ -56,6 +62,7 @@ public:
                 bear(std::move(fault));
             }
         }
+        if (read_again_ >= most_read_again) findings_.stop();
         findings_.throw_if_any();
         scene_.objects = objects_.take(source_.name());
         warn_of_shaders(scene_);
@@ -186,6 +193,7 @@ private:
     const TextSource& source_;
     Scene scene_;
     Findings findings_;
+    std::size_t read_again_ = 0;
     TclStore store_;
     TclReader commands_;
     std::vector<TclWord> words_;

@@ -52,7 +52,7 @@ public:
 
 private:
     void read_objects(std::size_t size) {
-        for (std::size_t at = 0; at < size && !findings_.full();) {
+        for (std::size_t at = 0; at < size;) {
             GObject object;
             try {
                 read_g_object(source_, at, object);
@@ -150,6 +150,12 @@ Scene read_brlcad_g(const std::string& path, bool lenient) {
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, path + ": the model does not fit the memory");
     }
+}
+
+bool is_brlcad_g(std::string_view bytes) {
+    constexpr char begin = 0x76;
+    constexpr unsigned kind = 3, header = 1;  // bits of the second byte
+    return is_release_4(bytes) || (bytes.size() > 1 && bytes[0] == begin && (static_cast<unsigned>(bytes[1]) & kind) == header);
 }
 
 Scene parse_brlcad_g(const ByteSource& source, bool lenient) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <csgrt/scene.hpp>
 
@@ -13,6 +14,9 @@ class ByteSource;
 /// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
 /// `lenient`: see load_scene.
 Scene read_brlcad_g(const std::string& path, bool lenient = false);
+
+/// Whether these bytes begin a binary database, of release 5 or 4.
+bool is_brlcad_g(std::string_view bytes);
 
 /// The same for a database in memory.
 Scene parse_brlcad_g(const ByteSource& source, bool lenient = false);

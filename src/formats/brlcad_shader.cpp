@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -10,6 +9,8 @@
 #include <utility>
 
 #include "formats/brlcad_values.hpp"
+
+#include "decimal.hpp"
 
 namespace csgrt {
 
@@ -69,9 +70,7 @@ std::string_view next_member(std::string_view& stack) {
 
 std::optional<double> number(std::string_view token) {
     double value = 0;
-    const auto [end, status] = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (status != std::errc() || end != token.data() + token.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
+    return read_decimal(token, value) == Decimal::number ? std::optional(value) : std::nullopt;
 }
 
 /// The four shaders of BRL-CAD's Phong model, with the defaults of its liboptical; nullopt for all others.

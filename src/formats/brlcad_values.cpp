@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "decimal.hpp"
 #include "formats/text_source.hpp"
 
 namespace csgrt {
@@ -29,13 +30,6 @@ constexpr double unit_gap = 1e-9;
 /// model smaller than 1e6 metres they move a point by less than a part in a thousand.
 constexpr double perspective_noise = 1e-12;
 
-/// Numbers too small for a double read as zero; from_chars calls them out of range, as it does those too large.
-bool underflows(std::string_view digits) {
-    const std::size_t exponent = digits.find_first_of("eE");
-    if (exponent != std::string_view::npos) return exponent + 1 < digits.size() && digits[exponent + 1] == '-';
-    return digits.find_first_of("123456789") > digits.find('.');
-}
-
 }  // namespace
 
 std::string quoted(std::string_view text, std::size_t longest) {
@@ -45,18 +39,11 @@ std::string quoted(std::string_view text, std::size_t longest) {
 }
 
 double read_number(std::string_view text, std::size_t offset) {
-    const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-    const std::string_view digits = text.substr(plus ? 1 : 0);
     double value = 0;
-    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (end != digits.data() + digits.size() || status == std::errc::invalid_argument) {
-        throw Fault{offset, quoted(text) + " is not a number", {}};
-    }
-    if (status == std::errc::result_out_of_range) {
-        if (underflows(digits)) return 0;
-        throw Fault{offset, quoted(text) + " is too large for a double", {}};
-    }
-    if (!std::isfinite(value)) throw Fault{offset, quoted(text) + " is not a finite number", {}};
+    const Decimal found = read_decimal(text, value);
+    if (found == Decimal::too_large) throw Fault{offset, decimal_fault(found, std::string(text.substr(0, 40))), {}};
+    if (found == Decimal::no_number) throw Fault{offset, quoted(text) + " is not a number", {}};
+    if (found == Decimal::not_finite) throw Fault{offset, quoted(text) + " is not a finite number", {}};
     return value;
 }
 

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <new>
+#include <utility>
 
 #include <unistd.h>
 
 #include "formats/brlcad_asc.hpp"
 #include "formats/brlcad_g.hpp"
+#include "formats/brlcad_g_bytes.hpp"
 #include "formats/json_reader.hpp"
 #include "formats/json_writer.hpp"
 #include "formats/mended.hpp"
 #include "formats/view_script.hpp"
+#include "formats/text_source.hpp"
+#include "new_file.hpp"
 
 namespace csgrt {
 
@@ -37,69 +40,47 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-/// Writes all of it or says why not, as an errno.
-int write_all(std::FILE* file, const std::string& text) {
-    errno = 0;
-    const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
-    return written ? 0 : errno;
-}
-
-/// Beside its place under a name of its own, then renamed: whoever looks finds the old file or the new one, whole.
-void replace_file(const std::string& path, const std::string& text) {
-    std::error_code ignored;
-    fs::path target = fs::canonical(path, ignored);  // a link stays, and what it leads to is replaced
-    if (ignored) target = path;
-    const std::string temporary = target.string() + "." + std::to_string(getpid()) + ".part";
-    std::FILE* file = std::fopen(temporary.c_str(), "wbx");
-    if (file == nullptr) refuse(path, std::string("cannot be created: ") + std::strerror(errno));
-    int failed = write_all(file, text);
-    if (std::fclose(file) != 0 && failed == 0) failed = errno;
-    if (failed == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) failed = errno;
-    if (failed == 0) return;
-    std::remove(temporary.c_str());
-    refuse(path, std::string("cannot be written: ") + std::strerror(failed));
-}
-
-/// Devices and pipes, which nothing can be renamed onto.
-bool is_special(const std::string& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
-}
-
-void write_through(const std::string& path, const std::string& text) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
-    int failed = write_all(file, text);
-    if (std::fclose(file) != 0 && failed == 0) failed = errno;
-    if (failed != 0) refuse(path, std::string("cannot be written: ") + std::strerror(failed));
-}
-
 }  // namespace
 
 Scene load_scene(const std::string& path, bool strict) {
+    if (path == "-") return parse_scene(read_standard_input(), standard_input, strict);
     const std::string extension = extension_of(path);
     if (extension == ".json") return read_json(path);
     if (extension == ".asc") return read_brlcad_asc(path, !strict);
     if (extension == ".g") return read_brlcad_g(path, !strict);
+    if (target_of(path).direct) return parse_scene(read_file(path), path, strict);
     refuse(path, "this is no scene by its name", "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
+}
+
+Scene parse_scene(std::string bytes, const std::string& name, bool strict) {
+    try {
+        if (bytes.starts_with("\x1f\x8b")) refuse(name, "this is compressed", "gunzip it first");
+        if (is_brlcad_g(bytes)) return parse_brlcad_g(ByteSource(name, std::move(bytes)), !strict);
+        const std::size_t begin = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+        const std::size_t first = bytes.find_first_not_of(" \t\r\n", begin);
+        const bool is_json = first != std::string::npos && bytes[first] == '{';
+        const TextSource source(name, std::move(bytes));
+        return is_json ? parse_json_scene(source) : parse_brlcad_asc(source, !strict);
+    } catch (const std::bad_alloc&) {
+        throw Error(Status::out_of_memory, name + ": the model does not fit the memory");
+    }
 }
 
 Camera load_view(const std::string& path) { return parse_view_script(TextSource::read(path)); }
 
 void save_scene(const Scene& scene, const std::string& path) {
-    if (path != "-" && extension_of(path) != ".json" && !is_special(path)) {
+    if (path != "-" && extension_of(path) != ".json" && !target_of(path).direct) {
         refuse(path, "scenes are written as .json", "give the file a name that ends in .json");
     }
     const std::string text = json_scene_text(scene.lenient ? mended(scene) : scene);  // JSON is strict
     if (path == "-") {
-        if (const int failed = write_all(stdout, text); failed != 0) {
-            refuse("standard output", std::string("cannot be written: ") + std::strerror(failed));
-        }
-    } else if (is_special(path)) {
-        write_through(path, text);
-    } else {
-        replace_file(path, text);
+        std::fflush(stdout);
+        NewFile::write_to(STDOUT_FILENO, text, "standard output");
+        return;
     }
+    NewFile file(path);
+    file.write(text);
+    file.keep();
 }
 
 }  // namespace csgrt

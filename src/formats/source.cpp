@@ -6,8 +6,10 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <tuple>
 #include <utility>
+#include <vector>
+
+#include "scene/nearest.hpp"
 
 namespace csgrt {
 
@@ -23,31 +25,60 @@ namespace {
 
 }  // namespace
 
+namespace {
+
+/// The file of this folder that was probably meant.
+std::string nearest_file(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    constexpr std::size_t most = 10'000;
+    std::vector<std::string> names;
+    std::error_code error;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator() && names.size() < most; entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    std::sort(names.begin(), names.end());
+    return did_you_mean(path.filename().string(), {names.begin(), names.end()});
+}
+
+std::string read_all(std::FILE* file, const std::string& name, std::size_t expected) {
+    std::string bytes;
+    if (expected <= max_file_bytes) bytes.reserve(expected);
+    char chunk[1 << 16];
+    while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file)) {
+        if (bytes.size() + count > max_file_bytes) {
+            refuse(name, "the file is larger than " + std::to_string(max_file_bytes >> 20) + " MiB", "split the model");
+        }
+        bytes.append(chunk, count);
+    }
+    if (std::ferror(file)) {
+        const int code = errno;
+        refuse(name, std::string("cannot be read: ") + (code == EBADF ? "it is closed" : std::strerror(code)));
+    }
+    return bytes;
+}
+
+}  // namespace
+
 std::string read_file(const std::string& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse(path, "this is a folder, not a file");
     errno = 0;
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file) refuse(path, std::string("cannot be opened: ") + std::strerror(errno));
-
-    std::string bytes;
-    const auto known_size = std::filesystem::file_size(path, ignored);
-    if (!ignored && known_size <= max_file_bytes) bytes.reserve(static_cast<std::size_t>(known_size));
-    char chunk[1 << 16];
-    while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file.get())) {
-        if (bytes.size() + count > max_file_bytes) {
-            refuse(path, "the file is larger than " + std::to_string(max_file_bytes >> 20) + " MiB", "split the model");
-        }
-        bytes.append(chunk, count);
+    if (!file) {
+        const int code = errno;
+        refuse(path, std::string("cannot be opened: ") + std::strerror(code), code == ENOENT ? nearest_file(path) : "");
     }
-    if (std::ferror(file.get())) refuse(path, std::string("cannot be read: ") + std::strerror(errno));
-    return bytes;
+    const auto known_size = std::filesystem::file_size(path, ignored);
+    return read_all(file.get(), path, ignored ? 0 : static_cast<std::size_t>(known_size));
 }
 
+std::string read_standard_input() { return read_all(stdin, standard_input, 0); }
+
 void Findings::add(std::size_t offset, std::string object, std::string message, std::string suggestion) {
-    if (full()) return;
-    diagnostics_.push_back({source_.place(offset, std::move(object)), std::move(message), std::move(suggestion),
-                            source_.excerpt(offset)});
+    if (list_.full()) return list_.leave_out();  // without the search for its place
+    list_.add({source_.place(offset, std::move(object)), std::move(message), std::move(suggestion),
+               source_.excerpt(offset)});
 }
 
 void Findings::bear(Fault fault, const std::string& object, const char* done) {
@@ -56,12 +87,9 @@ void Findings::bear(Fault fault, const std::string& object, const char* done) {
 }
 
 void Findings::throw_if_any() {
-    if (diagnostics_.empty()) return;
-    std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-        return std::tie(a.place.line, a.place.column, a.place.offset) <
-               std::tie(b.place.line, b.place.column, b.place.offset);
-    });
-    throw Error(Status::scene, std::exchange(diagnostics_, {}));
+    if (list_.empty()) return;
+    list_.sort_by_place();
+    throw Error(Status::scene, list_.take());
 }
 
 }  // namespace csgrt

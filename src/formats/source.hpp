@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include <csgrt/error.hpp>
+
+#include "scene/finding_list.hpp"
 
 namespace csgrt {
 
@@ -14,6 +15,10 @@ inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
 
 /// The bytes of a file. Throws Error (file) if it cannot be read or is larger than max_file_bytes.
 std::string read_file(const std::string& path);
+
+/// The bytes of standard input, likewise.
+std::string read_standard_input();
+inline constexpr const char* standard_input = "standard input";
 
 /// What a finding needs to know of its file. Offsets are bytes from the file's start.
 class Source {
@@ -40,9 +45,6 @@ inline constexpr const char* passed_over = "passed over";
 /// What is wrong in one file, reported all at once.
 class Findings {
 public:
-    /// More than these help nobody; a reader stops when `full`.
-    static constexpr std::size_t limit = 50;
-
     /// Of a lenient scene, what can be borne goes to `borne`.
     explicit Findings(const Source& source, std::vector<Warning>* borne = nullptr) : source_(source), borne_(borne) {}
 
@@ -54,16 +56,18 @@ public:
     void bear(Fault fault, const std::string& object, const char* done);
     bool is_lenient() const noexcept { return borne_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }
-    bool empty() const noexcept { return diagnostics_.empty(); }
-    bool full() const noexcept { return diagnostics_.size() >= limit; }
+    bool empty() const noexcept { return list_.empty(); }
+    /// The reader gives up: there may be more than it found.
+    void stop() noexcept { list_.stop(); }
 
-    /// Throws Error (scene) with every finding, in the order of the file; does nothing if there is none.
+    /// Throws Error (scene) with the findings, in the order of the file, and how many more there are; does nothing if
+    /// there is none.
     void throw_if_any();
 
 private:
     const Source& source_;
     std::vector<Warning>* borne_;
-    std::vector<Diagnostic> diagnostics_;
+    FindingList list_;
 };
 
 }  // namespace csgrt

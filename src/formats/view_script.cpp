@@ -87,7 +87,7 @@ public:
             if (!mark.empty()) end = std::min(text.find("\n" + std::string(mark.front().text), begin), text.size());
         }
         bool ended = false;
-        while (begin < end && !ended && !findings_.full()) {
+        while (begin < end && !ended) {
             const std::size_t stop = std::min({text.find(';', begin), end});
             const std::vector<Word> words = words_of(text, begin, stop);
             try {

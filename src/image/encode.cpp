@@ -55,8 +55,11 @@ std::vector<unsigned char> quantize(const Image& image, const std::string& name)
     return pixels;
 }
 
-void describe(OIIO::ImageSpec& spec, const Image& image) {
-    for (const auto& [key, text] : image.attributes) spec.attribute(key, text);
+void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
+    for (const auto& [key, text] : image.attributes) {
+        const bool of_numbers = key == "csgrt:regions" || key == "csgrt:solids";  // of channels that a PNG has not
+        if (every_channel || !of_numbers) spec.attribute(key, text);
+    }
     for (const auto& [key, matrix] : image.matrices) {
         const std::vector<float> transposed = transpose(matrix);
         spec.attribute(key, OIIO::TypeMatrix, transposed.data());
@@ -81,7 +84,7 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
         spec.attribute("compression", "zip");
         spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day, and no two files are the same
     }
-    describe(spec, image);
+    describe(spec, image, exr);
 
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput sink(bytes);

@@ -5,12 +5,12 @@
 #include <iterator>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
 #include "parallel.hpp"
 #include "scene/excerpt.hpp"
+#include "scene/finding_list.hpp"
 #include "scene/nearest.hpp"
 #include "scene/object_faults.hpp"
 #include "scene/solid_faults.hpp"
@@ -20,9 +20,6 @@
 namespace csgrt {
 
 namespace {
-
-/// More than these help nobody.
-constexpr std::size_t most_findings = 50;
 
 constexpr std::uint64_t far_too_many = UINT64_MAX;
 
@@ -76,11 +73,7 @@ private:
     };
 
     void add(const Place& place, std::string message, std::string suggestion = {}) {
-        if (found_.size() < most_findings) {
-            found_.push_back({place, std::move(message), std::move(suggestion), {}});
-        } else {
-            ++left_out_;
-        }
+        found_.add({place, std::move(message), std::move(suggestion), {}});
     }
 
     /// Marks the objects without a fault of their own, so that the walk need not look at them. Nearly all have none.
@@ -328,13 +321,9 @@ private:
     }
 
     std::vector<Diagnostic> finish() {
-        std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-            return std::tie(a.place.line, a.place.column, a.place.offset) <
-                   std::tie(b.place.line, b.place.column, b.place.offset);
-        });
-        for (Diagnostic& diagnostic : found_) diagnostic.excerpt = excerpt(diagnostic.place);
-        if (left_out_ > 0) found_.push_back({{}, "and " + std::to_string(left_out_) + " more findings", {}, {}});
-        return std::move(found_);
+        found_.sort_by_place();
+        for (Diagnostic& diagnostic : found_.shown()) diagnostic.excerpt = excerpt(diagnostic.place);
+        return found_.take();
     }
 
     const Scene& scene_;
@@ -342,8 +331,7 @@ private:
     const bool skip_unsupported_;
     std::vector<Reached> objects_;
     std::vector<Frame> path_;
-    std::vector<Diagnostic> found_;
-    std::size_t left_out_ = 0;
+    FindingList found_;
     std::vector<Warning> warnings_;
     std::vector<std::pair<std::size_t, std::uint32_t>> counted_;     ///< warnings, and the objects whose legs they count
     std::unordered_map<std::string, std::size_t> missing_;           ///< names, and their warnings

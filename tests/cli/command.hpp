@@ -79,11 +79,13 @@ struct How {
     std::string input = {};    ///< file to be standard input; empty: nothing
     std::string output = {};   ///< file to be standard output, e.g. /dev/full; empty: kept in Result::out
     rlim_t address_space = 0;  ///< bytes; 0: no limit
+    std::vector<int> closed = {};  ///< standard files that are not open
+    rlim_t file_size = 0;          ///< bytes that a file may have, as if the disk were full; 0: no limit
 };
 
 /// Starts the command in a child; the caller waits for it.
 inline pid_t start(const std::vector<std::string>& arguments, const std::string& input, const std::string& output,
-                   const std::string& errors, rlim_t address_space = 0) {
+                   const std::string& errors, rlim_t address_space = 0, const std::vector<int>& closed = {}, rlim_t file_size = 0) {
     std::string program = command();
     std::vector<std::string> words = arguments;
     std::vector<char*> pointers = {program.data()};
@@ -101,6 +103,10 @@ inline pid_t start(const std::vector<std::string>& arguments, const std::string&
     std::signal(SIGINT, SIG_DFL);  // a script in the background passes it on ignored
     const rlimit limit{address_space, address_space};
     if (address_space > 0 && setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
+    const rlimit size{file_size, file_size};
+    std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
+    if (file_size > 0 && setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(126);
+    for (const int file : closed) close(file);
     execv(program.c_str(), pointers.data());
     _exit(127);
 }
@@ -116,7 +122,7 @@ inline Result run(const std::vector<std::string>& arguments, const How& how = {}
     const std::string out = how.output.empty() ? folder / "out" : how.output, err = folder / "err";
     const std::string input = how.input.empty() ? "/dev/null" : how.input;
     Result result;
-    result.status = wait_for(start(arguments, input, out, err, how.address_space));
+    result.status = wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size));
     if (how.output.empty()) result.out = read_file(out);
     result.err = read_file(err);
     return result;

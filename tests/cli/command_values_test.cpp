@@ -10,8 +10,12 @@ TEST_CASE("sizes") {
     CHECK(parse_size("1024") == std::pair{1024, 1024});
     CHECK(parse_size("1920x1080") == std::pair{1920, 1080});
     CHECK(parse_size("1x32768") == std::pair{1, 32768});
+    for (const char* same : {"640X480", "640 x 480", " 640x480 ", "640*480", "640\xC3\x97""480", "640 \xC3\x97 480"}) {
+        CAPTURE(same);
+        CHECK(parse_size(same) == std::pair{640, 480});
+    }
     for (const char* wrong :
-         {"", "x", "0", "32769", "1x", "x1", "1x2x3", "1 x2", "-1", "+1", "1.5", "0x10", "99999999999"}) {
+         {"", "x", "0", "32769", "1x", "x1", "1x2x3", "1 2", "1xx2", "-1", "+1", "1.5", "0x10", "99999999999"}) {
         CAPTURE(wrong);
         CHECK(!parse_size(wrong));
     }
@@ -22,8 +26,15 @@ TEST_CASE("amounts of memory") {
     CHECK(parse_memory("3K") == 3072u);
     CHECK(parse_memory("512M") == std::uint64_t{512} << 20);
     CHECK(parse_memory("2G") == std::uint64_t{2} << 30);
+    CHECK(parse_memory("1.5G") == std::uint64_t{3} << 29);
+    CHECK(parse_memory("0.5k") == 512u);
+    CHECK(parse_memory("700B") == 700u);
+    for (const char* same : {"2g", "2GB", "2gb", "2GiB", "2 GB", " 2G "}) {
+        CAPTURE(same);
+        CHECK(parse_memory(same) == std::uint64_t{2} << 30);
+    }
     CHECK(parse_memory("16777215T") == std::uint64_t{16'777'215} << 40);
-    for (const char* wrong : {"", "M", "0", "0G", "2g", "2GB", "1.5G", "-1", "16777216T", "18446744073709551616"}) {
+    for (const char* wrong : {"", "M", "B", "iB", "2iB", "0", "0G", "0.0G", "1.5", "1.5B", "2GG", "2 G B", "-1", "-1.5G", "1e3", "16777216T", "18446744073709551616"}) {
         CAPTURE(wrong);
         CHECK(!parse_memory(wrong));
     }

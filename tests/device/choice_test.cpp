@@ -49,6 +49,11 @@ TEST_CASE("a device that is not there is refused with a list of those that are",
     CHECK(unknown.find("1: Toy GPU (gpu, Platform of Toy GPU, no double precision)") != std::string::npos);
     CHECK(unknown.find("3: Other GPU") != std::string::npos);
 
+    CHECK(unknown.find("did you mean") == std::string::npos);
+    CHECK(refusal(several, "gppu").find("\n  did you mean 'gpu'?\n") != std::string::npos);
+    CHECK(refusal(several, "otehr").find("\n  did you mean 'Other'?\n") != std::string::npos);
+    CHECK(refusal(several, "cpu,real gup").find("chose") == std::string::npos);
+
     CHECK(refusal(several, "4").starts_with("no OpenCL device has the number 4\n"));
     CHECK(refusal(several, "99999999999999999999999").starts_with("no OpenCL device has the number 9999"));
     CHECK(refusal(several, "accelerator").starts_with("no OpenCL device of the type accelerator was found\n"));

@@ -151,5 +151,5 @@ TEST_CASE("validate: many findings are cut off, and their number is told") {
         objects.push_back(ball("b" + std::to_string(i), std::numeric_limits<double>::infinity()));
     const auto found = validate(make_scene(std::move(objects)));
     REQUIRE(found.size() == 51);
-    CHECK(found.back().message == "and 20 more findings");
+    CHECK(found.back().message == "and 20 more errors");
 }

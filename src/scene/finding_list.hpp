@@ -1,0 +1,52 @@
+// What is wrong, as far as a person reads it, and how much more there is.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+class FindingList {
+public:
+    /// More than these help nobody; the others are counted.
+    static constexpr std::size_t most = 50;
+
+    bool empty() const noexcept { return found_.empty(); }
+    bool full() const noexcept { return found_.size() == most; }
+    /// Counts one that is not shown.
+    void leave_out() noexcept { ++left_out_; }
+    /// Not everything was looked at.
+    void stop() noexcept { stopped_ = true; }
+    void add(Diagnostic diagnostic) {
+        if (full()) return leave_out();
+        found_.push_back(std::move(diagnostic));
+    }
+    void sort_by_place() {
+        const auto key = [](const Diagnostic& d) { return std::tie(d.place.line, d.place.column, d.place.offset); };
+        std::stable_sort(found_.begin(), found_.end(),
+                         [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+    }
+    std::vector<Diagnostic>& shown() noexcept { return found_; }
+    /// All of them, and last how many more there are, if there are more. Empties the list.
+    std::vector<Diagnostic> take() {
+        if (left_out_ > 0 || stopped_)
+            found_.push_back({{}, std::string("and ") + (stopped_ ? "at least " : "") + std::to_string(left_out_) +
+                                      (left_out_ == 1 ? " more error" : " more errors"), {}, {}});
+        left_out_ = 0;
+        stopped_ = false;
+        return std::exchange(found_, {});
+    }
+
+private:
+    std::vector<Diagnostic> found_;
+    std::size_t left_out_ = 0;
+    bool stopped_ = false;
+};
+
+}  // namespace csgrt

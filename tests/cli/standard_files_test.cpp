@@ -1,0 +1,117 @@
+// Scenes and rays on standard input, and standard files that are closed.
+#include "cli/command.hpp"
+
+#include <csgrt/scene_io.hpp>
+
+using namespace command_test;
+
+namespace {
+
+constexpr const char* ball_json = R"({"csgrt": 1, "solids": {"b": {"type": "sphere", "center": [0, 0, 0], "radius": 2}}})";
+
+std::string after_name(const std::string& text) { return text.substr(text.find('\n')); }
+
+}  // namespace
+
+TEST_CASE("a scene comes from standard input, its format told by its first bytes") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string asc = folder.write("balls.asc", two_balls), json = folder / "balls.json";
+    const std::string rays = folder.write("rays", "-100 0.1 0.2 1 0 0\n0.3 0 -70 0 0.1 1\n");
+    REQUIRE(run({"convert", asc, json}).status == 0);
+    const std::string v4 = folder.write("v4.asc",
+                                        "I 0 v4\nold\nS 19 b.s 19 0 0 0 2 0 0 0 2 0 0 0 2 0 0 0 0 0 0 0 0 0 0 0 0\n");
+    std::vector<std::string> scenes = {asc, json, v4};
+    const std::string bom = folder.write("bom.json", "\xEF\xBB\xBF \n" + read_file(json));
+    scenes.push_back(bom);
+    const char* models = std::getenv("CSGRT_BRLCAD");
+    for (const char* name : {"axis.g", "bearing.g"})
+        if (models && fs::exists(fs::path(models) / name)) scenes.push_back((fs::path(models) / name).string());
+    for (const std::string& scene : scenes) {
+        CAPTURE(scene);
+        const Result file = run({"shoot", scene, "--rays", rays, "--reference"});
+        REQUIRE(file.status == 0);
+        const Result piped = run({"shoot", "-", "--rays", rays, "--reference"}, {.input = scene});
+        INFO(piped.err);
+        CHECK(piped.status == 0);
+        CHECK(after_name(piped.out) == after_name(file.out));
+        CHECK(piped.out.starts_with("# csgrt "));
+    }
+    const Result device_file = run({"info", "/dev/stdin"}, {.input = json});
+    CHECK(contains(device_file.out, "bounds    -10 -10 -10 to 25 10 10 mm"));
+}
+
+TEST_CASE("errors of a scene on standard input name it, with line and column") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const auto err = [&](const std::string& text) {
+        const Result result = run({"info", "-"}, {.input = folder.write("scene", text)});
+        CHECK(result.status == 3);
+        return result.err;
+    };
+    CHECK(contains(err("{\"csgrt\": 1,\n \"sloids\": {}}"), "standard input:2:2: /sloids: unknown key 'sloids'"));
+    CHECK(contains(err("title x\nput a.s ell V {0 0 zero}\n"), "standard input:2:"));
+    CHECK(contains(err(""), "standard input:1:1: the file is empty"));
+    CHECK(contains(err(std::string("\x76\x01\x00\x00\x00", 5)), "standard input: byte "));
+    CHECK(contains(run({"info", "-"}, {.input = folder.write("scene", "\x1f\x8b packed")}).err, "gunzip"));
+}
+
+TEST_CASE("files of a scene on standard input are relative to the present folder") {
+    // "standard input" has no folder.
+    const Folder folder;
+    const std::string text = "units mm\nput d.s dsp src f file heights w 2 n 2 sm 0 cut a stom {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n";
+    folder.write("heights", std::string("\0\5\0\5\0\5\0\5", 8));
+    const fs::path before = fs::current_path();
+    fs::current_path(folder / ".");
+    const csgrt::Scene scene = csgrt::parse_scene(text, "standard input");
+    fs::current_path(before);
+    REQUIRE(scene.objects.size() == 1);
+    CHECK(csgrt::type_name(std::get<csgrt::Solid>(scene.objects[0]).shape) == std::string("dsp"));
+}
+
+TEST_CASE("scene and rays cannot both be standard input") {
+    NEEDS_COMMAND();
+    for (const char* command : {"shoot", "verify"}) {
+        const Result result = run({command, "-", "--rays", "-", "--reference"});
+        CHECK(result.status == 2);
+        CHECK(contains(result.err, "--rays: standard input is taken by SCENE"));
+    }
+}
+
+TEST_CASE("a closed standard input is an error, and no other file is read in its place") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("ball.json", ball_json), rays = folder.write("rays", "0 0 -9 0 0 1\n");
+    const Result no_rays = run({"shoot", scene, "--rays", "-", "--reference"}, {.closed = {STDIN_FILENO}});
+    CHECK(no_rays.status == 6);
+    CHECK(no_rays.out.empty());
+    CHECK(contains(no_rays.err, "standard input: cannot read: it is closed"));
+    const Result no_scene = run({"info", "-"}, {.closed = {STDIN_FILENO}});
+    CHECK(no_scene.status == 6);
+    CHECK(contains(no_scene.err, "standard input: cannot be read: it is closed"));
+    CHECK(run({"shoot", scene, "--rays", rays, "--reference"}, {.closed = {STDIN_FILENO}}).status == 0);  // not needed
+}
+
+TEST_CASE("output to a closed standard output is not lost in silence, nor written into another file") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("ball.json", ball_json), rays = folder.write("rays", "0 0 -9 0 0 1\n");
+    const std::vector<std::vector<std::string>> commands = {
+        {"--help"}, {"--version"}, {"info", scene}, {"convert", scene, "-"}, {"shoot", scene, "--rays", rays, "--reference"},
+        {scene, "--reference", "--size", "8", "--stats", "-"},
+#ifdef CSGRT_HAVE_IMAGE
+        {scene, "--reference", "--size", "8", "-o", "-"},
+#endif
+    };
+    for (const auto& command : commands) {
+        CAPTURE(command);
+        const Result result = run(command, {.closed = {STDOUT_FILENO}});
+        CHECK(result.status == 6);
+        CHECK(contains(result.err, "standard output: cannot write: it is closed"));
+    }
+    const Result all = run({"shoot", scene, "--rays", rays, "--reference", "-o", folder / "out"},
+                           {.closed = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}});
+    CHECK(all.status == 0);
+    CHECK(read_file(folder / "out").starts_with("# csgrt "));
+    CHECK(read_file(scene) == ball_json);
+}
