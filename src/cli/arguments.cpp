@@ -22,7 +22,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 void define_scene(Options& options, SceneArguments& arguments) {
     options.argument("SCENE", "scene file: .json, .g or .asc", arguments.scene);
-    options.arguments("OBJECT", "objects of the scene; without any, its top objects", arguments.objects);
+    options.arguments("OBJECT", "objects of the scene, or paths to them (all.g/tor.r); without any, its top objects", arguments.objects);
     options.flag("--air", "keep air regions", arguments.settings.air);
     options.flag("--skip-unsupported", "leave out solids of types that csgrt does not know, and say which",
                  arguments.settings.skip_unsupported);

@@ -54,29 +54,6 @@ void check_tree(const Tree& tree, const Place& combination, const Report& report
     if (waiting > 1) report(combination, "the tree has operands that no operator combines", {});
 }
 
-void check_matrix(const TreeNode& leaf, const Report& report) {
-    const Matrix& m = leaf.matrix;
-    const auto of = [&] { return "the matrix of '" + leaf.object + "' "; };
-    if (!std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); })) {
-        report(leaf.place, of() + "has a number that is not finite", {});
-        return;
-    }
-    const double most = std::abs(*std::max_element(m.begin(), m.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
-    if (most > Limits::length) {
-        report(leaf.place, of() + "has the number " + number_text(most) + "; " + length_limit(), {});
-        return;
-    }
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
-        report(leaf.place, of() + "must end in the row 0 0 0 1",
-               "points are columns: p' = M p, translation in the last column");
-        return;
-    }
-    const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
-    if (dependent(x, y, z)) {
-        report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
-    }
-}
-
 }  // namespace
 
 void check_settings(const Scene& scene, const Report& report) {
@@ -104,6 +81,29 @@ void check_settings(const Scene& scene, const Report& report) {
     settings.require(!camera.center || is_finite(*camera.center), "/camera", "the centre must be finite");
     settings.require(!camera.view_size || (*camera.view_size > 0 && std::isfinite(*camera.view_size)), "/camera",
                      "the size of the view must be greater than 0, and finite");
+}
+
+void check_matrix(const TreeNode& leaf, const Report& report) {
+    const Matrix& m = leaf.matrix;
+    const auto of = [&] { return "the matrix of '" + leaf.object + "' "; };
+    if (!std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); })) {
+        report(leaf.place, of() + "has a number that is not finite", {});
+        return;
+    }
+    const double most = std::abs(*std::max_element(m.begin(), m.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    if (most > Limits::length) {
+        report(leaf.place, of() + "has the number " + number_text(most) + "; " + length_limit(), {});
+        return;
+    }
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
+        report(leaf.place, of() + "must end in the row 0 0 0 1",
+               "points are columns: p' = M p, translation in the last column");
+        return;
+    }
+    const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
+    if (dependent(x, y, z)) {
+        report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
+    }
 }
 
 void check_combination(const Combination& combination, const Report& report) {

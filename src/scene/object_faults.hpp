@@ -14,6 +14,9 @@ using Report = std::function<void(const Place& place, std::string message, std::
 /// Camera, lights, background, tolerance. They have no place but their name.
 void check_settings(const Scene& scene, const Report& report);
 
+/// A leaf's matrix.
+void check_matrix(const TreeNode& leaf, const Report& report);
+
 /// Colour, finish, operators and matrices. Names are not looked up.
 void check_combination(const Combination& combination, const Report& report);
 
