@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "formats/text_source.hpp"
 #include "interrupt.hpp"
 #include "scene/excerpt.hpp"
 
@@ -90,6 +91,7 @@ bool LineReader::next(std::string_view& line) {
         break;
     }
     if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line_number_ == 0 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
     ++line_number_;
     line_ = line;
     return true;

@@ -75,7 +75,7 @@ bool starts_record(const Line& line) {
 class V4Reader {
 public:
     explicit V4Reader(const TextSource& source)
-        : source_(source), findings_(source), lines_(source.text()), objects_(findings_) {}
+        : source_(source), findings_(source), lines_(source.text(), source.begin()), objects_(findings_) {}
 
     Scene read() {
         while (!lines_.at_end() && !findings_.full()) {
@@ -88,7 +88,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name());
+        scene_.objects = objects_.take(source_.name(), scene_.warnings);
         return std::move(scene_);
     }
 
@@ -224,8 +224,7 @@ private:
         member.op = operator_of(fields.next("the operator"));
         member.leaf.object = fields.next("the member's name").text;
         member.leaf.place = source_.place(line.offset, object_);
-        const std::size_t matrix_offset = fields.offset();
-        member.leaf.matrix = without_scale(fields.numbers<16>("numbers of the matrix"), matrix_offset);
+        member.leaf.matrix = without_scale(fields.numbers<16>("numbers of the matrix"));
         if (fields.more()) fields.integer("the instance number");
         fields.end();
         return member;

@@ -27,7 +27,7 @@ namespace {
 class V5Reader {
 public:
     explicit V5Reader(const TextSource& source)
-        : source_(source), findings_(source), commands_(source.text(), store_), objects_(findings_) {}
+        : source_(source), findings_(source), commands_(source.text(), store_, source.begin()), objects_(findings_) {}
 
     Scene read() {
         while (!findings_.full()) {
@@ -53,7 +53,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name());
+        scene_.objects = objects_.take(source_.name(), scene_.warnings);
         return std::move(scene_);
     }
 
@@ -89,7 +89,7 @@ private:
         if (length == 0) {
             throw Fault{name.offset, quoted(name.text) + " is no unit", "units are mm, cm, m, in, ft, ..."};
         }
-        scene_.units = name.text;
+        scene_.units = unit_name(length);
         scene_.unit_length = length;
     }
 
@@ -123,6 +123,8 @@ private:
             const TclWord& value = rest[i + 1];
             if (key.text == "tree") {
                 combination.tree = read_v5_tree(value, source_, object_, store_);
+            } else if (key.text == "material" || key.text == "temp") {
+                continue;  // a material's name and a temperature, of which no shape or colour follows
             } else if (!set_attribute(combination, {key.text, value})) {
                 throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
             }
@@ -141,7 +143,7 @@ private:
         std::vector<Attribute> attributes;
         for (std::size_t i = 3; i < words_.size(); i += 2) attributes.push_back({words_[i].text, words_[i + 1]});
         if (object_ == "_GLOBAL") {
-            for (const Attribute& attribute : attributes) set_global_attribute(scene_, attribute);
+            for (const Attribute& attribute : attributes) set_global_attribute(scene_, attribute, source_);
             return;
         }
         if (!objects_.contains(object_)) {

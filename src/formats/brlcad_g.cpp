@@ -40,7 +40,7 @@ public:
             read_objects(bytes.size());
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name());
+        scene_.objects = objects_.take(source_.name(), scene_.warnings);
         return std::move(scene_);
     }
 
@@ -74,7 +74,9 @@ private:
     }
 
     void read_global(const GObject& object) {
-        for (const Attribute& attribute : read_g_attributes(object.attributes)) set_global_attribute(scene_, attribute);
+        for (const Attribute& attribute : read_g_attributes(object.attributes)) {
+            set_global_attribute(scene_, attribute, source_);
+        }
     }
 
     void read_geometry(const GObject& object) {

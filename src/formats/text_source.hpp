@@ -10,6 +10,9 @@
 
 namespace csgrt {
 
+/// Editors on Windows put it before a text in UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// The text of a file. Offsets are bytes from its start; lines end in "\n" or "\r\n".
 class TextSource : public Source {
 public:
@@ -21,6 +24,8 @@ public:
 
     const std::string& name() const noexcept { return name_; }
     std::string_view text() const noexcept { return text_; }
+    /// Where the text begins: behind a byte order mark.
+    std::size_t begin() const noexcept { return text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; }
 
     /// Line and column (in bytes, from 1) of an offset; `object` becomes the pointer.
     Place place(std::size_t offset, std::string object = {}) const override;
