@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "formats/text_source.hpp"
 #include "interrupt.hpp"
+#include "scene/byte_order_mark.hpp"
 #include "scene/excerpt.hpp"
 
 namespace csgrt::cli {

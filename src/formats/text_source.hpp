@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "formats/source.hpp"
+#include "scene/byte_order_mark.hpp"
 
 namespace csgrt {
-
-/// Editors on Windows put it before a text in UTF-8.
-inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// The text of a file. Offsets are bytes from its start; lines end in "\n" or "\r\n".
 class TextSource : public Source {
