@@ -157,7 +157,8 @@ private:
 /// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time.
 class CSGRT_API Renderer {
 public:
-    /// Validates, compiles and uploads `objects` of `scene` (empty: its top objects).
+    /// Validates, compiles and uploads `objects` of `scene` (empty: its top objects): names, or paths like "all.g/tor.r",
+    /// which give an object the place and the attributes that it has there.
     /// Throws Error: scene, no_device, out_of_memory, device_fault.
     explicit Renderer(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
     ~Renderer();

@@ -141,6 +141,9 @@ struct Scene {
     CSGRT_API const Object* find(const std::string& name) const;
 };
 
+/// The object of that name, or the one that a path leads to ("all.g/tor.r"), or nullptr.
+CSGRT_API const Object* object_at(const Scene& scene, const std::string& path);
+
 CSGRT_API const std::string& name_of(const Object& object);
 CSGRT_API const Place& place_of(const Object& object);
 
@@ -169,7 +172,7 @@ struct Limits {
 };
 
 /// Checks everything that can be checked object by object: unknown members, cycles, degenerate solids, singular
-/// matrices, non-finite numbers, trees. Only objects reachable from `objects` (empty: from the top objects).
+/// matrices, non-finite numbers, trees. Only objects reachable from `objects` (names or paths; empty: from the top objects).
 /// Returns all findings; empty means the scene is sound. `skip_unsupported`: solids of types that csgrt does not know are
 /// none (see Settings). What is left out instead, as in a lenient scene, is appended to `warnings`.
 CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {},

@@ -31,7 +31,8 @@ void define_strict(Options& options, bool& strict) {
 
 void define_scene(Options& options, SceneArguments& arguments) {
     options.argument("SCENE", scene_help, arguments.scene);
-    options.arguments("OBJECT", "objects of the scene; without any, its top objects", arguments.objects);
+    options.arguments("OBJECT", "objects of the scene, or paths to them (all.g/tor.r); without any, its top objects",
+                      arguments.objects);
     options.flag("--air", "keep air regions", arguments.settings.air);
     define_strict(options, arguments.strict);
     options.flag("--skip-unsupported",

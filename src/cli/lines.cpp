@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "interrupt.hpp"
+#include "scene/byte_order_mark.hpp"
 #include "scene/excerpt.hpp"
 
 namespace csgrt::cli {
@@ -93,6 +94,7 @@ bool LineReader::next(std::string_view& line) {
         break;
     }
     if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line_number_ == 0 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
     ++line_number_;
     line_ = line;
     return true;

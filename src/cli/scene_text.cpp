@@ -68,13 +68,23 @@ std::vector<Member> members_of(const Tree& tree) {
 
 class TreePrinter {
 public:
-    explicit TreePrinter(const Scene& scene) {
+    explicit TreePrinter(const Scene& scene) : scene_(scene) {
         for (const Object& object : scene.objects) objects_.emplace(name_of(object), &object);
     }
 
-    void print(const std::string& name, const std::string& before, const std::string& behind, int depth, int level) {
+    /// The tree of an object of the command line: a name, or a path.
+    void print(const std::string& name, int depth) {
+        const Object* object = object_at(scene_, name);
+        print(object == nullptr ? name : name_of(*object), name, "", depth, 0);
+    }
+
+    std::string text;
+
+private:
+    /// `shown`: the name, with what stands before it.
+    void print(const std::string& name, const std::string& shown, const std::string& behind, int depth, int level) {
         auto found = objects_.find(name);
-        text += std::string(4 * static_cast<std::size_t>(level), ' ') + before + name + behind;
+        text += std::string(4 * static_cast<std::size_t>(level), ' ') + shown + behind;
         if (found == objects_.end()) {
             text += "  (missing)\n";
             return;
@@ -97,12 +107,11 @@ public:
             return;
         }
         text += "\n";
-        for (const Member& member : members) print(member.leaf->object, member.before, member.behind, depth, level + 1);
+        for (const Member& member : members)
+            print(member.leaf->object, member.before + member.leaf->object, member.behind, depth, level + 1);
     }
 
-    std::string text;
-
-private:
+    const Scene& scene_;
     std::unordered_map<std::string, const Object*> objects_;
     std::unordered_set<const Combination*> unfolded_;
 };
@@ -152,7 +161,7 @@ std::string count_text(const std::map<std::string, std::size_t>& by_type) {
 
 std::string tree_text(const Scene& scene, const std::vector<std::string>& objects, int depth) {
     TreePrinter printer(scene);
-    for (const std::string& name : objects) printer.print(name, "", "", depth, 0);
+    for (const std::string& name : objects) printer.print(name, depth);
     return std::move(printer.text);
 }
 

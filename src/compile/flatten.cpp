@@ -119,7 +119,7 @@ TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<c
         fetch_ahead(scene, index, terms, i);
         const auto& [forest, term] = terms[i];
         const RegionStart& start = forest->leftmost_start(term);
-        const Object& origin = scene.objects[start.object];
+        const Object& origin = scene.objects[forest->origin_of(start)];
         TermsPart::Written& written = part.regions.emplace_back();
         FlatRegion& region = written.region;
         written.kind = flattener.write(*forest, term, region.tree);
@@ -191,6 +191,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     // Which regions there are.
     struct Named {
         const std::string& name;
+        std::uint32_t object;
         std::unique_ptr<RegionForest> forest;  ///< none: it was named before
         std::size_t end;                       ///< of its terms
         bool has_air;
@@ -205,19 +206,23 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
                                            std::to_string(Limits::instances) + " solids together");
         }
     };
-    std::unordered_set<std::string_view> seen;
+    std::unordered_set<std::string> seen;
     for (const std::string& object : objects) {
-        if (!seen.insert(object).second) {
-            all.push_back({object, nullptr, terms.size(), false});
+        const ObjectPath path = find_path(scene, names, object);
+        if (path.steps.empty()) throw Error(Status::scene, path.fault);
+        std::string way;
+        for (const ObjectPath::Step& step : path.steps) way += std::to_string(step.object) + "/";
+        if (!seen.insert(std::move(way)).second) {
+            all.push_back({object, path.object(), nullptr, terms.size(), false});
             continue;
         }
         const std::size_t air_before = air_regions.size();
-        check(object, solids + index.solids_below(index.find(object)));
-        auto forest = std::make_unique<RegionForest>(scene, index, object, air, air_regions);
+        check(object, solids + index.solids_below(path.object()));
+        auto forest = std::make_unique<RegionForest>(scene, index, path, air, air_regions);
         solids += forest->solids_in_terms();
         check(object, solids);
         forest->for_each_term([&](std::uint32_t term) { terms.push_back({forest.get(), term}); });
-        all.push_back({object, std::move(forest), terms.size(), air_regions.size() > air_before});
+        all.push_back({object, path.object(), std::move(forest), terms.size(), air_regions.size() > air_before});
     }
 
     // Their trees.
@@ -252,12 +257,12 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     };
     std::size_t term = 0;
     auto next = joiner.no_regions().begin();
-    for (const auto& [name, forest, end, has_air] : all) {
+    for (const auto& [name, object, forest, end, has_air] : all) {
         if (forest == nullptr) {
             warn(name, {}, "named twice; it is rendered once");
             continue;
         }
-        if (forest->is_everything()) contains_space("object", name, place_of(scene.objects[index.find(name)]));
+        if (forest->is_everything()) contains_space("object", name, place_of(scene.objects[object]));
         for (; next != joiner.no_regions().end() && next->term < end; ++next) {
             if (next->contains_space) {
                 contains_space("region", next->path, next->place);
@@ -266,7 +271,7 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
             }
         }
         if (term == end && !has_air && findings.empty() && !forest->is_everything() &&
-            names.kind(index.find(name)) != Names::Kind::left_out)
+            names.kind(object) != Names::Kind::left_out)
             warn(name, {}, "the object holds no solid");
         term = end;
     }

@@ -76,6 +76,11 @@ std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
 
 /// Says of the first few what has become of them, and how many more there are.
 void note_films(const std::vector<std::vector<Film>>& films, const Box& common, CompiledScene& compiled) {
+    const auto warn = [&](std::string object, std::string reason) {
+        Warning& warning = compiled.warnings.emplace_back();
+        warning.object = std::move(object);
+        warning.reason = std::move(reason);
+    };
     constexpr std::size_t shown = 5;
     std::size_t count = 0;
     for (const std::vector<Film>& some : films) {
@@ -89,11 +94,11 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
             std::string reason = "nothing is left of it: two of its faces are " + rounded_text(thickness) +
                                  " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
                                  what + ", are one surface";
-            compiled.warnings.push_back({compiled.solid_info[solid].name, {}, std::move(reason), 1});
+            warn(compiled.solid_info[solid].name, std::move(reason));
         }
     }
     if (count > shown)
-        compiled.warnings.push_back({{}, {}, "nothing is left of " + std::to_string(count - shown) + " more such solids", 1});
+        warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
 }  // namespace

@@ -25,8 +25,6 @@ static std::uint32_t existing(std::uint32_t object, const std::string& name) {
     return object;
 }
 
-std::uint32_t ObjectIndex::find(const std::string& name) const { return existing(names_.find(name), name); }
-
 std::uint32_t ObjectIndex::child(std::uint32_t object, std::size_t node) const {
     const std::uint32_t child = names_.child(object, node);
     if (child == Names::none) existing(child, std::get<Combination>(scene_.objects[object]).tree.nodes[node].object);
@@ -64,10 +62,10 @@ double ObjectIndex::solids_below(std::uint32_t object) {
     return solids_[object];
 }
 
-RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const std::string& object, bool air,
+RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const ObjectPath& object, bool air,
                            std::vector<std::string>& dropped)
     : scene_(scene), index_(index), air_(air) {
-    visit({index.find(object), none, none, 0}, dropped);
+    visit(start_of(object), dropped);
     while (!frames_.empty()) {
         Frame& frame = frames_.back();
         const Above& above = above_[frame.above];
@@ -91,6 +89,20 @@ RegionForest::RegionForest(const Scene& scene, ObjectIndex& index, const std::st
     root_ = operands_.back();
 }
 
+RegionStart RegionForest::start_of(const ObjectPath& path) {
+    RegionStart start{path.steps.front().object, none, none, 0};
+    for (std::size_t i = 1; i < path.steps.size(); ++i) {
+        above_.push_back({start.object, matrix_of(start), attributes_of(start)});
+        const Names::Kind kind = index_.kind(start.object);
+        const bool region = kind == Names::Kind::region || kind == Names::Kind::air_region;
+        if (region && inside_ == nothing) inside_ = start.object;
+        paths_.push_back({start.path, start.object});
+        start = {path.steps[i].object, static_cast<std::uint32_t>(paths_.size() - 1),
+                 static_cast<std::uint32_t>(above_.size() - 1), path.steps[i].node};
+    }
+    return start;
+}
+
 Matrix RegionForest::matrix_of(const RegionStart& start) const {
     if (start.above == none) return identity;
     const Above& above = above_[start.above];
@@ -100,6 +112,7 @@ Matrix RegionForest::matrix_of(const RegionStart& start) const {
 Attributes RegionForest::attributes_of(const RegionStart& start) const {
     Attributes attributes;
     if (start.above != none) attributes = above_[start.above].attributes;
+    if (inside_ != nothing) return attributes;  // below a region nothing sets them
     if (const auto* combination = std::get_if<Combination>(&scene_.objects[start.object])) attributes.apply(*combination);
     return attributes;
 }
@@ -115,7 +128,7 @@ void RegionForest::visit(RegionStart start, std::vector<std::string>& dropped) {
     const auto path = static_cast<std::uint32_t>(paths_.size());
     paths_.push_back({start.path, object});
     start.path = path;
-    const Names::Kind kind = index_.kind(object);
+    const Names::Kind kind = index_.kind(inside_ == nothing ? object : inside_);
     if (kind == Names::Kind::combination) {
         const auto above = static_cast<std::uint32_t>(above_.size());
         above_.push_back({object, matrix_of(start), attributes_of(start)});

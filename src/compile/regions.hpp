@@ -21,6 +21,7 @@
 
 #include "compile/attributes.hpp"
 #include "scene/names.hpp"
+#include "scene/object_path.hpp"
 
 namespace csgrt {
 
@@ -28,8 +29,6 @@ namespace csgrt {
 class ObjectIndex {
 public:
     ObjectIndex(const Scene& scene, const Names& names);
-    /// Throws Error (scene) if there is none.
-    std::uint32_t find(const std::string& name) const;
     /// What a leaf names; see Names::child. Throws Error (scene) if there is no such object.
     std::uint32_t child(std::uint32_t object, std::size_t node) const;
     /// See Names::children.
@@ -58,9 +57,9 @@ struct RegionStart {
 /// The expression over region starts that stands above the regions of one named object.
 class RegionForest {
 public:
-    /// Walks down from an object. The paths of air regions that are left out are appended to `dropped`.
+    /// Walks down from where a path leads. The paths of air regions that are left out are appended to `dropped`.
     /// Throws Error (scene) if there are more references than any model has.
-    RegionForest(const Scene& scene, ObjectIndex& index, const std::string& object, bool air,
+    RegionForest(const Scene& scene, ObjectIndex& index, const ObjectPath& object, bool air,
                  std::vector<std::string>& dropped);
 
     /// How many solids the trees of all terms hold together. Pulling unions up may multiply them.
@@ -79,6 +78,9 @@ public:
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
     const RegionStart& leftmost_start(std::uint32_t node) const;
+    /// The object whose id, air code and the like a region has: where it starts, or the region that the path to the named
+    /// object leads through.
+    std::uint32_t origin_of(const RegionStart& start) const { return inside_ == nothing ? start.object : inside_; }
     /// Where it stands, and what it and all above have set. Left to those who need them, since the walk is one thread's.
     Matrix matrix_of(const RegionStart& start) const;
     Attributes attributes_of(const RegionStart& start) const;
@@ -104,6 +106,8 @@ private:
         std::uint32_t above, object;
     };
 
+    /// Where a path leads, with what is above it.
+    RegionStart start_of(const ObjectPath& path);
     /// `start`: with the path of what is above it.
     void visit(RegionStart start, std::vector<std::string>& dropped);
     void operate(Operator op, std::uint32_t arity);
@@ -120,6 +124,7 @@ private:
     std::vector<Above> above_;
     std::vector<std::uint32_t> operands_;
     std::uint32_t root_ = nothing;
+    std::uint32_t inside_ = nothing;  ///< the region that the named object is a part of, where a path says so
     std::vector<Node> nodes_;
     std::vector<RegionStart> starts_;
     std::vector<PathStep> paths_;

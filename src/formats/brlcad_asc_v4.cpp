@@ -78,7 +78,7 @@ public:
         : source_(source),
           scene_(brlcad_scene(lenient)),
           findings_(source, lenient ? &scene_.warnings : nullptr),
-          lines_(source.text()),
+          lines_(source.text(), source.begin()),
           objects_(findings_) {}
 
     Scene read() {
@@ -92,7 +92,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name());
+        scene_.objects = objects_.take(source_.name(), scene_.warnings);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }
@@ -267,8 +267,7 @@ private:
         member.op = operator_of(fields.next("the operator"));
         member.leaf.object = fields.next("the member's name").text;
         member.leaf.place = source_.place(line.offset, object_);
-        const std::size_t matrix_offset = fields.offset();
-        member.leaf.matrix = without_scale(fields.numbers<16>("numbers of the matrix"), matrix_offset);
+        member.leaf.matrix = without_scale(fields.numbers<16>("numbers of the matrix"));
         if (fields.more()) fields.integer("the instance number");
         fields.end();
         return member;

@@ -35,7 +35,7 @@ public:
         : source_(source),
           scene_(brlcad_scene(lenient)),
           findings_(source, lenient ? &scene_.warnings : nullptr),
-          commands_(source.text(), store_),
+          commands_(source.text(), store_, source.begin()),
           objects_(findings_) {}
 
     Scene read() {
@@ -64,7 +64,7 @@ public:
         }
         if (read_again_ >= most_read_again) findings_.stop();
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name());
+        scene_.objects = objects_.take(source_.name(), scene_.warnings);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }
@@ -114,7 +114,7 @@ private:
         if (length == 0) {
             throw Fault{name.offset, quoted(name.text) + " is no unit", "units are mm, cm, m, in, ft, ..."};
         }
-        scene_.units = name.text;
+        scene_.units = unit_name(length);
         scene_.unit_length = length;
     }
 
@@ -150,6 +150,7 @@ private:
                 combination.tree = read_v5_tree(value, source_, object_, store_);
                 continue;
             }
+            if (key.text == "material" || key.text == "temp") continue;  // of which no shape or colour follows
             try {
                 if (!set_attribute(combination, {key.text, value}))
                     throw Fault{key.offset, quoted(key.text) + " is no parameter of a comb", {}};
@@ -174,7 +175,7 @@ private:
         if (object_ == "_GLOBAL") {
             for (const Attribute& attribute : attributes) {
                 try {
-                    set_global_attribute(scene_, attribute);
+                    set_global_attribute(scene_, attribute, source_);
                 } catch (Fault& fault) {
                     findings_.bear(std::move(fault), object_, passed_over);
                 }

@@ -45,7 +45,7 @@ public:
             read_objects(bytes.size());
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name());
+        scene_.objects = objects_.take(source_.name(), scene_.warnings);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }
@@ -94,7 +94,8 @@ private:
 
     void read_global(const GObject& object) {
         try {
-            for (const Attribute& attribute : read_g_attributes(object.attributes)) set_global_attribute(scene_, attribute);
+            for (const Attribute& attribute : read_g_attributes(object.attributes)) 
+                set_global_attribute(scene_, attribute, source_);
         } catch (Fault& fault) {
             findings_.bear(std::move(fault), object.name, passed_over);
         }

@@ -37,10 +37,9 @@ BrlcadItem read_g_dsp(ByteReader& b) {
     Dsp dsp;
     dsp.width = side(b, "the dsp's width");
     dsp.depth = side(b, "the dsp's depth");
-    const std::size_t matrix_at = b.offset();
     Matrix matrix{};
     for (double& element : matrix) element = b.real("an element of the dsp's matrix");
-    dsp.matrix = without_scale(matrix, matrix_at);
+    dsp.matrix = without_scale(matrix);
     dsp.smooth = b.number(1, "the dsp's smoothing") != 0;
     const std::size_t source_at = b.offset();
     const std::string_view source = b.take(1, "the dsp's source");

@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "formats/brlcad_points.hpp"
 #include "formats/brlcad_values.hpp"
 
 namespace csgrt {
@@ -130,7 +131,7 @@ constexpr Type types[] = {
     {"hyp", item<hyp>},                           //
     {"constrnt"},                                 //
     {"revolve", item<read_g_revolve>},            // 40
-    {"pnts"},                                     //
+    {"pnts", item<read_g_points>},                //
     {"annot"},                                    //
     {"hrt", item<hrt>},                           //
     {"datum"},                                    //

@@ -140,7 +140,7 @@ private:
         ByteReader reader(matrices_.substr(at, matrix_size), matrices_at_ + at);
         Matrix matrix;
         for (double& element : matrix) element = reader.real("an element of a matrix");
-        return without_scale(matrix, matrices_at_ + at);
+        return without_scale(matrix);
     }
 
     const ByteSource& source_;

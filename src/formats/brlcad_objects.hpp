@@ -34,9 +34,19 @@ struct BrlcadNothing {
     std::string type;
 };
 
+/// Points (BRL-CAD's pnts). Each with a scale is a ball.
+struct BrlcadPoints {
+    struct Ball {
+        Vec3 center;
+        double radius;
+    };
+    std::vector<Ball> balls;
+    std::size_t without_scale = 0;  ///< points
+};
+
 /// What stands under a name, unless it is a combination.
 struct BrlcadItem {
-    std::variant<Shape, Sketch, BrlcadNumbers, BrlcadNothing> content;
+    std::variant<Shape, Sketch, BrlcadNumbers, BrlcadNothing, BrlcadPoints> content;
     bool cells_in_object = false;  ///< an ebm, vol or dsp: its `file` names an object, not a file
 };
 
@@ -62,8 +72,9 @@ public:
     /// Solids and combinations in the order in which they came; leaves none. Solids are completed from the other
     /// objects and from files, whose names are relative to the folder of `model`; one whose parts are not to be had
     /// becomes Unsupported, with the reason. What has no inside is left out, or, if a combination uses it, is the empty
-    /// set; in a lenient scene, Unsupported.
-    std::vector<Object> take(const std::string& model);
+    /// set; in a lenient scene, Unsupported. Points are the union of their balls: a region of its own outside all regions, as any
+    /// solid is. What is borne is added to `warnings`.
+    std::vector<Object> take(const std::string& model, std::vector<Warning>& warnings);
 
 private:
     struct Entry {
@@ -74,6 +85,8 @@ private:
     void add(Entry entry, std::size_t offset);
     const Entry* find(const std::string& name) const;
     std::vector<bool> used_entries() const;
+    void add_balls(const Entry& entry, const BrlcadPoints& points, bool used, std::vector<Object>& objects,
+                   std::vector<Warning>& warnings) const;
 
     Findings& findings_;
     std::vector<Entry> entries_;

@@ -98,7 +98,7 @@ Matrix StructText::matrix(std::string_view key) {
     if (const std::size_t count = read_numbers(value, matrix); count < 12) {
         throw Fault{value.offset, std::string(key) + " has " + std::to_string(count) + " of 16 numbers", {}};
     }
-    return without_scale(matrix, value.offset);
+    return without_scale(matrix);
 }
 
 void StructText::end() const {
@@ -118,6 +118,14 @@ bool read_source(StructText& p) {
     return source == "o";
 }
 
+/// Where the cells are: file, name or both; of both the last one holds, as in BRL-CAD.
+std::string read_name(StructText& p) {
+    const bool by_name = p.has("name") && (!p.has("file") || p.place_of("name") > p.place_of("file"));
+    std::string name = p.text(by_name ? "name" : "file");
+    if (const std::string_view other = by_name ? "file" : "name"; p.has(other)) p.text(other);
+    return name;
+}
+
 std::string_view one_of(const StructText& p, std::string_view key, std::string_view other) {
     return p.has(key) ? key : other;
 }
@@ -126,7 +134,7 @@ std::string_view one_of(const StructText& p, std::string_view key, std::string_v
 
 BrlcadItem read_struct_ebm(StructText& p) {
     Ebm ebm;
-    ebm.file = p.text("file");
+    ebm.file = read_name(p);
     ebm.width = p.count("w");
     ebm.depth = p.count("n");
     ebm.height = p.number("d");
@@ -138,7 +146,7 @@ BrlcadItem read_struct_ebm(StructText& p) {
 
 BrlcadItem read_struct_vol(StructText& p) {
     Vol vol;
-    vol.file = p.text("file");
+    vol.file = read_name(p);
     vol.width = p.count("w");
     vol.depth = p.count("n");
     vol.height = p.count("d");
@@ -154,7 +162,7 @@ BrlcadItem read_struct_vol(StructText& p) {
 
 BrlcadItem read_struct_dsp(StructText& p) {
     Dsp dsp;
-    dsp.file = p.text("file");
+    dsp.file = read_name(p);
     dsp.width = p.count("w");
     dsp.depth = p.count("n");
     dsp.smooth = !p.has("sm") || p.integer("sm", -largest, largest) != 0;

@@ -20,7 +20,8 @@ struct Line {
 
 class LineReader {
 public:
-    explicit LineReader(std::string_view text) : text_(text) {}
+    /// Lines from `begin` on.
+    explicit LineReader(std::string_view text, std::size_t begin = 0) : text_(text), next_(begin) {}
 
     bool at_end() const { return next_ >= text_.size(); }
     /// The line that `take` would give, without taking it; empty at the end.
@@ -39,7 +40,7 @@ public:
 
 private:
     std::string_view text_;
-    std::size_t next_ = 0;
+    std::size_t next_;
 };
 
 struct Field {

@@ -70,12 +70,23 @@ Vec3 read_color(const TclWord& word) {
     return color_of_bytes(components[0], components[1], components[2]);
 }
 
-/// Here the unit is its length in millimetres.
-void set_unit_length(Scene& scene, const TclWord& value) {
-    const std::string name = unit_name(read_number(value.text, value.offset));
-    if (name.empty()) throw Fault{value.offset, "no unit is " + quoted(value.text) + " mm long", {}};
-    scene.units = name;
-    scene.unit_length = unit_in_millimetres(name);
+/// Here the unit is its length in millimetres, any length. It is for display only, so one that has no meaning is borne, as
+/// BRL-CAD does.
+void set_unit_length(Scene& scene, const TclWord& value, const Source& source) {
+    double length = 0;
+    try {
+        length = read_number(value.text, value.offset);
+    } catch (const Fault&) {
+        // told below
+    }
+    if (length > 0) {
+        scene.units = unit_name(length);
+        const double known = unit_in_millimetres(scene.units);  // without the rounding of its decimals
+        scene.unit_length = known > 0 ? known : length;
+    } else {
+        scene.warnings.push_back({{}, source.place(value.offset, "_GLOBAL"),
+                                  quoted(value.text) + " is no length of a unit in millimetres; it is left out"});
+    }
 }
 
 void read_color_table(Scene& scene, const TclWord& value) {
@@ -131,12 +142,12 @@ void set_attributes(Combination& combination, std::span<const Attribute> attribu
     }
 }
 
-void set_global_attribute(Scene& scene, const Attribute& attribute) {
+void set_global_attribute(Scene& scene, const Attribute& attribute, const Source& source) {
     const auto& [key, value] = attribute;
     if (key == "title") {
         scene.title = tcl_name(value);
     } else if (key == "units") {
-        set_unit_length(scene, value);
+        set_unit_length(scene, value, source);
     } else if (key == "regionid_colortable") {
         read_color_table(scene, value);
     }

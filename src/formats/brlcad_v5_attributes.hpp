@@ -24,8 +24,8 @@ bool set_attribute(Combination& combination, const Attribute& attribute);
 void set_attributes(Combination& combination, std::span<const Attribute> attributes, Findings& findings);
 
 /// Sets the title, the unit or the region colours, which _GLOBAL, the database itself, has as attributes; other keys
-/// are passed over. Throws Fault.
-void set_global_attribute(Scene& scene, const Attribute& attribute);
+/// are passed over. A unit that is none is a warning. Throws Fault.
+void set_global_attribute(Scene& scene, const Attribute& attribute, const Source& source);
 
 /// An entry of the colour table: low high red green blue. Throws Fault.
 RegionColor read_region_color(std::span<const TclWord, 5> numbers);

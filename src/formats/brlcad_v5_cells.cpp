@@ -17,9 +17,18 @@ bool read_source(Parameters& p) {
     throw Fault{word.offset, quoted(word.text) + " is no kind of source", "f is a file, o an object"};
 }
 
-std::string read_name(Parameters& p, std::string_view key) {
-    const TclWord& word = p.take(key);
-    if (word.text.empty()) throw Fault{word.offset, std::string(key) + " is empty", {}};
+/// Where the cells are. BRL-CAD writes it as file, as name or as both, older programs as F; of several the last one holds,
+/// as in BRL-CAD.
+std::string read_name(Parameters& p) {
+    std::string_view last = "file";
+    for (const std::string_view key : {"file", "F", "name"}) {
+        if (p.has(key) && (!p.has(last) || p.place_of(key) > p.place_of(last))) last = key;
+    }
+    const TclWord& word = p.take(last);
+    if (word.text.empty()) throw Fault{word.offset, std::string(last) + " is empty", {}};
+    for (const std::string_view key : {"file", "F", "name"}) {
+        if (p.has(key)) p.take(key);
+    }
     return std::string(word.text);
 }
 
@@ -27,7 +36,7 @@ std::string read_name(Parameters& p, std::string_view key) {
 
 BrlcadItem read_v5_ebm(Parameters& p) {
     Ebm ebm;
-    ebm.file = read_name(p, p.one_of({"F", "file"}));
+    ebm.file = read_name(p);
     ebm.width = p.count(p.one_of({"W", "w"}));
     ebm.depth = p.count(p.one_of({"N", "n"}));
     ebm.height = p.number(p.one_of({"H", "d"}));
@@ -38,7 +47,7 @@ BrlcadItem read_v5_ebm(Parameters& p) {
 
 BrlcadItem read_v5_vol(Parameters& p) {
     Vol vol;
-    vol.file = read_name(p, p.one_of({"file", "F"}));
+    vol.file = read_name(p);
     vol.width = p.count("w");
     vol.depth = p.count("n");
     vol.height = p.count("d");
@@ -52,7 +61,7 @@ BrlcadItem read_v5_vol(Parameters& p) {
 
 BrlcadItem read_v5_dsp(Parameters& p) {
     Dsp dsp;
-    dsp.file = read_name(p, "file");
+    dsp.file = read_name(p);
     dsp.width = p.count("w");
     dsp.depth = p.count("n");
     dsp.smooth = p.integer("sm", -largest_integer, largest_integer) != 0;

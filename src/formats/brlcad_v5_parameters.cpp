@@ -71,7 +71,7 @@ Matrix Parameters::matrix(std::string_view key) {
     const TclWord& word = take(key);
     Matrix matrix{};
     read_numbers(word, key, matrix);
-    return without_scale(matrix, word.offset);
+    return without_scale(matrix);
 }
 
 void Parameters::read_numbers(const TclWord& list, std::string_view what, std::span<double> values) const {

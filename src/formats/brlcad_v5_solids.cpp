@@ -1,5 +1,6 @@
 #include "formats/brlcad_v5_solids.hpp"
 
+#include "formats/brlcad_points.hpp"
 #include "formats/brlcad_values.hpp"
 
 namespace csgrt {
@@ -102,6 +103,7 @@ constexpr Reader readers[] = {
     {"revolve", item<read_v5_revolve>},
     {"sketch", item<read_v5_sketch>},
     {"binunif", item<read_v5_numbers>},
+    {"pnts", item<read_v5_points>},
 };
 
 }  // namespace

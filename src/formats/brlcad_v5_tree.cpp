@@ -30,7 +30,7 @@ public:
 
     Tree read() {
         skip_blanks();
-        if (at_end()) return {};
+        if (at_end() || word_.text.substr(at_) == "none") return {};
         start_node();
         while (!open_.empty()) {
             skip_blanks();
@@ -49,10 +49,16 @@ public:
     }
 
 private:
+    /// Where the nodes of an operand begin in the tree. It has none if it is the empty set: what it is combined with is
+    /// known then, so the tree never holds one.
+    struct Operand {
+        std::size_t first;
+        bool empty;
+    };
     struct OpenNode {
-        Operator op;
-        std::uint32_t operands;
+        Operator op;      ///< leaf: G or X, which hold what their operand holds
         std::size_t at;
+        std::vector<Operand> operands{};
     };
 
     bool at_end() const { return at_ >= word_.text.size(); }
@@ -76,40 +82,62 @@ private:
         at_ = std::min(word_.text.find_first_of(" \t\r\n\v\f{}\\", begin), word_.text.size());
         const std::string_view token = word_.text.substr(begin, at_ - begin);
         if (token == "l") {
+            const std::size_t first = tree_.nodes.size();
             read_leaf();
-            end_node();
+            end_node({first, false});
+        } else if (token == "N") {
+            end_node({tree_.nodes.size(), true});
+        } else if (token == "G" || token == "X") {
+            open_.push_back({Operator::leaf, begin});
         } else if (const auto op = operator_of(token)) {
-            open_.push_back({*op, 0, begin});
+            open_.push_back({*op, begin});
         } else {
             fail(begin, token.empty() ? "a node is empty" : quoted(token) + " is no operator",
-                 "a node starts with l (an object) or one of the operators u n + - ^ !");
+                 "a node starts with l (an object) or one of the operators u n + - ^ ! G X N");
         }
     }
 
     void end_operator() {
-        const OpenNode node = open_.back();
-        const std::uint32_t expected = node.op == Operator::not_ ? 1 : 2;
-        if (node.operands != expected) {
-            fail(node.at, "the operator has " + std::to_string(node.operands) + " operands, not " +
+        const OpenNode node = std::move(open_.back());
+        open_.pop_back();
+        const bool one = node.op == Operator::not_ || node.op == Operator::leaf;
+        const std::size_t expected = one ? 1 : 2;
+        if (node.operands.size() != expected) {
+            fail(node.at, "the operator has " + std::to_string(node.operands.size()) + " operands, not " +
                               std::to_string(expected));
         }
+        const Operand left = node.operands.front(), right = node.operands.back();
+        if (left.empty || right.empty) return end_node(combined_with_nothing(node, left, right));
+        if (node.op == Operator::leaf) return end_node(left);
         TreeNode out;
         out.op = node.op;
-        out.arity = node.operands;
+        out.arity = static_cast<std::uint32_t>(expected);
         out.place = source_.place(word_.offset_at(node.at), object_);
         tree_.nodes.push_back(std::move(out));
-        open_.pop_back();
-        end_node();
+        end_node({left.first, false});
+    }
+
+    /// What an operator makes of operands of which at least one is the empty set.
+    Operand combined_with_nothing(const OpenNode& node, const Operand& left, const Operand& right) {
+        if (node.op == Operator::not_) {
+            fail(node.at, "the complement of nothing is all space, which no region can hold");
+        }
+        const bool needs_left = node.op == Operator::difference, needs_both = node.op == Operator::intersection;
+        if (needs_both || (needs_left && left.empty)) {
+            tree_.nodes.resize(left.first);
+            return {left.first, true};
+        }
+        return {left.first, left.empty && right.empty};
     }
 
     /// A node is complete: its closing brace makes it an operand of the operator around it.
-    void end_node() {
+    void end_node(const Operand& operand) {
         if (open_.empty()) return;
         skip_blanks();
         if (at_end()) fail(open_.back().at, "the node is never closed");
         if (peek() != '}') fail(at_, "the node should end here, but goes on");
         ++at_;
-        ++open_.back().operands;
+        open_.back().operands.push_back(operand);
     }
 
     /// What follows the l, up to the brace that ends the node (or the end of the text, if the leaf is the whole tree).
@@ -144,6 +172,7 @@ private:
     }
 
     Matrix read_matrix(const TclWord& word) {
+        if (word.text == "I") return identity;
         Matrix matrix{};
         TclList elements(word, store_);
         TclWord element;
@@ -154,7 +183,7 @@ private:
             matrix[i] = read_number(element.text, element.offset);
         }
         if (elements.next(element)) throw Fault{element.offset, "the matrix has more than 16 numbers", {}};
-        return without_scale(matrix, word.offset);
+        return without_scale(matrix);
     }
 
     const TclWord& word_;

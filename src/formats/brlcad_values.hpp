@@ -18,9 +18,9 @@ int read_integer(std::string_view text, std::size_t offset, int low, int high);
 /// `text` in quotes for a message, cut short if long.
 std::string quoted(std::string_view text, std::size_t longest = 40);
 
-/// Millimetres in one unit of that name ("mm", "in", "feet", ...); 0 if there is no such unit.
+/// Millimetres in one unit of that name ("mm", "in", "Inches", "light year", ...); 0 if BRL-CAD has no such unit.
 double unit_in_millimetres(std::string_view name);
-/// The name of a unit of that many millimetres; empty if there is none.
+/// The name of a unit of that many millimetres, which is more than 0; "7 mm" if it has none.
 std::string unit_name(double millimetres);
 
 /// The half-space normal . p <= distance with its normal made a unit vector. A zero normal stays; validation names it.
@@ -29,9 +29,9 @@ Plane unit_plane(Vec3 normal, double distance);
 /// `v` made a unit vector; a zero vector stays.
 Vec3 unit_vector(const Vec3& v);
 
-/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. Throws Fault at `offset` if the
-/// matrix is not affine.
-Matrix without_scale(Matrix matrix, std::size_t offset);
+/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. One that is not affine, or not finite then,
+/// stays so: only what uses it is unusable, and validation says so there.
+Matrix without_scale(Matrix matrix);
 
 /// What a region's flag says: P a plate, V a volume, others neither.
 Fastgen fastgen_of(std::string_view flag);

@@ -111,7 +111,7 @@ private:
     std::size_t start() const {
         constexpr std::string_view between = " \t\r\n,:";
         std::size_t from = token_end_;
-        if (from == 0 && text_.starts_with("\xEF\xBB\xBF")) from = 3;  // byte order mark
+        if (from == 0 && text_.starts_with(byte_order_mark)) from = byte_order_mark.size();
         return std::min(text_.find_first_not_of(between, from), text_.size());
     }
 

@@ -29,7 +29,10 @@ using TclStore = std::deque<std::string>;
 /// Reads one word after another. Cost is linear in the text, however deep its braces.
 class TclReader {
 public:
-    TclReader(std::string_view text, TclStore& store) : TclReader(TclWord{text}, store, true) {}
+    /// Commands from `begin` on.
+    TclReader(std::string_view text, TclStore& store, std::size_t begin = 0) : TclReader(TclWord{text}, store, true) {
+        at_ = begin;
+    }
 
     /// The next command of a script: words up to the end of a line or a ';'. Comments are passed over. False at the
     /// end. Throws Fault; then `skip_to` finds the next command.

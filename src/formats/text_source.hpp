@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/source.hpp"
+#include "scene/byte_order_mark.hpp"
 
 namespace csgrt {
 
@@ -21,6 +22,8 @@ public:
 
     const std::string& name() const noexcept { return name_; }
     std::string_view text() const noexcept { return text_; }
+    /// Where the text begins: behind a byte order mark.
+    std::size_t begin() const noexcept { return text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; }
 
     /// Line and column (in bytes, from 1) of an offset; `object` becomes the pointer.
     Place place(std::size_t offset, std::string object = {}) const override;

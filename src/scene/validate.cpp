@@ -13,6 +13,7 @@
 #include "scene/finding_list.hpp"
 #include "scene/nearest.hpp"
 #include "scene/object_faults.hpp"
+#include "scene/object_path.hpp"
 #include "scene/solid_faults.hpp"
 #include "scene/unsupported.hpp"
 #include "scene/validate.hpp"
@@ -94,21 +95,18 @@ private:
         });
     }
 
-    std::string did_you_mean_object(const std::string& wrong) const {
-        std::vector<std::string_view> names;
-        for (const Object& object : scene_.objects) names.push_back(name_of(object));
-        std::sort(names.begin(), names.end());  // the answer does not hang on the order of the file
-        names.erase(std::unique(names.begin(), names.end()), names.end());
-        return did_you_mean(wrong, names);
-    }
-
     std::vector<std::uint32_t> find_roots(const std::vector<std::string>& named) {
         std::vector<std::uint32_t> roots;
         for (const std::string& name : named.empty() ? names_.top_objects() : named) {
-            if (const std::uint32_t found = names_.find(name); found != Names::none) {
-                roots.push_back(found);
-            } else {
-                add({}, "the scene has no object '" + name + "'", did_you_mean_object(name));
+            ObjectPath path = find_path(scene_, names_, name);
+            if (path.steps.empty()) {
+                add({}, std::move(path.fault), std::move(path.suggestion));
+                continue;
+            }
+            roots.push_back(path.object());
+            for (std::size_t i = 1; i < path.steps.size(); ++i) {
+                const Object& above = scene_.objects[path.steps[i - 1].object];
+                check_matrix(std::get<Combination>(above).tree.nodes[path.steps[i].node], report_);
             }
         }
         if (roots.empty() && named.empty() && scene_.top.empty()) {
@@ -205,7 +203,7 @@ private:
             const TreeNode& leg = combination().tree.nodes[node];
             if (scene_.lenient) return leave_out_missing(parent, node, leg);
             add(leg.place, "'" + combination().name + "' uses '" + leg.object + "', which does not exist",
-                did_you_mean_object(leg.object));
+                did_you_mean_object(scene_, leg.object));
             return;
         }
         Reached& child = objects_[object];

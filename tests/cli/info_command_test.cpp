@@ -26,6 +26,8 @@ TEST_CASE("info tells what a scene holds") {
     CHECK(contains(shallow.out, "    left.r  region 1001  of 2\n    u right.r"));
     const Result one = run({"info", scene, "right.r"});
     CHECK(contains(one.out, "bounds    5 -10 -10 to 25 10 10 mm"));
+    const Result path = run({"info", scene, "all.g/left.r"});
+    CHECK(contains(path.out, "\nall.g/left.r  region 1001  of 2\n    left.s  ell\n    - hole.s  arb8\n"));
 }
 
 TEST_CASE("info brackets what the operators alone do not say, and unfolds a shared object once") {

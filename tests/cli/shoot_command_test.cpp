@@ -29,6 +29,20 @@ TEST_CASE("shoot names the line and the limit of a ray that is out of range") {
     CHECK(contains(result.err, ":4:7: the largest component of its direction is 1e-260"));
 }
 
+TEST_CASE("shoot takes rays behind a byte order mark, and objects by the paths that it prints") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("two balls.asc", std::string("\xEF\xBB\xBF") + two_balls);
+    const std::string file = folder.write("rays", "\xEF\xBB\xBF-100 0 0 1 0 0\r\n-100 0 0 1 0 0\n");
+    const Result result = run({"shoot", scene, "/all.g/left.r", "--rays", file, "--reference"});
+    REQUIRE(result.status == 0);
+    CHECK(contains(result.out, "\nray 0 2 0\n/all.g/left.r 90 "));
+    CHECK(contains(result.out, "\nray 1 2 0\n/all.g/left.r 90 "));
+    const Result wrong = run({"shoot", scene, "all.g/lefd.r", "--rays", file, "--reference"});
+    CHECK(wrong.status == 3);
+    CHECK(contains(wrong.err, "'all.g' has no member 'lefd.r' (in the path 'all.g/lefd.r')\n  did you mean 'left.r'?"));
+}
+
 TEST_CASE("shoot prints the partitions along each ray") {
     NEEDS_COMMAND();
     const Folder folder;

@@ -85,7 +85,7 @@ TEST_CASE("g: solids", "[g]") {
 TEST_CASE("g: solids that csgrt does not know keep BRL-CAD's names", "[g]") {
     const std::map<int, std::string> types = {
         {0, "type 0"},   {8, "poly"}, {9, "bspline"},   {24, "hf"},       {28, "submodel"},
-        {32, "type 32"}, {37, "brep"}, {41, "pnts"}, {200, "type 200"},
+        {32, "type 32"}, {37, "brep"}, {200, "type 200"},
     };
     std::string objects;
     for (const auto& [type, name] : types) {

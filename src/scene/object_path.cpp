@@ -1,0 +1,147 @@
+#include "scene/object_path.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "scene/nearest.hpp"
+
+namespace csgrt {
+
+namespace {
+
+std::string did_you_mean_one_of(std::string_view wrong, std::vector<std::string_view> names) {
+    std::sort(names.begin(), names.end());  // the answer does not hang on the order of the file
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return did_you_mean(wrong, names);
+}
+
+std::vector<std::string_view> members_of(const Combination& combination) {
+    std::vector<std::string_view> names;
+    for (const TreeNode& node : combination.tree.nodes)
+        if (node.op == Operator::leaf) names.push_back(node.object);
+    return names;
+}
+
+std::string some(const std::vector<std::string_view>& names) {
+    constexpr std::size_t shown = 8;
+    std::string text;
+    for (std::size_t i = 0; i < names.size() && i < shown; ++i) text += (i > 0 ? ", " : "") + std::string(names[i]);
+    return text + (names.size() > shown ? ", ..." : "");
+}
+
+/// Follows a path, step by step.
+class Follower {
+public:
+    Follower(const Scene& scene, const Names& names, const std::string& text)
+        : scene_(scene), names_(names), text_(text), rest_(text) {}
+
+    ObjectPath follow() {
+        skip_slashes();
+        while (path_.fault.empty() && !rest_.empty()) {
+            if (path_.steps.empty()) {
+                begin();
+            } else {
+                go_down(path_.steps.back().object);
+            }
+            skip_slashes();
+        }
+        if (!path_.fault.empty()) path_.steps.clear();
+        return std::move(path_);
+    }
+
+private:
+    void skip_slashes() { rest_.remove_prefix(std::min(rest_.find_first_not_of('/'), rest_.size())); }
+
+    std::string_view part() const { return rest_.substr(0, rest_.find('/')); }
+
+    void fail(std::string message, std::string suggestion) {
+        path_.fault = std::move(message) + " (in the path '" + text_ + "')";
+        path_.suggestion = std::move(suggestion);
+    }
+
+    /// The longest beginning of the rest, up to a '/', for which `find` finds something: names may hold a '/', too.
+    template <class Find>
+    auto longest(const Find& find) -> decltype(find(std::string_view{})) {
+        for (std::size_t end = rest_.size();; end = rest_.rfind('/', end - 1)) {
+            if (const auto found = find(rest_.substr(0, end))) {
+                rest_.remove_prefix(end);
+                return found;
+            }
+            if (end <= part().size()) return std::nullopt;
+        }
+    }
+
+    void begin() {
+        const auto found = longest([this](std::string_view name) -> std::optional<std::uint32_t> {
+            const std::uint32_t object = names_.find(name);
+            return object == Names::none ? std::nullopt : std::optional(object);
+        });
+        if (found) {
+            path_.steps.push_back({*found, 0});
+        } else {
+            fail("the scene has no object '" + std::string(part()) + "'", did_you_mean_object(scene_, part()));
+        }
+    }
+
+    void go_down(std::uint32_t from) {
+        const std::string& above = name_of(scene_.objects[from]);
+        const auto* combination = std::get_if<Combination>(&scene_.objects[from]);
+        if (combination == nullptr) return fail("'" + above + "' is a solid; it has no member '" + std::string(part()) + "'", {});
+        const auto found = longest([combination](std::string_view name) -> std::optional<std::uint32_t> {
+            const std::vector<TreeNode>& nodes = combination->tree.nodes;
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                if (nodes[i].op == Operator::leaf && nodes[i].object == name) return static_cast<std::uint32_t>(i);
+            return std::nullopt;
+        });
+        if (!found) {
+            const std::vector<std::string_view> members = members_of(*combination);
+            std::string suggestion = did_you_mean_one_of(part(), members);
+            if (suggestion.empty() && !members.empty()) suggestion = "its members are " + some(members);
+            return fail("'" + above + "' has no member '" + std::string(part()) + "'", std::move(suggestion));
+        }
+        const std::uint32_t object = names_.child(from, *found);
+        if (object == Names::none) {
+            const std::string& name = combination->tree.nodes[*found].object;
+            return fail("'" + above + "' uses '" + name + "', which does not exist",
+                        did_you_mean_object(scene_, name));
+        }
+        path_.steps.push_back({object, *found});
+    }
+
+    const Scene& scene_;
+    const Names& names_;
+    const std::string& text_;
+    std::string_view rest_;
+    ObjectPath path_;
+};
+
+}  // namespace
+
+const Object* object_at(const Scene& scene, const std::string& path) {
+    const ObjectPath found = find_path(scene, Names(scene), path);
+    return found.steps.empty() ? nullptr : &scene.objects[found.object()];
+}
+
+std::string did_you_mean_object(const Scene& scene, std::string_view wrong) {
+    std::vector<std::string_view> names;
+    for (const Object& object : scene.objects) names.push_back(name_of(object));
+    return did_you_mean_one_of(wrong, std::move(names));
+}
+
+ObjectPath find_path(const Scene& scene, const Names& names, const std::string& text) {
+    ObjectPath path;
+    if (const std::uint32_t object = names.find(text); object != Names::none) {
+        path.steps.push_back({object, 0});
+    } else if (text.find_first_not_of('/') == std::string::npos || text.find('/') == std::string::npos) {
+        path.fault = "the scene has no object '" + text + "'";
+        path.suggestion = did_you_mean_object(scene, text);
+    } else {
+        path = Follower(scene, names, text).follow();
+    }
+    return path;
+}
+
+}  // namespace csgrt
