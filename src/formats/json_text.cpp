@@ -91,6 +91,10 @@ void append_json(std::string& out, const ordered_json& value, std::size_t indent
 
 std::string json_string(const std::string& text) { return nlohmann::json(text).dump(); }
 
+std::string readable_json_string(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string json_number(double value) {
     if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" is a whole number to many readers, and loses its sign
     char digits[32];

@@ -15,6 +15,8 @@ void append_json(std::string& out, const nlohmann::ordered_json& value, std::siz
 
 /// A string in quotes.
 std::string json_string(const std::string& text);
+/// The same where bytes that are no UTF-8 may be replaced: names of old databases may be in any encoding.
+std::string readable_json_string(const std::string& text);
 
 /// The shortest number that reads back to the same double, -0 as "-0.0".
 std::string json_number(double value);

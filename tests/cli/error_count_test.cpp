@@ -85,7 +85,7 @@ TEST_CASE("fifty errors are told, and how many more there are") {
             CAPTURE(kind.name, errors);
             const std::string file = folder.write(kind.name, kind.text(errors));
             const Result result = kind.status == 6 ? run({"shoot", good, "--rays", file, "--reference"})
-                                                   : run({"info", file, "--depth", "0"});
+                                                   : run({"info", file, "--strict", "--depth", "0"});
             CHECK(result.status == kind.status);
             const int shown = std::min(errors, 50), more = errors - shown;
             CHECK(count_of(result.err, "csgrt: error: ") == static_cast<std::size_t>(shown + (more > 0)));

@@ -45,7 +45,7 @@ TEST_CASE("errors of a scene on standard input name it, with line and column") {
     NEEDS_COMMAND();
     const Folder folder;
     const auto err = [&](const std::string& text) {
-        const Result result = run({"info", "-"}, {.input = folder.write("scene", text)});
+        const Result result = run({"info", "-", "--strict"}, {.input = folder.write("scene", text)});
         CHECK(result.status == 3);
         return result.err;
     };

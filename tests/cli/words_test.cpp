@@ -156,7 +156,7 @@ TEST_CASE("a number too small is 0 and one too large an error, in every reader i
         const std::string said = "the number " + large.substr(0, 40);
         CAPTURE(large);
         for (const auto& [name, text] : {std::pair{"a.json", sphere(large)}, {"b.asc", v5(large)}, {"c.asc", v4(large)}}) {
-            const Result result = run({"info", folder.write(name, text)});
+            const Result result = run({"info", "--strict", folder.write(name, text)});
             CAPTURE(name, result.err);
             CHECK(result.status == 3);
             CHECK(contains(result.err, said));

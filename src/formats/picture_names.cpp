@@ -1,7 +1,14 @@
 // What the numbers in a picture mean, for its header.
 #include <csgrt/renderer.hpp>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/json_text.hpp"
 
 namespace csgrt {
 
@@ -25,10 +32,7 @@ void describe(Image& image, const char* channel, const char* attribute, const In
     std::string text;
     for (std::size_t i = 1; i < occurs.size(); ++i) {
         if (!occurs[i]) continue;
-        // Names of old databases may be in any encoding, a JSON text is in one.
-        constexpr auto replace = nlohmann::json::error_handler_t::replace;
-        text += (text.empty() ? "{\"" : ", \"") + std::to_string(i) + "\": " +
-                nlohmann::json(name(infos[i - 1])).dump(-1, ' ', false, replace);
+        text += (text.empty() ? "{\"" : ", \"") + std::to_string(i) + "\": " + readable_json_string(name(infos[i - 1]));
     }
     image.attributes[attribute] = text.empty() ? "{}" : text + "}";
 }
