@@ -3,8 +3,9 @@
 //
 //   F(rho) = alpha (rho - 1)^2 + 2 beta (rho - 1) z + gamma z^2 - 1 < 0
 //
-// F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis. Written
-// in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each root is polished on F itself.
+// F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis (else:
+// crossed_eto.h). Written in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each root is
+// polished on F itself.
 //
 // Where the ellipse all but touches the axis, at z = beta / gamma, all that is left of these terms there is rounding. With h the
 // height above that point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, the same is
@@ -89,14 +90,9 @@ FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch
     return u;
 }
 
-FN quartic eto_pinched(GLOBAL const real* p, eto_pinch pinch, vec3 d) {
-    // rho^2 = r0 + r1 u + r2 u^2, E = e0 + e1 u + e2 u^2, O = q0 + q1 u, O^2 = s0 + s1 u + s2 u^2
-    const vec3 o = pinch.o;
-    const real r0 = real_fma(o.x, o.x, o.y * o.y), r1 = REAL(2) * real_fma(o.x, d.x, o.y * d.y);
-    const real r2 = real_fma(d.x, d.x, d.y * d.y);
-    const real e0 = real_fma(p[12], r0, real_fma(p[14] * o.z, o.z, pinch.gap));
-    const real e1 = real_fma(p[12], r1, REAL(2) * p[14] * o.z * d.z), e2 = real_fma(p[12], r2, p[14] * d.z * d.z);
-    const real q0 = REAL(2) * (p[13] * o.z - (REAL(1) + pinch.gap)), q1 = REAL(2) * p[13] * d.z;
+// E^2 - rho^2 O^2 along a ray, of E = e0 + e1 u + e2 u^2, O = q0 + q1 u and rho^2 = r0 + r1 u + r2 u^2.
+FN quartic eto_product(real e0, real e1, real e2, real q0, real q1, real r0, real r1, real r2) {
+    // O^2 = s0 + s1 u + s2 u^2
     const real s0 = q0 * q0, s1 = REAL(2) * q0 * q1, s2 = q1 * q1, reached = real_sqrt(r0) * q0;
     quartic g;
     g.c[0] = (e0 - reached) * (e0 + reached);
@@ -107,67 +103,100 @@ FN quartic eto_pinched(GLOBAL const real* p, eto_pinch pinch, vec3 d) {
     return g;
 }
 
+FN quartic eto_pinched(GLOBAL const real* p, eto_pinch pinch, vec3 d) {
+    const vec3 o = pinch.o;
+    const real r0 = real_fma(o.x, o.x, o.y * o.y), r1 = REAL(2) * real_fma(o.x, d.x, o.y * d.y);
+    const real r2 = real_fma(d.x, d.x, d.y * d.y);
+    const real e0 = real_fma(p[12], r0, real_fma(p[14] * o.z, o.z, pinch.gap));
+    const real e1 = real_fma(p[12], r1, REAL(2) * p[14] * o.z * d.z), e2 = real_fma(p[12], r2, p[14] * d.z * d.z);
+    const real q0 = REAL(2) * (p[13] * o.z - (REAL(1) + pinch.gap)), q1 = REAL(2) * p[13] * d.z;
+    return eto_product(e0, e1, e2, q0, q1, r0, r1, r2);
+}
+
+// Of a ray that passes no such point.
+FN quartic eto_quartic(GLOBAL const real* p, vec3 o, vec3 d) {
+    const real alpha = p[12], beta = p[13], gamma = p[14];
+    quartic g;
+    // R = rho^2 - 1 = r0 + r1 u + r2 u^2, z = z0 + z1 u, G = gamma z^2 - 1 = g0 + g1 u + g2 u^2
+    real r0 = real_fma(o.x, o.x, o.y * o.y) - REAL(1);
+    real r1 = REAL(2) * real_fma(o.x, d.x, o.y * d.y);
+    real r2 = real_fma(d.x, d.x, d.y * d.y);
+    real z0 = o.z, z1 = d.z;
+    real g0 = real_fma(gamma * z0, z0, REAL(-1)), g1 = REAL(2) * gamma * z0 * z1, g2 = gamma * z1 * z1;
+    // The product is alpha R (alpha R + 2 G + 4 beta z) + G (G + 4 (alpha - beta z)) - 4 (beta z)^2 R.
+    real b0 = beta * z0, b1 = beta * z1;
+    real a0 = alpha * r0, a1 = alpha * r1, a2 = alpha * r2;
+    real s0 = real_fma(REAL(4), b0, real_fma(REAL(2), g0, a0)), s1 = real_fma(REAL(4), b1, real_fma(REAL(2), g1, a1));
+    real s2 = real_fma(REAL(2), g2, a2);
+    real t0 = real_fma(REAL(4), alpha - b0, g0), t1 = real_fma(REAL(-4), b1, g1);
+    real q0 = REAL(4) * b0 * b0, q1 = REAL(8) * b0 * b1, q2 = REAL(4) * b1 * b1;
+    g.c[0] = real_fma(a0, s0, g0 * t0) - q0 * r0;
+    g.c[1] = real_fma(a0, s1, a1 * s0) + real_fma(g0, t1, g1 * t0) - real_fma(q0, r1, q1 * r0);
+    g.c[2] = real_fma(a0, s2, real_fma(a1, s1, a2 * s0)) + real_fma(g0, g2, real_fma(g1, t1, g2 * t0)) -
+             real_fma(q0, r2, real_fma(q1, r1, q2 * r0));
+    g.c[3] = real_fma(a1, s2, a2 * s1) + real_fma(g1, g2, g2 * t1) - real_fma(q1, r2, q2 * r1);
+    g.c[4] = real_fma(a2, s2, g2 * g2) - q2 * r2;
+    return g;
+}
+
+// The piece of a ray that may meet the solid, between `low` and `high` along the unit direction d. Empty: low >= high.
+typedef struct {
+    local_ray l;
+    vec3 d;
+    real length;  // of l.d
+    real low, high;
+} eto_piece;
+
+FN eto_piece eto_piece_of(GLOBAL const real* p, u32 method, ray3 r) {
+    const real height = p[15] * ETO_MARGIN, outer = p[16] * ETO_MARGIN;
+    real middle, reach2;
+    eto_piece s;
+    s.l = quartic_ray(method, p, r);
+    s.length = real_sqrt(dot3(s.l.d, s.l.d));
+    s.d = scale(s.l.d, REAL(1) / s.length);
+    middle = quartic_middle(method, s.l.o, s.d);
+    reach2 = real_fma(outer, outer, height * height) - (dot3(s.l.o, s.l.o) - middle * middle);
+    s.low = s.high = 0;
+    if (!(reach2 > 0)) return s;
+    s.high = real_sqrt(reach2) * ETO_MARGIN;
+    s.low = middle - s.high;
+    s.high = middle + s.high;
+    if (s.d.z != 0) {
+        const real z0 = (-height - s.l.o.z) / s.d.z, z1 = (height - s.l.o.z) / s.d.z;
+        s.low = real_max(s.low, real_min(z0, z1));
+        s.high = real_min(s.high, real_max(z0, z1));
+    } else if (real_abs(s.l.o.z) > height) {
+        s.high = s.low;
+    }
+    return s;
+}
+
 FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = tables.reals + solid.first_real;
-    u32 method = QUARTIC_OF(tables);
-    local_ray l = quartic_ray(method, p, r);
-    real alpha = p[12], beta = p[13], gamma = p[14];
-    real height = p[15] * ETO_MARGIN, outer = p[16] * ETO_MARGIN;
-    real length = real_sqrt(dot3(l.d, l.d));
-    vec3 d = scale(l.d, REAL(1) / length);
-    real middle = quartic_middle(method, l.o, d);
-    real reach2 = real_fma(outer, outer, height * height) - (dot3(l.o, l.o) - middle * middle);
-    span s = whole_line();
-    real low, high;
+    const u32 method = QUARTIC_OF(tables);
+    const eto_piece s = eto_piece_of(p, method, r);
+    const vec3 d = s.d;
+    real low = s.low, high = s.high;
     quartic g;
     real roots[4];
     int count, i;
     eto_pinch pinch;
-    if (!(reach2 > 0)) return no_hits();
-    high = real_sqrt(reach2) * ETO_MARGIN;
-    low = middle - high;
-    high = middle + high;
-    if (d.z != 0) {
-        real z0 = (-height - l.o.z) / d.z, z1 = (height - l.o.z) / d.z;
-        low = real_max(low, real_min(z0, z1));
-        high = real_min(high, real_max(z0, z1));
-    } else if (real_abs(l.o.z) > height) {
-        return no_hits();
-    }
     if (!(low < high)) return no_hits();
-    pinch = eto_pinch_of(p, method, l.o, d);
+    pinch = eto_pinch_of(p, method, s.l.o, d);
     if (pinch.passes) {
         g = eto_pinched(p, pinch, d);
         low = low - pinch.along;
         high = high - pinch.along;
     } else {
-        // R = rho^2 - 1 = r0 + r1 u + r2 u^2, z = z0 + z1 u, G = gamma z^2 - 1 = g0 + g1 u + g2 u^2
-        real r0 = real_fma(l.o.x, l.o.x, l.o.y * l.o.y) - REAL(1);
-        real r1 = REAL(2) * real_fma(l.o.x, d.x, l.o.y * d.y);
-        real r2 = real_fma(d.x, d.x, d.y * d.y);
-        real z0 = l.o.z, z1 = d.z;
-        real g0 = real_fma(gamma * z0, z0, REAL(-1)), g1 = REAL(2) * gamma * z0 * z1, g2 = gamma * z1 * z1;
-        // The product is alpha R (alpha R + 2 G + 4 beta z) + G (G + 4 (alpha - beta z)) - 4 (beta z)^2 R.
-        real b0 = beta * z0, b1 = beta * z1;
-        real a0 = alpha * r0, a1 = alpha * r1, a2 = alpha * r2;
-        real s0 = real_fma(REAL(4), b0, real_fma(REAL(2), g0, a0)), s1 = real_fma(REAL(4), b1, real_fma(REAL(2), g1, a1));
-        real s2 = real_fma(REAL(2), g2, a2);
-        real t0 = real_fma(REAL(4), alpha - b0, g0), t1 = real_fma(REAL(-4), b1, g1);
-        real q0 = REAL(4) * b0 * b0, q1 = REAL(8) * b0 * b1, q2 = REAL(4) * b1 * b1;
-        g.c[0] = real_fma(a0, s0, g0 * t0) - q0 * r0;
-        g.c[1] = real_fma(a0, s1, a1 * s0) + real_fma(g0, t1, g1 * t0) - real_fma(q0, r1, q1 * r0);
-        g.c[2] = real_fma(a0, s2, real_fma(a1, s1, a2 * s0)) + real_fma(g0, g2, real_fma(g1, t1, g2 * t0)) -
-                 real_fma(q0, r2, real_fma(q1, r1, q2 * r0));
-        g.c[3] = real_fma(a1, s2, a2 * s1) + real_fma(g1, g2, g2 * t1) - real_fma(q1, r2, q2 * r1);
-        g.c[4] = real_fma(a2, s2, g2 * g2) - q2 * r2;
+        g = eto_quartic(p, s.l.o, d);
     }
     count = quartic_roots(method, g, low, high, roots);
     for (i = 0; i < count; ++i) {
-        real u = eto_polish(p, l.o, d, roots[i], pinch);
-        roots[i] = l.shift + (pinch.passes ? u + pinch.along : u) / length;
+        real u = eto_polish(p, s.l.o, d, roots[i], pinch);
+        roots[i] = s.l.shift + (pinch.passes ? u + pinch.along : u) / s.length;
         if (i > 0 && roots[i] < roots[i - 1]) roots[i] = roots[i - 1];  // polishing never changes the order
     }
-    return spans_between(s, 0, roots, count & ~1, 0);
+    return spans_between(whole_line(), 0, roots, count & ~1, 0);
 }
 
 FN vec3 eto_normal(GLOBAL const real* p, ray3 r, real t) {

@@ -4,6 +4,7 @@
 #define CSGRT_SOLID_H
 
 #include "arb.h"
+#include "crossed_eto.h"
 #include "ehy.h"
 #include "ell.h"
 #include "eto.h"
@@ -51,6 +52,9 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) return eto_intersect(g, solid, r);
 #endif
+#if HAS_SOLID(SOLID_CROSSED_ETO)
+    if (solid.type == SOLID_CROSSED_ETO) return crossed_eto_intersect(g, solid, r);
+#endif
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) return part_intersect(g.reals + solid.first_real, r);
 #endif
@@ -85,6 +89,9 @@ FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 
 #endif
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
+#endif
+#if HAS_SOLID(SOLID_CROSSED_ETO)
+    if (solid.type == SOLID_CROSSED_ETO) n = crossed_eto_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_SUPERELL)
     if (solid.type == SOLID_SUPERELL) n = superell_normal(g.reals + solid.first_real, r, t);

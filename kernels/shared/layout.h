@@ -27,7 +27,8 @@
 #define SOLID_PLATE 13    // triangles with thickness
 #define SOLID_EXTRUDE 14  // what curves enclose, moved along a line: extrude, ebm
 #define SOLID_REVOLVE 15
-#define SOLID_TYPES 16
+#define SOLID_CROSSED_ETO 16  // an eto whose ellipse reaches across the axis
+#define SOLID_TYPES 17
 
 // How a revolve is cut.
 #define REVOLVE_WHOLE 0  // not at all

@@ -50,6 +50,7 @@ struct Packer {
     void operator()(const Rpc& s);
     void operator()(const Rhc& s);
     void operator()(const Eto& s);
+    void crossed(long double alpha, long double beta, long double gamma, long double determinant, long double reach);
     void operator()(const Hyp& s);
     void operator()(const Superell& s);
     void operator()(const Hrt& s);

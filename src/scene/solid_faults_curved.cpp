@@ -41,7 +41,8 @@ Faults FaultsOf::operator()(const Tor& s) const {
     return faults;
 }
 
-/// The ellipse's half-width along a radius is that of its two semi-axes, c and the one across it.
+/// BRL-CAD's rule: each of the two semi-axes by itself, c and the one across it, reaches no farther along a radius than the
+/// axis. The ellipse may: it is drawn without what lies in it and its mirror image. Where c points down the second is not asked for.
 Faults FaultsOf::operator()(const Eto& s) const {
     Faults faults;
     if (!all_finite(faults, s.v, s.n, s.c, s.r, s.r_d)) return faults;
@@ -50,8 +51,9 @@ Faults FaultsOf::operator()(const Eto& s) const {
     require_positive(faults, "the semi-axis d", s.r_d);
     if (!axis || !semi_axis || !faults.empty()) return faults;
     const double along_axis = dot(unit(s.n), unit(s.c));
-    const double reach = std::hypot(length(cross(unit(s.n), s.c)), s.r_d * along_axis);
-    if (reach > s.r * (1 + rounding)) faults.push_back("the ellipse must not reach across the axis");
+    const double most = s.r * (1 + rounding);
+    if (length(cross(unit(s.n), s.c)) > most || s.r_d * along_axis > most)
+        faults.push_back("neither semi-axis of the ellipse must reach across the axis");
     return faults;
 }
 
