@@ -53,6 +53,7 @@ struct Warning {
     Place place;              ///< the first of them, where it is known
     std::string reason;       ///< what is wrong, and what was done about it
     std::uint64_t count = 1;  ///< how often this was met
+    bool appearance = false;  ///< pictures show less than they should; what rays meet does not change
 };
 
 /// "place: object: reason (N times)", on one line.

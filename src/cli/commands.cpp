@@ -19,8 +19,9 @@ Settings with_progress(const Settings& settings, Progress& progress) {
     return result;
 }
 
-void report(const std::vector<Warning>& warnings) {
+void report(std::vector<Warning> warnings, bool pictures) {
     constexpr std::size_t most = 50;
+    if (!pictures) std::erase_if(warnings, [](const Warning& warning) { return warning.appearance; });
     std::string text;
     for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i)
         text += "csgrt: warning: " + format(warnings[i]) + "\n";

@@ -82,8 +82,9 @@ Status run(const TextArguments& arguments);
 /// The settings of a command with its progress and the user's Ctrl-C tied in. `progress` must outlive the result's use.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Says warnings on standard error, a line each; of very many, the first and how many more.
-void report(const std::vector<Warning>& warnings);
+/// Says warnings on standard error, a line each; of very many, the first and how many more. `pictures`: those, too, that tell what
+/// pictures lack.
+void report(std::vector<Warning> warnings, bool pictures = true);
 
 /// load_scene, as one that can be interrupted.
 Scene load(const std::string& path, bool strict);

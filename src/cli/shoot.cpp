@@ -41,7 +41,7 @@ Status run(const ShootArguments& arguments) {
     RayReader reader(arguments.rays);
     progress.stage("compiling");
     Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
-    report(renderer.warnings());
+    report(renderer.warnings(), false);
     check_interrupt();
 
     OutputFile out(arguments.output);

@@ -61,6 +61,7 @@ void add_region_lights(FlatScene& flat, const std::vector<Box>& boxes, CompiledS
             Warning& warning = compiled.warnings.emplace_back();
             warning.object = region.info.path;
             warning.reason = "it gives no light: it has no end";
+            warning.appearance = true;
             continue;
         }
         Light found;

@@ -221,7 +221,7 @@ void warn_of_shaders(Scene& scene) {
     std::map<std::string, Warning> warnings;  // by reason: the order does not hang on that of the file
     const auto add = [&](const Combination& combination, std::string reason) {
         if (reason.empty()) return;
-        const auto [found, is_new] = warnings.try_emplace(reason, Warning{combination.name, combination.place, reason, 0});
+        const auto [found, is_new] = warnings.try_emplace(reason, Warning{combination.name, combination.place, reason, 0, true});
         ++found->second.count;
     };
     for (const Object& object : scene.objects) {
