@@ -73,9 +73,14 @@ Box Tight::operator()(const Eto &s) const {
   const EtoFrame f = frame_of(s);
   return support_box(
       m, wide(s.v), f.axes, [&](long double x, long double y, long double z) {
+        const auto ellipse = [&](long double out) {
+          return out +
+                 std::hypot(f.long_axis * (out * f.radial + z * f.axial),
+                            f.short_axis * (z * f.radial - out * f.axial));
+        };
+        // Its mirror image reaches farther where its top is past the axis.
         const long double out = std::hypot(x, y);
-        return out + std::hypot(f.long_axis * (out * f.radial + z * f.axial),
-                                f.short_axis * (z * f.radial - out * f.axial));
+        return std::max(ellipse(out), ellipse(-out));
       });
 }
 

@@ -168,7 +168,29 @@ TEST_CASE("etos across their axis: kernels before the oracle, ends and normals",
     CHECK(3 * ties < rays);
 }
 
-TEST_CASE("etos across their axis are right, on the device to the bit", "[field]") { test::judge_seeds(crossed, 0, 12, 1); }
+TEST_CASE("etos across their axis are right, on the device to the bit", "[field]") {
+    test::judge_seeds(crossed, 0, 12, 1);
+    test::judge_seeds(crossed, 1003, 1, 6);  // its top is past the axis
+}
+
+// Its top is past the axis: the image of the ellipse reaches farther to some sides.
+TEST_CASE("the box of an eto across its axis holds it", "[field]") {
+    Random random(3);
+    for (int i = 0; i < 100; ++i) {
+        const Section s = some_section(random);
+        const Vec3 z = random.direction(), x = any_across(z), y = cross(z, x);
+        const CompiledScene scene = compile_alone(Eto{{}, z, s.c * s.out * x + s.c * s.up * z, 1, s.d}, identity);
+        const Box& box = scene.bounds;
+        for (int k = 0; k < 400; ++k) {
+            const double turn = random.between(-4, 4), angle = random.between(-4, 4);
+            const double c = 0.999999 * s.c * std::cos(turn), d = 0.999999 * s.d * std::sin(turn);
+            const double rho = 1 + s.out * c - s.up * d, height = s.up * c + s.out * d;
+            const Vec3 p = rho * std::cos(angle) * x + rho * std::sin(angle) * y + height * z;
+            REQUIRE((p.x >= box.low.x && p.y >= box.low.y && p.z >= box.low.z));
+            REQUIRE((p.x <= box.high.x && p.y <= box.high.y && p.z <= box.high.z));
+        }
+    }
+}
 
 TEST_CASE("10^5 rays at etos across their axis", "[.long]") {
     FieldTally tally;
