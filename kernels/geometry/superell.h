@@ -3,11 +3,17 @@
 //   G = (|x|^p + |y|^p)^q + |z|^r - 1 < 0        p = 2 / e, q = e / n, r = 2 / n
 //
 // Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0: there its powers are monotone, so
-// their ranges over a piece are those at its ends, and with them the ranges of G and of its slope. Pieces are walked from
-// the front, as wide as can be decided: G has no 0 in it, or its slope has none, and then the signs of G at its ends tell
-// whether it holds a root, or its second derivative has none, and then G turns once at most. Where nothing helps down to
-// SUPERELL_LEAST of the part (a ray that touches within rounding, or runs within a flat side), the signs at the ends
-// decide as well; and after SUPERELL_STEPS pieces, at any width.
+// their ranges over a piece are those at its ends, and with them the ranges of G and of its slope. With p q = r,
+// s = |x|^p + |y|^p and Lagrange's identity the second derivative is
+//
+//   G'' / r = (r-1) (s^(q-2) (x^(p-1) x' + y^(p-1) y')^2 + z^(r-2) z'^2) + (p-1) s^(q-2) (x y)^(p-2) (x y' - x' y)^2
+//
+// where x y' - x' y is the same all along the ray. If p-1 and r-1 are not of opposite signs (e, n <= 2: the solid is
+// convex; e, n >= 2: a star), G'' has one sign, and G turns once at most in the whole part. Else pieces are walked from
+// the front, as wide as can be decided: G has no 0 in it, or its slope has none, and then the signs of G at its ends
+// tell whether it holds a root, or its second derivative has none, and then G turns once at most. Where nothing helps
+// down to SUPERELL_LEAST of the part (a ray that touches within rounding, or runs within a flat side), the signs at the
+// ends decide as well; and after SUPERELL_STEPS pieces, at any width.
 #ifndef CSGRT_SUPERELL_H
 #define CSGRT_SUPERELL_H
 
@@ -20,6 +26,7 @@
 #define SUPERELL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)
 #define SUPERELL_STEPS 500
 #define SUPERELL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // |G| beyond this is no rounding
+#define SUPERELL_TURN_STEPS (sizeof(real) == 16 ? 120 : 60)
 #define SUPERELL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
 
 // One local coordinate along the ray, as |rate| |u - zero| where it is 0 in the searched piece.
@@ -48,6 +55,7 @@ FN real superell_rate(superell_axis a, real u) {
 typedef struct {
     superell_axis x, y, z;
     real p, q, r;
+    real twist;  // (x y' - x' y)^2
 } superell_ray;
 
 // G and its slope over r at u; x^p, x^(p-1), x^(p-2), and so on for y and z.
@@ -82,21 +90,27 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
     s = a.x + a.y;
     outer = real_power(s, l.q);
     a.value = outer + (a.z - REAL(1));
-    a.slope = product_or_0(superell_lower(s, outer, l.q),
-                               product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y)) +
-              product_or_0(rate.z, a.by_z);
+    if (x == 0 && y == 0) {
+        // On the axis of z: from here on s^q is that of the rates times a distance to the power r.
+        real away = real_power(real_power(real_abs(rate.x), l.p) + real_power(real_abs(rate.y), l.p), l.q);
+        a.slope = product_or_0(rate.x + rate.y < 0 ? -away : away, superell_lower(0, 0, l.r));
+    } else {
+        a.slope = product_or_0(superell_lower(s, outer, l.q),
+                               product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y));
+    }
+    a.slope = a.slope + product_or_0(rate.z, a.by_z);
     return a;
 }
 
 #define SUPERELL_UNDECIDED 0
 #define SUPERELL_MONOTONE 1  // or free of zeros
-#define SUPERELL_BENT 2      // turns once at most
+#define SUPERELL_BENT 2      // bent to one side: turns once at most
 
 // What is known of G between a and b.
 FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point b) {
     real low_s = real_min(a.x, b.x) + real_min(a.y, b.y), high_s = real_max(a.x, b.x) + real_max(a.y, b.y);
     real low_power = real_power(low_s, l.q), high_power = real_power(high_s, l.q);
-    real by0, by1, bys0, bys1, outer0, outer1, x0, x1, y0, y1, z0, z1, sum0, sum1, square0, square1;
+    real by0, by1, bys0, bys1, outer0, outer1, x0, x1, y0, y1, z0, z1, sum0, sum1, square0, square1, least, most;
     if (low_power + (real_min(a.z, b.z) - REAL(1)) > SUPERELL_NOISE) return SUPERELL_MONOTONE;
     if (high_power + (real_max(a.z, b.z) - REAL(1)) < -SUPERELL_NOISE) return SUPERELL_MONOTONE;
     // The slope over r: s^(q-1) (x^(p-1) dx + y^(p-1) dy) + z^(r-1) dz, s = x^p + y^p.
@@ -114,24 +128,25 @@ FN int superell_look(superell_ray l, vec3 rate, superell_point a, superell_point
     sum1 = real_max(x0, x1) + real_max(y0, y1);
     if (product_or_0(sum0, sum0 > 0 ? outer0 : outer1) + real_min(z0, z1) > 0) return SUPERELL_MONOTONE;
     if (product_or_0(sum1, sum1 > 0 ? outer1 : outer0) + real_max(z0, z1) < 0) return SUPERELL_MONOTONE;
-    // Its derivative: (q-1) p s^(q-2) (x^(p-1) dx + y^(p-1) dy)^2 + (p-1) s^(q-1) (x^(p-2) dx^2 + y^(p-2) dy^2) +
-    // (r-1) z^(r-2) dz^2.
+    // Its derivative over r, as above.
     square0 = sum0 > 0 ? sum0 * sum0 : sum1 < 0 ? sum1 * sum1 : REAL(0);
     square1 = real_max(sum0 * sum0, sum1 * sum1);
-    bys0 = superell_lower(low_s, by0, l.q - REAL(1));
-    bys1 = superell_lower(high_s, by1, l.q - REAL(1));
-    x0 = product_or_0(rate.x * rate.x, real_min(a.by_xx, b.by_xx)) +
-         product_or_0(rate.y * rate.y, real_min(a.by_yy, b.by_yy));
-    x1 = product_or_0(rate.x * rate.x, real_max(a.by_xx, b.by_xx)) +
-         product_or_0(rate.y * rate.y, real_max(a.by_yy, b.by_yy));
-    x0 = product_or_0(l.p - REAL(1), product_or_0(outer0, x0));
-    x1 = product_or_0(l.p - REAL(1), product_or_0(outer1, x1));
-    y0 = product_or_0((l.q - REAL(1)) * l.p, product_or_0(real_min(bys0, bys1), square0));
-    y1 = product_or_0((l.q - REAL(1)) * l.p, product_or_0(real_max(bys0, bys1), square1));
+    by0 = superell_lower(low_s, by0, l.q - REAL(1));
+    by1 = superell_lower(high_s, by1, l.q - REAL(1));
+    bys0 = real_min(by0, by1);
+    bys1 = real_max(by0, by1);
+    x0 = (l.r - REAL(1)) * square0;
+    x1 = (l.r - REAL(1)) * square1;
+    y0 = product_or_0(real_min(a.by_xx, b.by_xx), real_min(a.by_yy, b.by_yy));
+    y1 = product_or_0(real_max(a.by_xx, b.by_xx), real_max(a.by_yy, b.by_yy));
+    y0 = product_or_0((l.p - REAL(1)) * l.twist, y0);
+    y1 = product_or_0((l.p - REAL(1)) * l.twist, y1);
     z0 = product_or_0((l.r - REAL(1)) * rate.z * rate.z, a.by_zz);
     z1 = product_or_0((l.r - REAL(1)) * rate.z * rate.z, b.by_zz);
-    if (real_min(x0, x1) + real_min(y0, y1) + real_min(z0, z1) > 0) return SUPERELL_BENT;
-    if (real_max(x0, x1) + real_max(y0, y1) + real_max(z0, z1) < 0) return SUPERELL_BENT;
+    least = real_min(x0, x1) + real_min(y0, y1);
+    most = real_max(x0, x1) + real_max(y0, y1);
+    if (product_or_0(least, least > 0 ? bys0 : bys1) + real_min(z0, z1) > 0) return SUPERELL_BENT;
+    if (product_or_0(most, most > 0 ? bys1 : bys0) + real_max(z0, z1) < 0) return SUPERELL_BENT;
     return SUPERELL_UNDECIDED;
 }
 
@@ -159,20 +174,22 @@ FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_poin
     return u;
 }
 
-// Where G turns between a and b.
+// Between a and b, of one sign, G bends towards 0: a point where it has the other sign; or where it turns, or any point
+// if the tangents at the ends tell that it does not reach 0.
 FN superell_point superell_turn(superell_ray l, vec3 rate, superell_point a, superell_point b) {
-    real low = a.u, high = b.u;
-    u32 falling = a.slope < 0;
+    u32 falling = a.slope < 0, negative = a.value < 0;
     superell_point m = a;
     int step;
-    for (step = 0; step < 60; ++step) {
-        real u = REAL(0.5) * (low + high);
-        if (!(u > low && u < high)) return m;
+    for (step = 0; step < SUPERELL_TURN_STEPS; ++step) {
+        real from = l.r * real_abs(a.slope), to = l.r * real_abs(b.slope), u = REAL(0.5) * (a.u + b.u);
+        real meet = real_abs(a.value) * to + real_abs(b.value) * from - from * to * (b.u - a.u);
+        if (meet > SUPERELL_NOISE * (from + to) || !(u > a.u && u < b.u)) return m;
         m = superell_at(l, rate, u);
+        if ((m.value < 0) != negative) return m;
         if ((m.slope < 0) == falling) {
-            low = u;
+            a = m;
         } else {
-            high = u;
+            b = m;
         }
     }
     return m;
@@ -183,6 +200,7 @@ FN crossings superell_part(crossings c, superell_ray l, real low, real high, rea
     real middle = REAL(0.5) * (low + high), width = high - low, least = width * SUPERELL_LEAST;
     vec3 rate = make_vec3(superell_rate(l.x, middle), superell_rate(l.y, middle), superell_rate(l.z, middle));
     superell_point a = superell_at(l, rate, low);
+    u32 bent = (l.p - REAL(1)) * (l.r - REAL(1)) >= 0;
     int steps = 0;
     while (a.u < high) {
         superell_point b;
@@ -190,13 +208,18 @@ FN crossings superell_part(crossings c, superell_ray l, real low, real high, rea
         int known = SUPERELL_MONOTONE;
         if (!(to < high - least)) to = high;
         b = superell_at(l, rate, to);
-        if (steps < SUPERELL_STEPS && to - a.u > least) known = superell_look(l, rate, a, b);
+        if (bent) {
+            known = SUPERELL_BENT;
+        } else if (steps < SUPERELL_STEPS && to - a.u > least) {
+            known = superell_look(l, rate, a, b);
+        }
         if (known == SUPERELL_UNDECIDED) {
             width = REAL(0.5) * (to - a.u);
             ++steps;
             continue;
         }
-        if (known == SUPERELL_BENT && (a.slope < 0) != (b.slope < 0)) {
+        if (known == SUPERELL_BENT && (a.value < 0) == (b.value < 0) && (a.slope < 0) != (b.slope < 0) &&
+            (a.slope < 0) != (a.value < 0)) {
             superell_point m = superell_turn(l, rate, a, b);
             if ((a.value < 0) != (m.value < 0)) c = cross(c, shift + superell_root(l, rate, a, m) / length, 0);
             a = m;
@@ -235,6 +258,8 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     ray.p = p[12];
     ray.q = p[13];
     ray.r = p[14];
+    ray.twist = l.o.x * d.y - d.x * l.o.y;
+    ray.twist = ray.twist * ray.twist;
     ray.x = superell_axis_of(l.o.x, d.x, s.low, s.high);
     ray.y = superell_axis_of(l.o.y, d.y, s.low, s.high);
     ray.z = superell_axis_of(l.o.z, d.z, s.low, s.high);

@@ -116,6 +116,29 @@ TEST_CASE("a ray along the axis of a horn torus meets it where the circle says",
     }
 }
 
+// The ray runs beside the side from far off: f falls by 0.7 % of what its terms change by, until 10^-4 before the tip.
+// The ends are of 60 digits' arithmetic, by the definition.
+TEST_CASE("a ray along the side of a pointed superellipsoid meets its tip", "[field]") {
+    const Superell pointed{{2.9616880392244935, -1.853129323327839, 3.6616108962409397},
+                           {-2.0678628708247495, 0.903791054162198, 0},
+                           {0.11204047982719124, 0.25634724663081154, -2.6454456241357414},
+                           {-1.0298711068891178, -2.3563324884260264, -0.2719491158567254},
+                           2,
+                           1.1398693025966784};
+    const Ray ray{{-4.2506561713210216, 23.448224353497448, -3.9100127811914609},
+                  {0.21125635931631684, -0.94506865797199402, 0.24943131793421172}};
+    const oracle::ImplicitSolid solid = oracle::implicit(pointed, oracle::to_affine(identity));
+    const oracle::Answer answer = oracle::intersect(solid, ray);
+    CHECK_FALSE(answer.tie);
+    CHECK_FALSE(oracle::judge(solid, ray, answer, {}).wrong.empty());
+    const auto found = intersect_solid(compile_alone(pointed, identity), 0, ray);
+    REQUIRE(found.size() == 1);
+    CHECK(std::abs(found[0].in - 29.26519786035334) <= 1e-12);
+    CHECK(std::abs(found[0].out - 29.265265592060868) <= 1e-12);
+    const oracle::Segment segment{found[0].in, found[0].out, found[0].in_normal, found[0].out_normal};
+    CHECK(oracle::judge(solid, ray, answer, {segment}).wrong.empty());
+}
+
 // No way to solve a quartic but the default has to be right here.
 TEST_CASE("pinches, every way to solve a quartic", "[.long]") {
     for (const auto& [name, quartic] : quartic_names) {
