@@ -3,13 +3,19 @@
 //   colour * (ambient cos(n, eye)) + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
 // A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What shines itself adds
-// colour * glow.
+// colour * glow. A program for a scene without any of these is compiled without them (CSGRT_SHAPED_LIGHTS): they take a GPU's registers.
 //
 // The power is by squaring: multiplications only, so every device gives the same bits.
 #ifndef CSGRT_PLASTIC_H
 #define CSGRT_PLASTIC_H
 
 #include "shared/layout.h"
+
+#if defined(CSGRT_SHAPED_LIGHTS) || !defined(__OPENCL_VERSION__)
+#define SHAPED_LIGHTS 1
+#else
+#define SHAPED_LIGHTS 0
+#endif
 
 typedef struct {
     real r, g, b;
@@ -35,20 +41,30 @@ FN real whole_power(real x, tag n) {
 FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, wide3 at, vec3 n, vec3 d) {
     const vec3 view = scale(normalize3(d), REAL(-1));
     const real facing = dot3(n, view);
-    const real ambient = (facing > 0 ? facing * REAL(f->ambient) * m.ambient : REAL(0)) + m.glow;
+    real ambient = facing > 0 ? facing * REAL(f->ambient) * m.ambient : REAL(0);
     rgb c;
     u32 i;
+#if SHAPED_LIGHTS
+    ambient = ambient + m.glow;
+#endif
     c.r = ambient * m.color.r;
     c.g = ambient * m.color.g;
     c.b = ambient * m.color.b;
     for (i = 0; i < f->light_count; ++i) {
         const LightRecord light = lights[i];
-        const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), wide_scale(at, light.w))));
+#if SHAPED_LIGHTS
+        const wide3 from = wide_scale(at, light.w);
+#else
+        const wide3 from = at;
+#endif
+        const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), from)));
         const real cosine = dot3(n, to_light), diffuse = cosine * m.diffuse;
         const real mirrored = dot3(subtract(scale(n, REAL(2) * cosine), to_light), view);
         truth lit = cosine > 0, shines;
         real specular = REAL(0);
+#if SHAPED_LIGHTS
         if (light.beam) lit = lit && dot3(to_light, make_vec3(REAL(light.bx), REAL(light.by), REAL(light.bz))) <= REAL(-light.cosine);
+#endif
         shines = lit && mirrored > 0;
         if (none(lit)) continue;
         if (!none(shines)) specular = shines ? whole_power(mirrored, m.shine) * m.specular : specular;

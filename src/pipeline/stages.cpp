@@ -1,5 +1,7 @@
 #include "pipeline/stages.hpp"
 
+#include <algorithm>
+
 namespace csgrt {
 
 SceneBuffers::SceneBuffers(Device& device, const CompiledScene& scene, const HostKernels::Tables& tables)
@@ -52,6 +54,14 @@ bool in_packets(const Device& device, const Settings& settings) {
     return device.info().type == "cpu" && settings.precision == Precision::double_;
 }
 
+/// Lights that are not plain points, or that are seen themselves (kernels/plastic.h).
+static bool has_shaped_lights(const CompiledScene& scene) {
+    const auto is_shaped = [](const kernel::LightRecord& light) { return light.w == 0 || light.beam; };
+    const auto glows = [](const kernel::MaterialRecord& material) { return material.glow != 0; };
+    return std::any_of(scene.lights.begin(), scene.lights.end(), is_shaped) ||
+           std::any_of(scene.materials.begin(), scene.materials.end(), glows);
+}
+
 std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings, bool ahead) {
     std::vector<std::string> defines = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
                                         "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
@@ -60,6 +70,7 @@ std::vector<std::string> defines_of(const Device& device, const CompiledScene& s
     if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
     if (in_packets(device, settings)) defines.push_back("CSGRT_PACKETS");
     if (scene.has_large_terms) defines.push_back("CSGRT_LARGE_TERMS");
+    if (has_shaped_lights(scene)) defines.push_back("CSGRT_SHAPED_LIGHTS");
     return defines;
 }
 
