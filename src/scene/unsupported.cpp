@@ -20,7 +20,6 @@ constexpr Known known[] = {
     {"hf", "an hf is an older form of a height field; BRL-CAD's `dbupgrade` writes it as a dsp, which csgrt draws"},
     {"submodel", "a submodel names objects of another database; put them into this one with BRL-CAD's `dbconcat` and "
                  "use them in its place"},
-    {"pnts", "a pnts is a cloud of points without an inside; csgrt draws solids only"},
 };
 
 }  // namespace

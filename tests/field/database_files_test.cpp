@@ -139,7 +139,9 @@ TEST_CASE("files: a perspective matrix makes only what uses it unusable", "[fiel
         {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 .5 1", "must end in the row 0 0 0 1"},
         {"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0", "must end in the row 0 0 0 1"},
         {"1e300 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1e-9", "not finite"}};
-    for (const auto& [matrix, message] : rows) {
+    for (const auto& row : rows) {
+        const std::string& matrix = row.first;
+        const std::string& message = row.second;
         INFO(matrix);
         const auto check = [&](const Scene& scene, int line) {
             CHECK(validate(scene, {"good"}).empty());
