@@ -28,6 +28,11 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
 
     Combination all;
     all.name = "every type";
+    // No scene of ours has one.
+    const double reach = width / 4;
+    const std::string crossed = all.name + "/crossed eto";
+    scene.objects.emplace_back(Solid{crossed, Eto{middle(box), {0, 0, 1}, {0.9 * reach, 0, 0.9 * reach}, reach, 0.8 * reach}, {}});
+    all.tree.nodes.push_back({Operator::leaf, 0, crossed, identity, {}});
     for (const char* name : {"solids", "quadrics", "blobs", "meshes", "sketches"}) {
         const Scene own = load_scene(folder + "/" + name + ".json");
         const std::string before = all.name + "/" + name + "/";
