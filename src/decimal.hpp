@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,12 @@ inline Decimal read_decimal(std::string_view text, double& value) {
         return Decimal::number;
     }
     return std::isfinite(value) ? Decimal::number : Decimal::not_finite;
+}
+
+/// The number that the whole of `text` is; nothing if it is none, or none that is finite.
+inline std::optional<double> finite_decimal(std::string_view text) {
+    double value = 0;
+    return read_decimal(text, value) == Decimal::number ? std::optional(value) : std::nullopt;
 }
 
 /// What is wrong with a number, in the words of every reader.

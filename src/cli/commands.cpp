@@ -7,6 +7,7 @@
 
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "scene/finding_list.hpp"
 
 namespace csgrt::cli {
 
@@ -20,7 +21,7 @@ Settings with_progress(const Settings& settings, Progress& progress) {
 }
 
 void report(std::vector<Warning> warnings, bool pictures) {
-    constexpr std::size_t most = 50;
+    constexpr std::size_t most = FindingList::most;
     if (!pictures) std::erase_if(warnings, [](const Warning& warning) { return warning.appearance; });
     std::string text;
     for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i)

@@ -21,10 +21,7 @@ std::string_view without_blanks(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> parse_number(std::string_view text) {
-    double value = 0;
-    return read_decimal(text, value) == Decimal::number ? std::optional(value) : std::nullopt;
-}
+std::optional<double> parse_number(std::string_view text) { return finite_decimal(text); }
 
 std::optional<Vec3> parse_vector(std::string_view text) {
     double numbers[3];

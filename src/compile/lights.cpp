@@ -14,11 +14,6 @@ namespace {
 
 constexpr double everywhere = 180;  // degrees from the beam's axis
 
-/// The direction part of a matrix.
-Vec3 turned(const Matrix& m, const Vec3& v) {
-    return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z, m[8] * v.x + m[9] * v.y + m[10] * v.z};
-}
-
 /// Intensities of 0 and less mean 1, as in BRL-CAD.
 double intensity_of(const Emission& light) { return light.intensity > 0 ? light.intensity : 1; }
 
@@ -74,7 +69,7 @@ void add_region_lights(FlatScene& flat, const std::vector<Box>& boxes, CompiledS
         if (light->direction) axis = *light->direction;
         if (light->target) axis = *light->target - found.position;
         // The first solid's, as in BRL-CAD, whatever was given.
-        found.direction = turned(*flat.instances[region.tree.nodes.front().solid].matrix, axis);
+        found.direction = narrow(transform_direction(*flat.instances[region.tree.nodes.front().solid].matrix, wide(axis)));
         compiled.lights.push_back(light_record(found));
     }
 }

@@ -94,7 +94,7 @@ private:
 
     void read_global(const GObject& object) {
         try {
-            for (const Attribute& attribute : read_g_attributes(object.attributes)) 
+            for (const Attribute& attribute : read_g_attributes(object.attributes))
                 set_global_attribute(scene_, attribute, source_);
         } catch (Fault& fault) {
             findings_.bear(std::move(fault), object.name, passed_over);

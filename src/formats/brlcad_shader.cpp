@@ -8,9 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "formats/brlcad_values.hpp"
-
 #include "decimal.hpp"
+#include "formats/brlcad_values.hpp"
 
 namespace csgrt {
 
@@ -68,11 +67,6 @@ std::string_view next_member(std::string_view& stack) {
     return unwrapped(member);
 }
 
-std::optional<double> number(std::string_view token) {
-    double value = 0;
-    return read_decimal(token, value) == Decimal::number ? std::optional(value) : std::nullopt;
-}
-
 /// The four shaders of BRL-CAD's Phong model, with the defaults of its liboptical; nullopt for all others.
 std::optional<Finish> phong_family(std::string_view shader) {
     Finish finish;
@@ -112,7 +106,7 @@ void set_parameters(Finish& finish, std::string_view parameters) {
         if (key.empty()) return;
         // A key without a number leaves the next token to be a key itself.
         std::string_view rest = parameters;
-        if (const auto value = number(next_token(rest))) {
+        if (const auto value = finite_decimal(next_token(rest))) {
             set_parameter(finish, key, *value);
             parameters = rest;
         }
@@ -128,7 +122,7 @@ std::optional<std::array<double, count>> next_numbers(std::string_view& paramete
         // A vector may have commas in it, as in "1,0,0".
         const std::size_t begin = std::min(rest.find_first_not_of(" \t\r\n={}\","), rest.size());
         const std::size_t end = std::min(rest.find_first_of(" \t\r\n={}\",", begin), rest.size());
-        const auto value = number(rest.substr(begin, end - begin));
+        const auto value = finite_decimal(rest.substr(begin, end - begin));
         if (!value) return std::nullopt;
         x = *value;
         rest.remove_prefix(end);

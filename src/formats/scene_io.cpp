@@ -56,10 +56,9 @@ Scene parse_scene(std::string bytes, const std::string& name, bool strict) {
     try {
         if (bytes.starts_with("\x1f\x8b")) refuse(name, "this is compressed", "gunzip it first");
         if (is_brlcad_g(bytes)) return parse_brlcad_g(ByteSource(name, std::move(bytes)), !strict);
-        const std::size_t begin = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-        const std::size_t first = bytes.find_first_not_of(" \t\r\n", begin);
-        const bool is_json = first != std::string::npos && bytes[first] == '{';
         const TextSource source(name, std::move(bytes));
+        const std::size_t first = source.text().find_first_not_of(" \t\r\n", source.begin());
+        const bool is_json = first != std::string::npos && source.text()[first] == '{';
         return is_json ? parse_json_scene(source) : parse_brlcad_asc(source, !strict);
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, name + ": the model does not fit the memory");

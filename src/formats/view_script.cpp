@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "decimal.hpp"
 #include "formats/brlcad_values.hpp"
 #include "scene/nearest.hpp"
 #include "scene/vector.hpp"
@@ -36,14 +37,6 @@ std::vector<Word> words_of(std::string_view text, std::size_t begin, std::size_t
         if (i > first) words.push_back({text.substr(first, i - first), first});
     }
     return words;
-}
-
-std::optional<double> number_of(std::string_view text) {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-    double value = 0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = status == std::errc() && end == text.data() + text.size();
-    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 /// What the commands before `end` have set. The rows of `turn` are the view's axes: right, up, to the eye.
@@ -74,7 +67,7 @@ public:
 
     Camera read() {
         const std::string_view text = source_.text();
-        std::size_t begin = text.starts_with("\xef\xbb\xbf") ? 3 : 0, end = text.size();
+        std::size_t begin = source_.begin(), end = text.size();
         if (text.substr(begin).starts_with("#!")) {
             const std::size_t here = text.find("<<", begin);
             if (here == std::string_view::npos) {
@@ -110,7 +103,7 @@ private:
             if (!words[i].text.starts_with("-p")) continue;
             std::string_view angle = words[i].text.substr(2);
             if (angle.empty() && i + 1 < words.size()) angle = words[i + 1].text;
-            if (const auto value = number_of(angle)) set_perspective(*value, words[i].offset);
+            if (const auto value = finite_decimal(angle)) set_perspective(*value, words[i].offset);
         }
     }
 
@@ -122,15 +115,18 @@ private:
         }
     }
 
+    /// `text`: the word, or what of it is the number.
+    static double number(const Word& word, std::string_view text) {
+        const auto value = finite_decimal(text);
+        if (!value) throw Fault{word.offset, quoted(word.text) + " is not a finite number", {}};
+        return *value;
+    }
+
     static std::vector<double> numbers(std::span<const Word> words, std::size_t count) {
         if (words.size() != count + 1)
             throw Fault{words[0].offset, quoted(words[0].text) + " takes " + std::to_string(count) + (count == 1 ? " number" : " numbers"), {}};
         std::vector<double> values;
-        for (const Word& word : words.subspan(1)) {
-            const auto value = number_of(word.text);
-            if (!value) throw Fault{word.offset, quoted(word.text) + " is not a finite number", {}};
-            values.push_back(*value);
-        }
+        for (const Word& word : words.subspan(1)) values.push_back(number(word, word.text));
         return values;
     }
 
@@ -173,7 +169,7 @@ private:
     }
 
     void set_azimuth(double azimuth, double elevation) {
-        constexpr double degree = 3.14159265358979323846 / 180;
+        constexpr double degree = std::numbers::pi / 180;
         const double a = azimuth * degree, e = elevation * degree;
         state_.turn = std::array{Vec3{-std::sin(a), std::cos(a), 0},
                                  Vec3{-std::sin(e) * std::cos(a), -std::sin(e) * std::sin(a), std::cos(e)},
@@ -186,9 +182,7 @@ private:
             const std::size_t equals = word.text.find('=');
             const std::string_view key = word.text.substr(0, equals);
             if (equals == std::string_view::npos || (key != "perspective" && key != "angle")) continue;
-            const auto value = number_of(word.text.substr(equals + 1));
-            if (!value) throw Fault{word.offset, quoted(word.text) + " is not a finite number", {}};
-            set_perspective(*value, word.offset);
+            set_perspective(number(word, word.text.substr(equals + 1)), word.offset);
         }
     }
 

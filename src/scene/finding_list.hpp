@@ -12,6 +12,11 @@
 
 namespace csgrt {
 
+/// The order of places in a file.
+inline bool comes_before(const Place& a, const Place& b) {
+    return std::tie(a.line, a.column, a.offset) < std::tie(b.line, b.column, b.offset);
+}
+
 class FindingList {
 public:
     /// More than these help nobody; the others are counted.
@@ -28,9 +33,8 @@ public:
         found_.push_back(std::move(diagnostic));
     }
     void sort_by_place() {
-        const auto key = [](const Diagnostic& d) { return std::tie(d.place.line, d.place.column, d.place.offset); };
         std::stable_sort(found_.begin(), found_.end(),
-                         [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+                         [](const Diagnostic& a, const Diagnostic& b) { return comes_before(a.place, b.place); });
     }
     std::vector<Diagnostic>& shown() noexcept { return found_; }
     /// All of them, and last how many more there are, if there are more. Empties the list.

@@ -283,10 +283,8 @@ private:
             warnings_[warning].count = std::max<std::uint64_t>(objects_[object].users, 1);
             warnings_[warning].reason += first_user(object);
         }
-        std::stable_sort(warnings_.begin(), warnings_.end(), [](const Warning& a, const Warning& b) {
-            return std::tie(a.place.line, a.place.column, a.place.offset) <
-                   std::tie(b.place.line, b.place.column, b.place.offset);
-        });
+        std::stable_sort(warnings_.begin(), warnings_.end(),
+                         [](const Warning& a, const Warning& b) { return comes_before(a.place, b.place); });
         std::move(warnings_.begin(), warnings_.end(), std::back_inserter(to));
     }
 
