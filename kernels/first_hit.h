@@ -39,7 +39,9 @@ typedef struct {
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
+#if SHAPED_LIGHTS
     u32 seen_end;  // the number behind the last region that pictures show
+#endif
 } scene_tables;
 
 FN void start_front(front* w) {
@@ -127,7 +129,10 @@ FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
         list_covered(c, &covered);
         region = find_claim_beside(c, starting, &covered, 0, changed).least;
     }
-    return region < s.seen_end ? region : NONE;
+#if SHAPED_LIGHTS
+    region = region < s.seen_end ? region : NONE;
+#endif
+    return region;
 }
 
 // In the order in which kernel 3 links ends: by distance, then solid.

@@ -37,7 +37,9 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     s.starts = starts;
     s.leaves = leaves;
     s.trees = trees;
+#if SHAPED_LIGHTS
     s.seen_end = frame->rank_ends[RANK_AIR];
+#endif
     a.regions = regions;
     a.materials = materials;
     a.lights = lights;

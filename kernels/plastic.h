@@ -3,19 +3,13 @@
 //   colour * (ambient cos(n, eye)) + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
 // A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What shines itself adds
-// colour * glow. A program for a scene without any of these is compiled without them (CSGRT_SHAPED_LIGHTS): they take a GPU's registers.
+// colour * glow (SHAPED_LIGHTS).
 //
 // The power is by squaring: multiplications only, so every device gives the same bits.
 #ifndef CSGRT_PLASTIC_H
 #define CSGRT_PLASTIC_H
 
 #include "shared/layout.h"
-
-#if defined(CSGRT_SHAPED_LIGHTS) || !defined(__OPENCL_VERSION__)
-#define SHAPED_LIGHTS 1
-#else
-#define SHAPED_LIGHTS 0
-#endif
 
 typedef struct {
     real r, g, b;

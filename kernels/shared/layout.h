@@ -169,6 +169,14 @@ typedef struct {
     u32 beam;         // 0: it shines everywhere, without regard to the axis
 } LightRecord;
 
+// A program for a scene whose lights are plain points, without glow and without hidden regions, is compiled without these: they
+// take a GPU's registers.
+#if defined(CSGRT_SHAPED_LIGHTS) || !defined(__OPENCL_VERSION__)
+#define SHAPED_LIGHTS 1
+#else
+#define SHAPED_LIGHTS 0
+#endif
+
 // ---- Bounding volume hierarchy ----
 // Depth-first order: an inner node's first child is the next node; `skip` is the next node when the box is missed, or
 // after a leaf. Solids are numbered in the order of the leaves, so a walk meets them in ascending order.

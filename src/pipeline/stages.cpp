@@ -54,11 +54,12 @@ bool in_packets(const Device& device, const Settings& settings) {
     return device.info().type == "cpu" && settings.precision == Precision::double_;
 }
 
-/// Lights that are not plain points, or that are seen themselves (kernels/plastic.h).
+/// Lights that are not plain points, that glow, or that are regions which no picture shows.
 static bool has_shaped_lights(const CompiledScene& scene) {
     const auto is_shaped = [](const kernel::LightRecord& light) { return light.w == 0 || light.beam; };
     const auto glows = [](const kernel::MaterialRecord& material) { return material.glow != 0; };
-    return std::any_of(scene.lights.begin(), scene.lights.end(), is_shaped) ||
+    return scene.rank_ends[RANK_HIDDEN] > scene.rank_ends[RANK_AIR] ||
+           std::any_of(scene.lights.begin(), scene.lights.end(), is_shaped) ||
            std::any_of(scene.materials.begin(), scene.materials.end(), glows);
 }
 
