@@ -20,8 +20,10 @@ struct DeviceInfo {
     unsigned compute_units = 0;
     bool fp64 = false;
 };
-/// Every OpenCL device, in the order of their numbers; empty if there is none.
-CSGRT_API std::vector<DeviceInfo> devices();
+/// Every device, in the order of their numbers: those of OpenCL, and the native ones (platform "csgrt"), which are this machine's
+/// processors with kernels that csgrt brings itself. Empty if there is none. `notes`: takes a sentence on each driver that cannot be
+/// used. Any thread.
+CSGRT_API std::vector<DeviceInfo> devices(std::vector<std::string>* notes = nullptr);
 /// Begins to look for them on a thread of its own, once in a process; later calls do nothing. A driver takes some 30 ms to
 /// start: called before a scene is loaded, this spares its Renderer the wait. Renderer calls it before it compiles.
 CSGRT_API void prepare_devices();
@@ -39,7 +41,7 @@ struct Settings {
     double tolerance = -1;        ///< millimetres, for Tolerance::length; negative: the scene's
     bool air = false;             ///< keep air regions
     bool skip_unsupported = false;///< leave out solids of types that csgrt does not know, as in lenient scenes
-    unsigned threads = 0;         ///< of the reference; 0: all
+    unsigned threads = 0;         ///< of the reference and of the native device; 0: all
     /// Called now and then with the done fraction 0..1; returning false stops (Status::interrupted).
     std::function<bool(double)> progress;
 };

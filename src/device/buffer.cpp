@@ -34,8 +34,7 @@ void Buffer::reserve(std::size_t bytes) {
     release();
     device_->claim(name_, bytes);
     cl_int code = CL_SUCCESS;
-    memory_ = Handle<cl_mem, clReleaseMemObject>(
-        clCreateBuffer(device_->context(), CL_MEM_READ_WRITE, bytes, nullptr, &code));
+    memory_ = Memory(device_->cl(), device_->cl().CreateBuffer(device_->context(), CL_MEM_READ_WRITE, bytes, nullptr, &code));
     if (code != CL_SUCCESS) device_->release(name_, bytes);
     check(code, "clCreateBuffer (" + name_ + ", " + std::to_string(bytes) + " bytes)");
     size_ = bytes;
@@ -51,18 +50,18 @@ Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t off
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    check(clEnqueueWriteBuffer(device_->queue(), get(), wait, offset, bytes, source, 0, nullptr, &event),
+    check(device_->cl().EnqueueWriteBuffer(device_->queue(), get(), wait, offset, bytes, source, 0, nullptr, &event),
           "clEnqueueWriteBuffer (" + name_ + ")");
-    return Event(event);
+    return Event(device_->cl(), event);
 }
 
 Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait) const {
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    check(clEnqueueReadBuffer(queue, get(), wait, offset, bytes, target, 0, nullptr, &event),
+    check(device_->cl().EnqueueReadBuffer(queue, get(), wait, offset, bytes, target, 0, nullptr, &event),
           "clEnqueueReadBuffer (" + name_ + ")");
-    return Event(event);
+    return Event(device_->cl(), event);
 }
 
 void Buffer::upload(const void* source, std::size_t bytes, std::size_t offset) {
@@ -75,15 +74,15 @@ void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
 
 Buffer::Mapping Buffer::map(std::size_t bytes) const {
     check_range(bytes, 0);
-    if (bytes == 0) return {device_->queue(), nullptr, nullptr};
+    if (bytes == 0) return {*device_, nullptr, nullptr};
     cl_int code = CL_SUCCESS;
-    void* data = clEnqueueMapBuffer(device_->queue(), get(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr, nullptr, &code);
+    void* data = device_->cl().EnqueueMapBuffer(device_->queue(), get(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr, nullptr, &code);
     check(code, "clEnqueueMapBuffer (" + name_ + ")");
-    return {device_->queue(), get(), data};
+    return {*device_, get(), data};
 }
 
 Buffer::Mapping::~Mapping() {
-    if (data_) clEnqueueUnmapMemObject(queue_, memory_, data_, 0, nullptr, nullptr);
+    if (data_) cl_.EnqueueUnmapMemObject(queue_, memory_, data_, 0, nullptr, nullptr);
 }
 
 Event Buffer::queue_upload(const void* source, std::size_t bytes, std::size_t offset) {
@@ -102,44 +101,42 @@ Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes, std::size_t off
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    check(clEnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, offset, bytes, 0, nullptr, &event),
+    check(device_->cl().EnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, offset, bytes, 0, nullptr, &event),
           "clEnqueueFillBuffer (" + name_ + ")");
-    return Event(event);
+    return Event(device_->cl(), event);
 }
 
 KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {
     cl_int code = CL_SUCCESS;
-    check(clRetainCommandQueue(device.queue()), "clRetainCommandQueue");
-    queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(device.queue());
-    memory_ = Handle<cl_mem, clReleaseMemObject>(
-        clCreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data, &code));
+    check(device.cl().RetainCommandQueue(device.queue()), "clRetainCommandQueue");
+    queue_ = Queue(device.cl(), device.queue());
+    memory_ = Memory(device.cl(), device.cl().CreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data, &code));
     check(code, "clCreateBuffer (picture, " + std::to_string(bytes) + " bytes of the host's)");
-    data_ = clEnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr, nullptr,
+    data_ = device.cl().EnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr, nullptr,
                                &code);
     check(code, "clEnqueueMapBuffer (picture)");
 }
 
 KnownMemory::~KnownMemory() {
     if (!memory_ || !data_) return;
-    clEnqueueUnmapMemObject(queue_.get(), memory_.get(), data_, 0, nullptr, nullptr);
-    clFinish(queue_.get());
+    queue_.cl().EnqueueUnmapMemObject(queue_.get(), memory_.get(), data_, 0, nullptr, nullptr);
+    queue_.cl().Finish(queue_.get());
 }
 
 PinnedMemory::PinnedMemory(const Device& device, std::string name, std::size_t bytes) : device_(&device), size_(bytes) {
     if (bytes == 0) return;
     cl_int code = CL_SUCCESS;
-    memory_ = Handle<cl_mem, clReleaseMemObject>(
-        clCreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, nullptr, &code));
+    memory_ = Memory(device.cl(), device.cl().CreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, nullptr, &code));
     check(code, "clCreateBuffer (" + name + ", " + std::to_string(bytes) + " bytes on the host)");
-    data_ = clEnqueueMapBuffer(device.queue(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr,
+    data_ = device.cl().EnqueueMapBuffer(device.queue(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr,
                                nullptr, &code);
     check(code, "clEnqueueMapBuffer (" + name + ")");
 }
 
 PinnedMemory::~PinnedMemory() {
     if (!data_) return;
-    clEnqueueUnmapMemObject(device_->queue(), memory_.get(), data_, 0, nullptr, nullptr);
-    clFinish(device_->queue());
+    device_->cl().EnqueueUnmapMemObject(device_->queue(), memory_.get(), data_, 0, nullptr, nullptr);
+    device_->cl().Finish(device_->queue());
 }
 
 }  // namespace csgrt

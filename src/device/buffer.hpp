@@ -76,12 +76,13 @@ private:
     Device* device_;
     std::string name_;
     std::size_t size_ = 0;
-    Handle<cl_mem, clReleaseMemObject> memory_;
+    Memory memory_;
 };
 
 class Buffer::Mapping {
 public:
-    Mapping(cl_command_queue queue, cl_mem memory, void* data) : queue_(queue), memory_(memory), data_(data) {}
+    Mapping(const Device& device, cl_mem memory, void* data)
+        : cl_(device.cl()), queue_(device.queue()), memory_(memory), data_(data) {}
     Mapping(const Mapping&) = delete;
     Mapping& operator=(const Mapping&) = delete;
     ~Mapping();
@@ -89,6 +90,7 @@ public:
     const void* data() const noexcept { return data_; }
 
 private:
+    const OpenCl& cl_;
     cl_command_queue queue_;
     cl_mem memory_;
     void* data_;
@@ -105,8 +107,8 @@ public:
     ~KnownMemory();
 
 private:
-    Handle<cl_command_queue, clReleaseCommandQueue> queue_;
-    Handle<cl_mem, clReleaseMemObject> memory_;
+    Queue queue_;
+    Memory memory_;
     void* data_ = nullptr;
 };
 
@@ -125,7 +127,7 @@ public:
 private:
     const Device* device_;
     std::size_t size_;
-    Handle<cl_mem, clReleaseMemObject> memory_;
+    Memory memory_;
     void* data_ = nullptr;
 };
 

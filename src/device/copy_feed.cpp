@@ -119,11 +119,11 @@ Event CopyFeed::queue(const Device& device, const Buffer& buffer, const Copy& co
                       region[3] = {copy.columns * size, copy.lines, copy.planes};
     const bool is_flat = copy.planes == 1;
     cl_event event = nullptr;
-    check(clEnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region, copy.pitch * size,
+    check(device.cl().EnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region, copy.pitch * size,
                                   is_flat ? 0 : copy.slice * size, copy.target_pitch * size, is_flat ? 0 : copy.target_slice * size,
                                   copy.target, 0, nullptr, &event),
           "clEnqueueReadBufferRect (" + buffer.name() + ")");
-    return Event(event);
+    return Event(device.cl(), event);
 }
 
 /// Waits for the first of those underway.

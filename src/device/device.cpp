@@ -5,6 +5,7 @@
 
 #include "device/choice.hpp"
 #include "device/host_memory.hpp"
+#include "device/native/driver.hpp"
 #include "device/bytes_text.hpp"
 
 namespace csgrt {
@@ -20,7 +21,7 @@ std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
 }
 
 FoundDevice chosen(const std::string& choice) {
-    const std::vector<FoundDevice> found = find_devices();
+    const std::vector<FoundDevice> found = find_devices().devices;
     return found[choose_device(infos_of(found), choice)];
 }
 
@@ -28,34 +29,34 @@ FoundDevice chosen(const std::string& choice) {
 
 Device::Device(const std::string& choice, std::uint64_t max_memory) : Device(chosen(choice), max_memory) {}
 
-Device::Device(const FoundDevice& device, std::uint64_t max_memory) : info_(device.info), id_(device.id) {
+Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads) : info_(device.info), cl_(device.cl), id_(device.id) {
+    const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads), 0};
     cl_int code = CL_SUCCESS;
-    context_ = Handle<cl_context, clReleaseContext>(clCreateContext(nullptr, 1, &id_, nullptr, nullptr, &code));
+    context_ = Context(cl(), cl().CreateContext(is_native(info_) ? properties : nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");
     for (auto& queue : queues_) {
-        queue = Handle<cl_command_queue, clReleaseCommandQueue>(
-            clCreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
+        queue = Queue(cl(), cl().CreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
         check(code, "clCreateCommandQueue (" + info_.name + ")");
     }
-    copy_queue_ = Handle<cl_command_queue, clReleaseCommandQueue>(clCreateCommandQueue(context(), id_, 0, &code));
+    copy_queue_ = Queue(cl(), cl().CreateCommandQueue(context(), id_, 0, &code));
     check(code, "clCreateCommandQueue (copies, " + info_.name + ")");
 
     cl_bool unified = CL_FALSE;
-    check(clGetDeviceInfo(id_, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified, nullptr), "clGetDeviceInfo");
+    check(cl().GetDeviceInfo(id_, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified, nullptr), "clGetDeviceInfo");
     budget_ = max_memory ? max_memory : default_budget(info_, unified || info_.type == "cpu");
     max_buffer_ = std::min(budget_, info_.max_allocation);
 }
 
 void Device::flush() const {
-    check(clFlush(queue()), "clFlush");
+    check(cl().Flush(queue()), "clFlush");
 }
 
 void Device::flush_copies() const {
-    check(clFlush(copy_queue()), "clFlush (copies)");
+    check(cl().Flush(copy_queue()), "clFlush (copies)");
 }
 
 void Device::finish() const {
-    for (const auto& queue : queues_) check(clFinish(queue.get()), "clFinish");
+    for (const auto& queue : queues_) check(cl().Finish(queue.get()), "clFinish");
 }
 
 void Device::claim(const std::string& name, std::uint64_t bytes) {

@@ -24,11 +24,13 @@ public:
     /// `max_memory` bounds what all buffers together may take, in bytes; 0: what the device can give.
     /// Throws Error (no_device) that lists what there is, or names the package that brings a device.
     explicit Device(const std::string& choice = "", std::uint64_t max_memory = 0);
-    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0);
+    /// `threads`: of the native device; 0: one for each processor.
+    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0, unsigned threads = 0);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     const DeviceInfo& info() const noexcept { return info_; }
+    const OpenCl& cl() const noexcept { return *cl_; }
     cl_device_id id() const noexcept { return id_; }
     cl_context context() const noexcept { return context_.get(); }
     /// Takes what is queued from now on.
@@ -61,10 +63,11 @@ public:
 
 private:
     DeviceInfo info_;
+    const OpenCl* cl_ = nullptr;
     cl_device_id id_ = nullptr;
-    Handle<cl_context, clReleaseContext> context_;
-    std::array<Handle<cl_command_queue, clReleaseCommandQueue>, lanes> queues_;
-    Handle<cl_command_queue, clReleaseCommandQueue> copy_queue_;
+    Context context_;
+    std::array<Queue, lanes> queues_;
+    Queue copy_queue_;
     std::size_t lane_ = 0;
     std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
     std::map<std::string, std::uint64_t> allocations_;

@@ -23,12 +23,12 @@ std::uint64_t rest_of(const char* limit_path, const char* used_path) {
     return limit > used ? limit - used : 0;
 }
 
-std::uint64_t system_available() {
+std::uint64_t of_system(const std::string& wanted) {
     std::ifstream file("/proc/meminfo");
     std::string key, unit;
     std::uint64_t kilobytes = 0;
     while (file >> key >> kilobytes) {
-        if (key == "MemAvailable:") return kilobytes * 1024;
+        if (key == wanted) return kilobytes * 1024;
         std::getline(file, unit);
     }
     return unknown;
@@ -38,8 +38,13 @@ std::uint64_t system_available() {
 
 std::uint64_t available_host_memory() {
     const std::uint64_t bytes =
-        std::min({system_available(), rest_of("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+        std::min({of_system("MemAvailable:"), rest_of("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
                   rest_of("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")});
+    return bytes == unknown ? 0 : bytes;
+}
+
+std::uint64_t host_memory() {
+    const std::uint64_t bytes = of_system("MemTotal:");
     return bytes == unknown ? 0 : bytes;
 }
 

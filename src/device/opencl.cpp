@@ -83,13 +83,13 @@ void check(cl_int code, std::string_view call) {
 void wait_for(const Event& event) {
     if (!event) return;
     const cl_event one = event.get();
-    check(clWaitForEvents(1, &one), "clWaitForEvents");
+    check(event.cl().WaitForEvents(1, &one), "clWaitForEvents");
 }
 
 bool is_done(const Event& event) {
     if (!event) return true;
     cl_int status = CL_COMPLETE;
-    check(clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr), "clGetEventInfo");
+    check(event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr), "clGetEventInfo");
     return status <= CL_COMPLETE;
 }
 
@@ -114,7 +114,7 @@ void wait_for_one(std::span<const Event* const> events) {
 void wait_until_done(const Event& event) noexcept {
     if (!event) return;
     const cl_event one = event.get();
-    clWaitForEvents(1, &one);
+    event.cl().WaitForEvents(1, &one);
 }
 
 double milliseconds(const Event& event) {
@@ -122,9 +122,9 @@ double milliseconds(const Event& event) {
     wait_for(event);
     const cl_event one = event.get();
     cl_ulong start = 0, end = 0;
-    check(clGetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr),
+    check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr),
           "clGetEventProfilingInfo");
-    check(clGetEventProfilingInfo(one, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr), "clGetEventProfilingInfo");
+    check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr), "clGetEventProfilingInfo");
     return end > start ? static_cast<double>(end - start) * 1e-6 : 0;
 }
 

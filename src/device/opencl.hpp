@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <CL/cl.h>
+#include "device/opencl_table.hpp"
 
 namespace csgrt {
 
@@ -17,30 +17,37 @@ const char* opencl_error_name(cl_int code) noexcept;
 /// memory ran out, else Status::device_fault. `call` says which call, and for what: "clEnqueueReadBuffer (pixels)".
 void check(cl_int code, std::string_view call);
 
-/// Owns one OpenCL object. Freeing it never throws: what could be done about it?
-template <class T, cl_int (*release)(T)>
+/// Owns one OpenCL object, which the table's function `release` frees. That never throws: what could be done about it?
+template <class T, cl_int (*OpenCl::*release)(T)>
 class Handle {
 public:
     Handle() = default;
-    explicit Handle(T object) noexcept : object_(object) {}
-    Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+    Handle(const OpenCl& cl, T object) noexcept : cl_(&cl), object_(object) {}
+    Handle(Handle&& other) noexcept : cl_(other.cl_), object_(std::exchange(other.object_, nullptr)) {}
     Handle& operator=(Handle&& other) noexcept {
+        std::swap(cl_, other.cl_);
         std::swap(object_, other.object_);
         return *this;
     }
     ~Handle() {
-        if (object_) release(object_);
+        if (object_) (cl_->*release)(object_);
     }
 
     T get() const noexcept { return object_; }
+    const OpenCl& cl() const noexcept { return *cl_; }  ///< the table that made it; not of an empty handle
     explicit operator bool() const noexcept { return object_ != nullptr; }
 
 private:
+    const OpenCl* cl_ = nullptr;
     T object_ = nullptr;
 };
 
+using Context = Handle<cl_context, &OpenCl::ReleaseContext>;
+using Queue = Handle<cl_command_queue, &OpenCl::ReleaseCommandQueue>;
+using Memory = Handle<cl_mem, &OpenCl::ReleaseMemObject>;
+
 /// Something that the device was told to do. Empty: there was nothing to do.
-using Event = Handle<cl_event, clReleaseEvent>;
+using Event = Handle<cl_event, &OpenCl::ReleaseEvent>;
 
 /// Waits until it is done; an empty event is. Throws Error (device_fault, out_of_memory) if the command failed.
 void wait_for(const Event& event);

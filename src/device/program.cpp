@@ -8,11 +8,11 @@ namespace csgrt {
 
 namespace {
 
-std::string log_of(cl_program program, cl_device_id device) {
+std::string log_of(const Device& device, cl_program program) {
     std::size_t size = 0;
-    check(clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size), "clGetProgramBuildInfo");
+    check(device.cl().GetProgramBuildInfo(program, device.id(), CL_PROGRAM_BUILD_LOG, 0, nullptr, &size), "clGetProgramBuildInfo");
     std::string log(size, '\0');
-    check(clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr),
+    check(device.cl().GetProgramBuildInfo(program, device.id(), CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr),
           "clGetProgramBuildInfo");
     const std::size_t end = log.find_last_not_of(std::string_view(" \n\t\0", 4));
     log.resize(end == std::string::npos ? 0 : end + 1);
@@ -21,14 +21,14 @@ std::string log_of(cl_program program, cl_device_id device) {
 
 bool rounds_single_correctly(const Device& device) {
     cl_device_fp_config config = 0;
-    check(clGetDeviceInfo(device.id(), CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, nullptr), "clGetDeviceInfo");
+    check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, nullptr), "clGetDeviceInfo");
     return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
 }
 
 template <class T>
-T group_info(const Handle<cl_kernel, clReleaseKernel>& kernel, const Device& device, cl_kernel_work_group_info what) {
+T group_info(const Device& device, cl_kernel kernel, cl_kernel_work_group_info what) {
     T value{};
-    check(clGetKernelWorkGroupInfo(kernel.get(), device.id(), what, sizeof value, &value, nullptr),
+    check(device.cl().GetKernelWorkGroupInfo(kernel, device.id(), what, sizeof value, &value, nullptr),
           "clGetKernelWorkGroupInfo");
     return value;
 }
@@ -51,17 +51,17 @@ Program::Program(const Device& device, const std::string& source, const std::vec
     const char* text = source.data();
     const std::size_t size = source.size();
     cl_int code = CL_SUCCESS;
-    program_ = Handle<cl_program, clReleaseProgram>(
-        clCreateProgramWithSource(device.context(), 1, &text, &size, &code));
+    program_ = Handle<cl_program, &OpenCl::ReleaseProgram>(
+        device.cl(), device.cl().CreateProgramWithSource(device.context(), 1, &text, &size, &code));
     check(code, "clCreateProgramWithSource");
     const cl_device_id id = device.id();
     const auto build = [&](const std::string& more) {
-        code = clBuildProgram(program_.get(), 1, &id, (options + more).c_str(), nullptr, nullptr);
+        code = device.cl().BuildProgram(program_.get(), 1, &id, (options + more).c_str(), nullptr, nullptr);
         return code == CL_SUCCESS;
     };
     if (has_own_declarations_) has_own_declarations_ = build(" -D_OPENCL_H_ -DCSGRT_BUILTINS");
     if (!has_own_declarations_) build("");
-    build_log_ = log_of(program_.get(), id);
+    build_log_ = log_of(device, program_.get());
     if (code == CL_BUILD_PROGRAM_FAILURE) {
         throw Error(Status::device_fault,
                     "the kernels do not compile for " + device.info().name + " (" + options + "):\n" + build_log_);
@@ -75,9 +75,9 @@ Kernel Program::kernel(const std::string& name) const {
 
 Kernel::Kernel(const Device& device, cl_program program, std::string name) : device_(&device), name_(std::move(name)) {
     cl_int code = CL_SUCCESS;
-    kernel_ = Handle<cl_kernel, clReleaseKernel>(clCreateKernel(program, name_.c_str(), &code));
+    kernel_ = Handle<cl_kernel, &OpenCl::ReleaseKernel>(device.cl(), device.cl().CreateKernel(program, name_.c_str(), &code));
     check(code, "clCreateKernel (" + name_ + ")");
-    check(clGetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr),
+    check(device.cl().GetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr),
           "clGetKernelInfo (" + name_ + ")");
 }
 
@@ -91,7 +91,7 @@ void Kernel::set(cl_uint position, LocalMemory local) {
 }
 
 void Kernel::set_bytes(cl_uint position, const void* value, std::size_t bytes) {
-    const cl_int code = clSetKernelArg(kernel_.get(), position, bytes, value);
+    const cl_int code = device_->cl().SetKernelArg(kernel_.get(), position, bytes, value);
     if (code != CL_SUCCESS) check(code, "clSetKernelArg (" + name_ + ", argument " + std::to_string(position) + ")");
 }
 
@@ -109,20 +109,20 @@ Event Kernel::queue(std::size_t items, std::size_t group) {
     if (items == 0) return {};
     const std::size_t padded = (items + group - 1) / group * group;
     cl_event event = nullptr;
-    const cl_int code = clEnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &padded, &group, 0, nullptr, &event);
+    const cl_int code = device_->cl().EnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &padded, &group, 0, nullptr, &event);
     if (code != CL_SUCCESS) {
         check(code, "clEnqueueNDRangeKernel (" + name_ + ", " + std::to_string(items) + " items in groups of " +
                         std::to_string(group) + ")");
     }
-    return Event(event);
+    return Event(device_->cl(), event);
 }
 
 std::size_t Kernel::max_group() const {
-    return group_info<std::size_t>(kernel_, *device_, CL_KERNEL_WORK_GROUP_SIZE);
+    return group_info<std::size_t>(*device_, kernel_.get(), CL_KERNEL_WORK_GROUP_SIZE);
 }
 
 std::uint64_t Kernel::private_bytes() const {
-    return group_info<cl_ulong>(kernel_, *device_, CL_KERNEL_PRIVATE_MEM_SIZE);
+    return group_info<cl_ulong>(*device_, kernel_.get(), CL_KERNEL_PRIVATE_MEM_SIZE);
 }
 
 }  // namespace csgrt

@@ -76,7 +76,7 @@ private:
     const Device* device_;
     std::string name_;
     cl_uint argument_count_ = 0;
-    Handle<cl_kernel, clReleaseKernel> kernel_;
+    Handle<cl_kernel, &OpenCl::ReleaseKernel> kernel_;
 };
 
 /// OpenCL C source, compiled for one device. `source` is what assemble_program gives; each of `defines` becomes a -D
@@ -97,7 +97,7 @@ public:
 
 private:
     const Device* device_;
-    Handle<cl_program, clReleaseProgram> program_;
+    Handle<cl_program, &OpenCl::ReleaseProgram> program_;
     std::string build_log_;
     bool has_own_declarations_ = false;
 };

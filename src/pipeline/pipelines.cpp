@@ -32,10 +32,16 @@ std::size_t planes_fitting(const Device& device, std::uint64_t own, std::size_t 
 
 }  // namespace
 
+/// Whose kernels compute in such a way.
+static Kernels kernels_for(const Settings& settings) {
+    const bool is_default = settings.precision == Precision::double_ && settings.quartic == Quartic::bracketed && !settings.contraction;
+    return is_default ? Kernels::any : Kernels::compiled_by_device;
+}
+
 Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, Readback readback) {
-    const std::vector<FoundDevice> found = find_devices();
-    for (const std::size_t number : choose_devices(infos_of(found), settings.device)) {
-        devices_.push_back(std::make_unique<Device>(found[number], settings.max_memory));
+    const std::vector<FoundDevice> found = find_devices().devices;
+    for (const std::size_t number : choose_devices(infos_of(found), settings.device, kernels_for(settings))) {
+        devices_.push_back(std::make_unique<Device>(found[number], settings.max_memory, settings.threads));
         pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings, readback));
     }
 }

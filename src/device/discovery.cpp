@@ -1,0 +1,157 @@
+#include "device/discovery.hpp"
+
+#include <algorithm>
+#include <future>
+#include <mutex>
+
+#include "device/cache_folder.hpp"
+#include "device/native/driver.hpp"
+#include "device/opencl.hpp"
+#include "device/opencl_loader.hpp"
+
+namespace csgrt {
+
+namespace {
+
+constexpr cl_int platform_not_found = -1001;  // of the ICD loader (cl_khr_icd), when no driver is installed
+
+template <class Get>
+std::string text_of(Get get, const char* call) {
+    std::size_t size = 0;
+    check(get(0, nullptr, &size), call);
+    std::string text(size, '\0');
+    check(get(size, text.data(), nullptr), call);
+    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+    return text;
+}
+
+std::string device_text(const OpenCl& cl, cl_device_id id, cl_device_info what) {
+    return text_of([&](std::size_t size, void* out, std::size_t* needed) { return cl.GetDeviceInfo(id, what, size, out, needed); },
+                   "clGetDeviceInfo");
+}
+
+template <class T>
+T device_value(const OpenCl& cl, cl_device_id id, cl_device_info what) {
+    T value{};
+    check(cl.GetDeviceInfo(id, what, sizeof value, &value, nullptr), "clGetDeviceInfo");
+    return value;
+}
+
+std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
+    return text_of([&](std::size_t size, void* out, std::size_t* needed) {
+        return cl.GetPlatformInfo(platform, CL_PLATFORM_NAME, size, out, needed);
+    }, "clGetPlatformInfo");
+}
+
+DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) {
+    DeviceInfo info;
+    info.name = device_text(cl, id, CL_DEVICE_NAME);
+    info.platform = platform_text(cl, platform);
+    info.version = device_text(cl, id, CL_DEVICE_VERSION);
+    info.driver = device_text(cl, id, CL_DRIVER_VERSION);
+    const auto type = device_value<cl_device_type>(cl, id, CL_DEVICE_TYPE);
+    info.type = type & CL_DEVICE_TYPE_GPU ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
+    info.memory = device_value<cl_ulong>(cl, id, CL_DEVICE_GLOBAL_MEM_SIZE);
+    info.max_allocation = device_value<cl_ulong>(cl, id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+    info.compute_units = device_value<cl_uint>(cl, id, CL_DEVICE_MAX_COMPUTE_UNITS);
+    info.fp64 = (" " + device_text(cl, id, CL_DEVICE_EXTENSIONS) + " ").find(" cl_khr_fp64 ") != std::string::npos;
+    return info;
+}
+
+// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
+void ensure_cache_folder_once() {
+    static std::once_flag once;
+    std::call_once(once, ensure_cache_folder);
+}
+
+std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
+    cl_uint count = 0;
+    const cl_int code = cl.GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
+    if (code == CL_DEVICE_NOT_FOUND || (code == CL_SUCCESS && count == 0)) return {};
+    check(code, "clGetDeviceIDs");
+    std::vector<cl_device_id> ids(count);
+    check(cl.GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "clGetDeviceIDs");
+    std::vector<FoundDevice> devices;
+    for (const cl_device_id id : ids) {
+        if (device_value<cl_bool>(cl, id, CL_DEVICE_AVAILABLE)) devices.push_back({&cl, id, describe(cl, platform, id)});
+    }
+    return devices;
+}
+
+/// Those of each platform. One that fails leaves a note: the others still serve.
+void add_devices(const OpenCl& cl, Discovery& found) {
+    cl_uint count = 0;
+    const cl_int code = cl.GetPlatformIDs(0, nullptr, &count);
+    if (code == platform_not_found || (code == CL_SUCCESS && count == 0)) return;
+    std::vector<cl_platform_id> platforms(count);
+    try {
+        check(code, "clGetPlatformIDs");
+        check(cl.GetPlatformIDs(count, platforms.data(), nullptr), "clGetPlatformIDs");
+    } catch (const Error& error) {
+        found.notes.push_back("OpenCL cannot be used: " + std::string(error.what()));
+        return;
+    }
+    for (const cl_platform_id platform : platforms) {
+        std::string name = "an OpenCL driver without a name";
+        try {
+            name = platform_text(cl, platform);
+            for (FoundDevice& device : devices_of(cl, platform)) found.devices.push_back(std::move(device));
+        } catch (const Error& error) {
+            found.notes.push_back("the OpenCL driver \"" + name + "\" cannot be used: " + error.what());
+        }
+    }
+}
+
+/// The best native device stands before all other processors; levels of instructions that leave some of this one's unused, last.
+void add_native(Discovery& found) {
+    Discovery native;
+    add_devices(native::functions(), native);
+    if (native.devices.empty()) return;
+    const auto is_cpu = [](const FoundDevice& device) { return device.info.type == "cpu"; };
+    found.devices.insert(std::find_if(found.devices.begin(), found.devices.end(), is_cpu), std::move(native.devices.front()));
+    std::move(native.devices.begin() + 1, native.devices.end(), std::back_inserter(found.devices));
+}
+
+}  // namespace
+
+Discovery find_devices() {
+    ensure_cache_folder_once();
+    // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+
+    Discovery found;
+    const OpenClLoader& loader = opencl_loader();
+    if (loader.functions) add_devices(*loader.functions, found);
+    if (!loader.fault.empty()) found.notes.push_back("the OpenCL loader cannot be opened: " + loader.fault);
+    add_native(found);
+    return found;
+}
+
+bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
+
+std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
+    std::vector<DeviceInfo> all;
+    for (const FoundDevice& device : devices) all.push_back(device.info);
+    return all;
+}
+
+std::vector<DeviceInfo> devices(std::vector<std::string>* notes) {
+    Discovery found = find_devices();
+    if (notes) *notes = std::move(found.notes);
+    return infos_of(found.devices);
+}
+
+void prepare_devices() {
+    ensure_cache_folder_once();  // on this thread, since it may write to the environment
+    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
+    // had, nothing is looked for before.
+    static const std::future<void> looking = std::async([] {
+        try {
+            find_devices();
+        } catch (const std::exception&) {
+        }
+    });
+}
+
+}  // namespace csgrt

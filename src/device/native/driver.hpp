@@ -1,0 +1,21 @@
+// The native device: this machine's processors, driven through OpenCL's functions like any other device, with kernels that were
+// compiled when csgrt was (kernels.hpp). No driver, no loader and no compiler is needed where it runs.
+//
+// A command is done when the call that queues it returns, whatever its queue; so events only tell when it ran. It holds what csgrt
+// uses of OpenCL and no more: one dimension, buffers, programs of double precision with the default quartic.
+#pragma once
+
+#include <vector>
+
+#include "device/opencl_table.hpp"
+
+namespace csgrt::native {
+
+inline constexpr const char* platform_name = "csgrt";
+
+/// The property of a context that says with how many threads kernels run (0: one for each processor).
+inline constexpr cl_context_properties threads_property = 0x63736774;
+
+const OpenCl& functions();
+
+}  // namespace csgrt::native

@@ -1,0 +1,44 @@
+// The kernels that are compiled ahead of time, for each level of instructions that this library holds (cmake/native_kernels.cmake
+// writes the tables; clang compiles the files of kernels/ as they are).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace csgrt::native {
+
+/// Runs work-items [first, end). An argument is 64 bits: where memory begins, or a value of no more bytes than that.
+using Entry = void (*)(std::size_t first, std::size_t end, const std::uint64_t* arguments);
+
+struct CompiledKernel {
+    const char* name;
+    Entry run;
+    const std::uint32_t* argument_sizes;  ///< bytes of a value; 0: memory
+    std::uint32_t argument_count;
+};
+
+/// What a program may be: one of these, with every type of solid.
+struct Program {
+    const char* name;  ///< first_hits, first_hits_fetch (CSGRT_FETCH), partitions
+    std::span<const CompiledKernel> kernels;
+};
+
+struct Level {
+    const char* name;  ///< as compilers call it: x86-64-v4
+    std::span<const Program> programs;
+
+    const Program* program(std::string_view name) const;
+};
+
+/// Those that this library holds, the best first. Empty if it was built without clang.
+std::span<const Level> compiled_levels();
+
+/// Whether this processor, and the system for it, can run a level.
+bool can_run(std::string_view level);
+
+/// The kernels of kernels/scan.cl, whose work-items wait for each other, in sequence: the same sums.
+std::span<const CompiledKernel> scan_kernels();
+
+}  // namespace csgrt::native

@@ -1,0 +1,29 @@
+// The functions of OpenCL that csgrt calls, as a table. Two things fill it: the OpenCL loader, opened when it is first needed
+// (opencl_loader.hpp), and the native device, whose kernels are in this library (native/driver.hpp). What calls through a table
+// does not know which.
+#pragma once
+
+#include <CL/cl.h>
+
+namespace csgrt {
+
+#define CSGRT_OPENCL_FUNCTIONS(F)                                                                                     \
+    F(GetPlatformIDs) F(GetPlatformInfo) F(GetDeviceIDs) F(GetDeviceInfo)                                             \
+    F(CreateContext) F(ReleaseContext)                                                                                \
+    F(CreateCommandQueue) F(RetainCommandQueue) F(ReleaseCommandQueue) F(Flush) F(Finish)                             \
+    F(CreateBuffer) F(ReleaseMemObject)                                                                               \
+    F(CreateProgramWithSource) F(CreateProgramWithBinary) F(BuildProgram) F(ReleaseProgram) F(GetProgramInfo)         \
+    F(GetProgramBuildInfo)                                                                                            \
+    F(CreateKernel) F(ReleaseKernel) F(GetKernelInfo) F(GetKernelWorkGroupInfo) F(SetKernelArg)                       \
+    F(EnqueueNDRangeKernel) F(EnqueueWriteBuffer) F(EnqueueReadBuffer) F(EnqueueReadBufferRect) F(EnqueueFillBuffer)  \
+    F(EnqueueMapBuffer) F(EnqueueUnmapMemObject)                                                                      \
+    F(WaitForEvents) F(ReleaseEvent) F(GetEventInfo) F(GetEventProfilingInfo)
+
+/// OpenCL's own names without their "cl". An object belongs to the table that made it.
+struct OpenCl {
+#define CSGRT_MEMBER(name) decltype(&::cl##name) name = nullptr;
+    CSGRT_OPENCL_FUNCTIONS(CSGRT_MEMBER)
+#undef CSGRT_MEMBER
+};
+
+}  // namespace csgrt
