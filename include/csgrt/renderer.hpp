@@ -21,6 +21,11 @@ struct DeviceInfo {
     bool fp64 = false;
 };
 /// Every OpenCL device, in the order of their numbers; empty if there is none.
+///
+/// PoCL, the driver for processors, has no device, compiles no kernel or ends the process where it cannot write its cache:
+/// POCL_CACHE_DIR, else XDG_CACHE_HOME/pocl/kcache, else HOME/.cache/pocl/kcache. The library leaves the environment alone: a
+/// program without a home (a service, a container) sets POCL_CACHE_DIR to a folder before its first devices(),
+/// prepare_devices() or Renderer, and before it starts threads. csgrt's command does so.
 CSGRT_API std::vector<DeviceInfo> devices();
 /// Begins to look for them on a thread of its own, once in a process; later calls do nothing. A driver takes some 30 ms to
 /// start: called before a scene is loaded, this spares its Renderer the wait. Renderer calls it before it compiles.

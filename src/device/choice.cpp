@@ -7,7 +7,6 @@
 #include <mutex>
 #include <sstream>
 
-#include "device/cache_folder.hpp"
 #include "device/opencl.hpp"
 #include "scene/nearest.hpp"
 
@@ -61,12 +60,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
-void ensure_cache_folder_once() {
-    static std::once_flag once;
-    std::call_once(once, ensure_cache_folder);
-}
-
 /// What --device may have meant: a type, a device's or a platform's name, or a word of one.
 std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
     std::vector<std::string> known = {"accelerator", "cpu", "gpu", "gpus"};
@@ -104,7 +97,6 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
 }  // namespace
 
 std::vector<FoundDevice> find_devices() {
-    ensure_cache_folder_once();
     // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
@@ -192,7 +184,6 @@ std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
 std::vector<DeviceInfo> devices() { return infos_of(find_devices()); }
 
 void prepare_devices() {
-    ensure_cache_folder_once();  // on this thread, since it may write to the environment
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
     // had, nothing is looked for before.
     static const std::future<void> looking = std::async([] {

@@ -1,4 +1,4 @@
-#include "device/cache_folder.hpp"
+#include "cache_folder.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-namespace csgrt {
+namespace csgrt::cli {
 
 namespace {
 
@@ -62,4 +62,4 @@ void ensure_cache_folder() {
     });
 }
 
-}  // namespace csgrt
+}  // namespace csgrt::cli
