@@ -15,6 +15,9 @@
 #include "arguments.hpp"
 #include "cache_folder.hpp"
 #include "interrupt.hpp"
+#ifdef CSGRT_HAVE_IMAGE
+#include "late_image.hpp"
+#endif
 #include "output.hpp"
 #include "progress.hpp"
 
@@ -65,6 +68,9 @@ int main_status(const std::vector<std::string>& words) {
     try {
         Command command = parse_arguments(words);
         if (may_use_opencl(command)) ensure_cache_folder();
+#ifdef CSGRT_HAVE_IMAGE
+        ImageLoading loading(command);
+#endif
         return static_cast<int>(std::visit([](const auto& arguments) { return run(arguments); }, command));
     } catch (const Error& error) {
         return fail(error);
