@@ -36,7 +36,7 @@ TEST_CASE("a library for pictures that cannot be loaded is an error where the pi
     NEEDS_COMMAND();
     const Folder folder, libraries;
     const std::string scene = folder.write("balls.asc", two_balls), picture = folder / "x.png";
-    const fs::path core = fs::path(command()).parent_path() / "libcsgrt.so.0";
+    const fs::path core = fs::absolute(command()).parent_path() / "libcsgrt.so.0";
     REQUIRE(fs::exists(core));
     fs::create_symlink(core, libraries / "libcsgrt.so.0");
     libraries.write("libcsgrt_image.so.0", "no library");
