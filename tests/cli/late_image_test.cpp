@@ -7,6 +7,8 @@
 
 using namespace command_test;
 
+#ifdef CSGRT_HAVE_IMAGE
+
 namespace {
 
 std::vector<std::string> drawing(const std::string& scene, const std::string& picture) {
@@ -29,8 +31,6 @@ TEST_CASE("a command that ends while the library for pictures is loaded ends as 
     CHECK(!fs::exists(picture));
     CHECK(run({scene, "-o", "x.bmp"}).status == 2);
 }
-
-#ifdef CSGRT_HAVE_IMAGE
 
 TEST_CASE("a library for pictures that cannot be loaded is an error where the picture is written") {
     NEEDS_COMMAND();
