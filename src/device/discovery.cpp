@@ -4,7 +4,6 @@
 #include <future>
 #include <mutex>
 
-#include "device/cache_folder.hpp"
 #include "device/native/driver.hpp"
 #include "device/opencl.hpp"
 #include "device/opencl_loader.hpp"
@@ -58,12 +57,6 @@ DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) 
     return info;
 }
 
-// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
-void ensure_cache_folder_once() {
-    static std::once_flag once;
-    std::call_once(once, ensure_cache_folder);
-}
-
 std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
     cl_uint count = 0;
     const cl_int code = cl.GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
@@ -115,7 +108,6 @@ void add_native(Discovery& found) {
 }  // namespace
 
 Discovery find_devices() {
-    ensure_cache_folder_once();
     // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
@@ -143,7 +135,6 @@ std::vector<DeviceInfo> devices(std::vector<std::string>* notes) {
 }
 
 void prepare_devices() {
-    ensure_cache_folder_once();  // on this thread, since it may write to the environment
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
     // had, nothing is looked for before.
     static const std::future<void> looking = std::async([] {
