@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -36,9 +35,16 @@ std::string head_of(const std::string& key, std::string_view binary) {
     return "csgrt binary 1\n" + hex(sum.state()) + hex(key.size()) + hex(binary.size()) + '\n' + key;
 }
 
+/// Empty where there is no file, and what was read of one that cannot be read to its end.
 std::string content_of(const fs::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error) return {};
+    std::string content(size, '\0');
     std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    in.read(content.data(), static_cast<std::streamsize>(size));
+    content.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    return content;
 }
 
 struct Kept {
