@@ -2,7 +2,9 @@
 // whatever the view and however small the tiles.
 #include <csgrt/csgrt.hpp>
 
+#include "bench/stress/families.hpp"
 #include "catch.hpp"
+#include "compile/compiled_scene.hpp"
 #include "pipeline/every_type.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
@@ -46,4 +48,11 @@ TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a 
     } catch (const Error& error) {
         CHECK(error.status() == Status::out_of_memory);
     }
+}
+
+// Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those that do.
+TEST_CASE("device and reference agree on a tree that is walked from covered leaf to covered leaf", "[agreement]") {
+    const stress::StressScene made = stress::make("deep_trees", 1);
+    REQUIRE(compile(made.scene, made.objects).has_large_terms);
+    require_agreement(made.scene, made.objects, 48, 500);
 }
