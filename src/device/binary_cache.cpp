@@ -35,11 +35,11 @@ std::string head_of(const std::string& key, std::string_view binary) {
     return "csgrt binary 1\n" + hex(sum.state()) + hex(key.size()) + hex(binary.size()) + '\n' + key;
 }
 
-/// Empty where there is no file, and what was read of one that cannot be read to its end.
-std::string content_of(const fs::path& file) {
+/// Empty where there is no file or one of more than `most_bytes`; what was read of one that cannot be read to its end.
+std::string content_of(const fs::path& file, std::uint64_t most_bytes) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
-    if (error) return {};
+    if (error || size > most_bytes) return {};
     std::string content(size, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(content.data(), static_cast<std::streamsize>(size));
@@ -86,7 +86,7 @@ fs::path BinaryCache::file_of(const std::string& key) const {
 std::optional<std::string> BinaryCache::find(const std::string& key) const {
     if (folder_.empty()) return {};
     const fs::path file = file_of(key);
-    std::string content = content_of(file);
+    std::string content = content_of(file, most_bytes_);
     const std::size_t head = head_of(key, {}).size();
     if (content.size() <= head) return {};
     const std::string_view binary = std::string_view(content).substr(head);
