@@ -286,9 +286,10 @@ typedef struct {
     u32 least, other;
 } claim;
 
-// Looks at the terms that the solids of `starting` start, some of those that c.bits cover. `ranks`: Frame.rank_ends; 0: `other` is
-// not wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
-FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
+// Looks at the terms that the solids of `starting` start, some of those that c.bits cover. `ranks`: Frame.rank_ends; 0:
+// `other` is not wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
+FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
+                    SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);
     found.least = found.other = NONE;

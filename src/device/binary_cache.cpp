@@ -75,7 +75,8 @@ fs::path folder_of(const char* variable) {
 
 }  // namespace
 
-BinaryCache::BinaryCache(fs::path folder, std::uint64_t most_bytes) : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+BinaryCache::BinaryCache(fs::path folder, std::uint64_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
 fs::path BinaryCache::file_of(const std::string& key) const {
     Fnv1a name;

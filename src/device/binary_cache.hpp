@@ -12,8 +12,9 @@
 
 namespace csgrt {
 
-/// One file a program, in one folder, under the hash of all that the program hangs on. Several threads and processes may use a
-/// folder at a time. A file that was cut off or damaged counts as none; against somebody who may write to the folder there is no guard.
+/// One file a program, in one folder, under the hash of all that the program hangs on. Several threads and processes
+/// may use a folder at a time. A file that was cut off or damaged counts as none. There is no guard against somebody who
+/// may write to the folder.
 class BinaryCache {
 public:
     static constexpr std::uint64_t usual_bytes = std::uint64_t{256} << 20;
@@ -23,8 +24,8 @@ public:
 
     /// What was kept under this very key, if anything. It counts as used now.
     std::optional<std::string> find(const std::string& key) const;
-    /// Keeps `binary` in place of what was kept under that key, and then removes what was longest unused, until all fits. Where
-    /// nothing can be written, nothing is kept: that is no error.
+    /// Keeps `binary` in place of what was kept under that key, and then removes what was longest unused, until all
+    /// fits. Where nothing can be written, nothing is kept: that is no error.
     void keep(const std::string& key, std::string_view binary) const;
 
     std::filesystem::path file_of(const std::string& key) const;
@@ -39,7 +40,8 @@ private:
     std::uint64_t most_bytes_;
 };
 
-/// $CSGRT_CACHE_DIR, else csgrt in the folder where the system keeps a user's caches ($XDG_CACHE_HOME, else ~/.cache). Empty: nowhere.
+/// $CSGRT_CACHE_DIR, else csgrt in the folder where the system keeps a user's caches ($XDG_CACHE_HOME, else ~/.cache).
+/// Empty: nowhere.
 std::filesystem::path binary_cache_folder();
 
 /// None if the device's driver keeps what it has compiled, or has nothing to compile.

@@ -36,17 +36,17 @@ T group_info(const Device& device, cl_kernel kernel, cl_kernel_work_group_info w
     return value;
 }
 
-/// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one maker do: how
-/// long their vectors are tells.
+/// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one maker
+/// do: how long their vectors are tells most of it, and a driver refuses what its device cannot run.
 std::string key_of(const Device& device, const std::string& source, const std::string& options) {
     cl_uint vector = 0;
     check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE, sizeof vector, &vector, nullptr),
           "clGetDeviceInfo");
     const DeviceInfo& info = device.info();
     std::string key;
-    for (const std::string& part : {info.platform, info.name, info.version, info.driver, std::to_string(vector), options})
-        key += part + '\n';
-    return key + source;
+    for (const std::string* part : {&info.platform, &info.name, &info.version, &info.driver, &options})
+        key += *part + '\n';
+    return key + std::to_string(vector) + '\n' + source;
 }
 
 }  // namespace
@@ -90,7 +90,8 @@ void Program::compile(const std::string& source, const std::string& options) {
     if (!has_own_declarations_) build("");
     build_log_ = log_of(*device_, program_.get());
     if (code == CL_BUILD_PROGRAM_FAILURE) {
-        throw Error(Status::device_fault, "the kernels do not compile for " + info.name + " (" + options + "):\n" + build_log_);
+        throw Error(Status::device_fault,
+                    "the kernels do not compile for " + info.name + " (" + options + "):\n" + build_log_);
     }
     check(code, "clBuildProgram (" + options + ")");
 }
@@ -104,18 +105,21 @@ bool Program::load(const std::string& binary) {
     cl_int status = CL_SUCCESS, code = CL_SUCCESS;
     program_ = Handle<cl_program, &OpenCl::ReleaseProgram>(
         cl, cl.CreateProgramWithBinary(device_->context(), 1, &id, &size, &bytes, &status, &code));
-    return code == CL_SUCCESS && status == CL_SUCCESS && cl.BuildProgram(program_.get(), 1, &id, "", nullptr, nullptr) == CL_SUCCESS;
+    if (code != CL_SUCCESS || status != CL_SUCCESS) return false;
+    return cl.BuildProgram(program_.get(), 1, &id, "", nullptr, nullptr) == CL_SUCCESS;
 }
 
 /// What the driver made of the source; empty if it does not give it.
 std::string Program::binary() const {
     const OpenCl& cl = device_->cl();
     std::size_t size = 0;  // of one device, as the context has
-    if (cl.GetProgramInfo(program_.get(), CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr) != CL_SUCCESS) return {};
+    const auto info = [&](cl_program_info what, std::size_t bytes, void* out) {
+        return cl.GetProgramInfo(program_.get(), what, bytes, out, nullptr) == CL_SUCCESS;
+    };
+    if (!info(CL_PROGRAM_BINARY_SIZES, sizeof size, &size)) return {};
     std::string binary(size, '\0');
     char* bytes = binary.data();
-    if (cl.GetProgramInfo(program_.get(), CL_PROGRAM_BINARIES, sizeof bytes, &bytes, nullptr) != CL_SUCCESS) return {};
-    return binary;
+    return info(CL_PROGRAM_BINARIES, sizeof bytes, &bytes) ? binary : std::string();
 }
 
 Kernel Program::kernel(const std::string& name) const {

@@ -50,7 +50,8 @@ TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a 
     }
 }
 
-// Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those that do.
+// Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those
+// that do.
 TEST_CASE("device and reference agree on a tree that is walked from covered leaf to covered leaf", "[agreement]") {
     const stress::StressScene made = stress::make("deep_trees", 1);
     REQUIRE(compile(made.scene, made.objects).has_large_terms);

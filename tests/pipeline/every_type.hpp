@@ -65,8 +65,8 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     return scene;
 }
 
-/// What an OpenCL compiler takes for each program is most of the time of a test of many scenes, so a scene has its own only if it
-/// brings two types of solids or more that no program before had; the others share that of every type.
+/// What an OpenCL compiler takes for each program is most of the time of a test of many scenes, so a scene has its own only
+/// if it brings two types of solids or more that no program before had; the others share that of every type.
 class FewPrograms {
 public:
     /// `scene` itself, or with every type; then `objects` gets more (with_every_type).

@@ -1,5 +1,5 @@
-// Every device that is there gives the reference's bits: native ones of each level, and those of whatever OpenCL drivers are
-// installed. Minutes a device: ctest -C Long -L opencl-vendors (docs/drivers.md).
+// Every device that is there gives the reference's bits: native ones of each level, and those of whatever OpenCL
+// drivers are installed. Minutes a device: ctest -C Long -L opencl-vendors (docs/drivers.md).
 #include "catch.hpp"
 
 #include <chrono>
@@ -103,8 +103,9 @@ TEST_CASE("every device gives the reference's bits", "[.vendors]") {
             }
             std::printf("%s: begins\n", name.c_str());
             std::fflush(stdout);
-            const auto start = std::chrono::steady_clock::now();
-            const auto seconds = [start] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+            using clock = std::chrono::steady_clock;
+            const auto start = clock::now();
+            const auto seconds = [start] { return std::chrono::duration<double>(clock::now() - start).count(); };
             Settings settings;
             settings.device = std::to_string(number);
             const int models = compare_models(settings);
@@ -112,8 +113,9 @@ TEST_CASE("every device gives the reference's bits", "[.vendors]") {
             const int scenes = compare_scenes(settings);
             const double until_stress = seconds();
             const int stress = compare_stress(settings);
-            std::printf("%s: the same bits of %d models (%.0f s), %d scenes (%.0f s) and %d stress scenes (%.0f s)\n", name.c_str(),
-                        models, until_scenes, scenes, until_stress - until_scenes, stress, seconds() - until_stress);
+            std::printf("%s: the same bits of %d models (%.0f s), %d scenes (%.0f s) and %d stress scenes (%.0f s)\n",
+                        name.c_str(), models, until_scenes, scenes, until_stress - until_scenes, stress,
+                        seconds() - until_stress);
             std::fflush(stdout);
         }
     }
