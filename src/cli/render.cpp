@@ -194,7 +194,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
 Status run(const RenderArguments& arguments) {
     check(arguments);
     auto begin = Clock::now();
-    if (!arguments.settings.reference) prepare_devices();
+    prepare_devices(arguments.settings);
     Scene scene = load_with_progress(arguments.scene, arguments.strict);
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};

@@ -35,7 +35,7 @@ Status run(const ShootArguments& arguments) {
     check_outputs({{"--output", arguments.output}}, {{"SCENE", arguments.scene}, {"--rays", arguments.rays}});
     Progress progress(arguments.output != "-" || isatty(STDOUT_FILENO) != 1);
     progress.stage("loading");
-    if (!arguments.settings.reference) prepare_devices();
+    prepare_devices(arguments.settings);
     Scene scene = load(arguments.scene, arguments.strict);
     progress.stage("reading rays");
     RayReader reader(arguments.rays);

@@ -1,7 +1,7 @@
 #include "device/discovery.hpp"
 
 #include <algorithm>
-#include <future>
+#include <filesystem>
 #include <mutex>
 
 #include "device/cache_folder.hpp"
@@ -43,6 +43,19 @@ std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
     }, "clGetPlatformInfo");
 }
 
+/// What the machine is taken for in tests.
+std::mutex pretence_mutex;
+std::string pretended_platform;
+
+bool is_pretended(const std::string& platform) {
+    const std::lock_guard lock(pretence_mutex);
+    return !pretended_platform.empty() && platform == pretended_platform;
+}
+bool is_any_pretended() {
+    const std::lock_guard lock(pretence_mutex);
+    return !pretended_platform.empty();
+}
+
 DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) {
     DeviceInfo info;
     info.name = device_text(cl, id, CL_DEVICE_NAME);
@@ -50,18 +63,12 @@ DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) 
     info.version = device_text(cl, id, CL_DEVICE_VERSION);
     info.driver = device_text(cl, id, CL_DRIVER_VERSION);
     const auto type = device_value<cl_device_type>(cl, id, CL_DEVICE_TYPE);
-    info.type = type & CL_DEVICE_TYPE_GPU ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
+    info.type = type & CL_DEVICE_TYPE_GPU || is_pretended(info.platform) ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
     info.memory = device_value<cl_ulong>(cl, id, CL_DEVICE_GLOBAL_MEM_SIZE);
     info.max_allocation = device_value<cl_ulong>(cl, id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     info.compute_units = device_value<cl_uint>(cl, id, CL_DEVICE_MAX_COMPUTE_UNITS);
     info.fp64 = (" " + device_text(cl, id, CL_DEVICE_EXTENSIONS) + " ").find(" cl_khr_fp64 ") != std::string::npos;
     return info;
-}
-
-// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: before the first call.
-void ensure_cache_folder_once() {
-    static std::once_flag once;
-    std::call_once(once, ensure_cache_folder);
 }
 
 std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
@@ -104,15 +111,34 @@ void add_devices(const OpenCl& cl, Discovery& found) {
 
 /// The best native device stands before all other processors; levels of instructions that leave some of this one's unused, last.
 void add_native(Discovery& found) {
-    Discovery native;
-    add_devices(native::functions(), native);
-    if (native.devices.empty()) return;
+    std::vector<FoundDevice> native = find_native_devices();
+    if (native.empty()) return;
     const auto is_cpu = [](const FoundDevice& device) { return device.info.type == "cpu"; };
-    found.devices.insert(std::find_if(found.devices.begin(), found.devices.end(), is_cpu), std::move(native.devices.front()));
-    std::move(native.devices.begin() + 1, native.devices.end(), std::back_inserter(found.devices));
+    found.devices.insert(std::find_if(found.devices.begin(), found.devices.end(), is_cpu), std::move(native.front()));
+    std::move(native.begin() + 1, native.end(), std::back_inserter(found.devices));
 }
 
+#ifdef __linux__
+bool has_render_node(const std::filesystem::path& folder) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (entry->path().filename().string().starts_with("renderD")) return true;
+    return static_cast<bool>(error) && std::filesystem::exists(folder, error);  // there is something that is not shown
+}
+#endif
+
 }  // namespace
+
+void ensure_cache_folder_once() {
+    static std::once_flag once;
+    std::call_once(once, ensure_cache_folder);
+}
+
+std::vector<FoundDevice> find_native_devices() {
+    Discovery native;
+    add_devices(native::functions(), native);
+    return std::move(native.devices);
+}
 
 Discovery find_devices() {
     ensure_cache_folder_once();
@@ -128,6 +154,32 @@ Discovery find_devices() {
     return found;
 }
 
+bool may_have_gpu(const std::string& folder) {
+    if (is_any_pretended()) return true;
+#ifdef __linux__
+    const std::filesystem::path root = folder;
+    // NVIDIA's driver, AMD's, WSL's, Arm's and Qualcomm's; all others draw through the kernel's render nodes.
+    for (const char* name : {"nvidiactl", "nvidia0", "kfd", "dxg", "mali0", "kgsl-3d0"}) {
+        std::error_code error;
+        if (std::filesystem::exists(root / name, error)) return true;
+    }
+    return has_render_node(root / "dri");
+#else
+    static_cast<void>(folder);
+    return true;
+#endif
+}
+
+PretendedGpu::PretendedGpu(std::string platform) {
+    const std::lock_guard lock(pretence_mutex);
+    pretended_platform = std::move(platform);
+}
+
+PretendedGpu::~PretendedGpu() {
+    const std::lock_guard lock(pretence_mutex);
+    pretended_platform.clear();
+}
+
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
 
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
@@ -140,18 +192,6 @@ std::vector<DeviceInfo> devices(std::vector<std::string>* notes) {
     Discovery found = find_devices();
     if (notes) *notes = std::move(found.notes);
     return infos_of(found.devices);
-}
-
-void prepare_devices() {
-    ensure_cache_folder_once();  // on this thread, since it may write to the environment
-    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
-    // had, nothing is looked for before.
-    static const std::future<void> looking = std::async([] {
-        try {
-            find_devices();
-        } catch (const std::exception&) {
-        }
-    });
 }
 
 }  // namespace csgrt

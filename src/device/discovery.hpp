@@ -24,6 +24,27 @@ struct Discovery {
 /// Every device of every platform, and the native ones: the best of them before all other processors. Any thread.
 Discovery find_devices();
 
+/// The native ones alone, the best first, for which no driver is loaded. Empty if this processor can run none, or csgrt was built
+/// without their kernels. Any thread.
+std::vector<FoundDevice> find_native_devices();
+
+/// Whether it is worth it to load drivers in search of a GPU. `folder` is where the system has its devices: on Linux a driver reaches
+/// a GPU through a file there; elsewhere that is not known, and the answer is yes. Any thread.
+bool may_have_gpu(const std::string& folder = "/dev");
+
+/// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: makes a folder for them, once in a
+/// process, and may write to the environment. find_devices() calls it; a thread must not be the first to.
+void ensure_cache_folder_once();
+
+/// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs. One at a time.
+class PretendedGpu {
+public:
+    explicit PretendedGpu(std::string platform);
+    ~PretendedGpu();
+    PretendedGpu(const PretendedGpu&) = delete;
+    PretendedGpu& operator=(const PretendedGpu&) = delete;
+};
+
 /// Has its kernels from csgrt itself, those of the default method and no others.
 bool is_native(const DeviceInfo& device);
 
