@@ -28,7 +28,7 @@ double value(const std::string& json, const std::string& key) {
 
 bool have_device() {
     if (!csgrt::devices().empty()) return true;
-    WARN("no OpenCL device: skipped");
+    WARN("no device: skipped");
     return false;
 }
 

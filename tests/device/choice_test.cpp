@@ -1,8 +1,11 @@
 #include "catch.hpp"
 
+#include <algorithm>
+
 #include "device/choice.hpp"
 
 using namespace csgrt;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -44,7 +47,7 @@ TEST_CASE("a device is chosen by nothing, type, number or part of a name", "[dev
 
 TEST_CASE("a device that is not there is refused with a list of those that are", "[device]") {
     const std::string unknown = refusal(several, "radeon");
-    CHECK(unknown.starts_with("no OpenCL device has \"radeon\" in its name\n"));
+    CHECK(unknown.starts_with("no device has \"radeon\" in its name\n"));
     CHECK(unknown.find("0: Slow CPU (cpu, Platform of Slow CPU)") != std::string::npos);
     CHECK(unknown.find("1: Toy GPU (gpu, Platform of Toy GPU, no double precision)") != std::string::npos);
     CHECK(unknown.find("3: Other GPU") != std::string::npos);
@@ -54,21 +57,21 @@ TEST_CASE("a device that is not there is refused with a list of those that are",
     CHECK(refusal(several, "otehr").find("\n  did you mean 'Other'?\n") != std::string::npos);
     CHECK(refusal(several, "cpu,real gup").find("chose") == std::string::npos);
 
-    CHECK(refusal(several, "4").starts_with("no OpenCL device has the number 4\n"));
-    CHECK(refusal(several, "99999999999999999999999").starts_with("no OpenCL device has the number 9999"));
-    CHECK(refusal(several, "accelerator").starts_with("no OpenCL device of the type accelerator was found\n"));
+    CHECK(refusal(several, "4").starts_with("no device has the number 4\n"));
+    CHECK(refusal(several, "99999999999999999999999").starts_with("no device has the number 9999"));
+    CHECK(refusal(several, "accelerator").starts_with("no device of the type accelerator was found\n"));
 }
 
 TEST_CASE("a device without double precision is refused for that", "[device]") {
-    CHECK(refusal(several, "1").starts_with("OpenCL device 1 has no double precision\n"));
-    CHECK(refusal(several, "toy").starts_with("no OpenCL device has \"toy\" in its name and double precision\n"));
-    CHECK(refusal({several[1]}, "gpu").starts_with("no OpenCL device of the type gpu has double precision\n"));
-    CHECK(refusal({several[1]}, "").starts_with("no OpenCL device has double precision\n"));
+    CHECK(refusal(several, "1").starts_with("device 1 has no double precision\n"));
+    CHECK(refusal(several, "toy").starts_with("no device has \"toy\" in its name and double precision\n"));
+    CHECK(refusal({several[1]}, "gpu").starts_with("no device of the type gpu has double precision\n"));
+    CHECK(refusal({several[1]}, "").starts_with("no device has double precision\n"));
 }
 
 TEST_CASE("without any device, the package that brings one is named", "[device]") {
     const std::string none = refusal({}, "");
-    CHECK(none.starts_with("no OpenCL device was found\n"));
+    CHECK(none.starts_with("no device was found\n"));
     CHECK(none.find("pocl-opencl-icd") != std::string::npos);
     CHECK(refusal({}, "gpu") == none);
 }
@@ -79,7 +82,7 @@ TEST_CASE("every device describes itself", "[device]") {
     for (const DeviceInfo& info : found) {
         CHECK(!info.name.empty());
         CHECK(!info.platform.empty());
-        CHECK(info.version.starts_with("OpenCL "));
+        CHECK((is_native(info) || info.version.starts_with("OpenCL ")));
         CHECK(!info.driver.empty());
         CHECK((info.type == "cpu" || info.type == "gpu" || info.type == "accelerator"));
         CHECK(info.memory >= info.max_allocation);
@@ -88,9 +91,30 @@ TEST_CASE("every device describes itself", "[device]") {
     }
 }
 
-TEST_CASE("without a driver there are no devices, and that is no failure", "[.no_driver]") {
-    CHECK(devices().empty());
-    CHECK(refusal(devices(), "").find("pocl-opencl-icd") != std::string::npos);
+TEST_CASE("without a driver there are native devices alone, and that is no failure", "[.no_driver]") {
+    std::vector<std::string> notes;
+    const std::vector<DeviceInfo> found = devices(&notes);
+    CHECK(std::all_of(found.begin(), found.end(), is_native));
+    CHECK(notes == std::vector<std::string>());
+}
+
+TEST_CASE("native devices have the default method's kernels alone, and come before other processors", "[device]") {
+    DeviceInfo native = made_up("native-level", "cpu", true);
+    native.platform = "csgrt";
+    const std::vector<DeviceInfo> all = {several[1], native, several[0]};
+    CHECK(choose_device(all, "") == 1);
+    CHECK(choose_device(all, "cpu") == 1);
+    CHECK(choose_device(all, "native") == 1);
+    CHECK(choose_device(all, "", Kernels::compiled_by_device) == 2);
+    CHECK(choose_device(all, "cpu", Kernels::compiled_by_device) == 2);
+    for (const char* choice : {"native", "1"}) {
+        INFO(choice);
+        CHECK_THROWS_WITH(choose_device(all, choice, Kernels::compiled_by_device), Contains("the default method alone"));
+    }
+    CHECK_THROWS_WITH(choose_device({native}, "", Kernels::compiled_by_device), Contains("the default method alone"));
+    DeviceInfo pocl = several[0];
+    pocl.version = "OpenCL 3.0 PoCL HSTR";
+    CHECK(choose_device({native, several[0], pocl}, "pocl") == 2);
 }
 
 TEST_CASE("several devices are chosen by several choices, or as all GPUs", "[device]") {
@@ -109,7 +133,7 @@ TEST_CASE("several devices are chosen by several choices, or as all GPUs", "[dev
             return error.what();
         }
     };
-    CHECK(refusal_of(several, "gpu,2").starts_with("\"gpu,2\" means OpenCL device 2 twice\n"));
-    CHECK(refusal_of(several, "0,7").starts_with("no OpenCL device has the number 7\n"));
-    CHECK(refusal_of({several[0], several[1]}, "gpus").starts_with("no OpenCL device of the type gpu was found that has"));
+    CHECK(refusal_of(several, "gpu,2").starts_with("\"gpu,2\" means device 2 twice\n"));
+    CHECK(refusal_of(several, "0,7").starts_with("no device has the number 7\n"));
+    CHECK(refusal_of({several[0], several[1]}, "gpus").starts_with("no device of the type gpu was found that has"));
 }

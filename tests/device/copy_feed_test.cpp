@@ -1,3 +1,4 @@
+#include "device/compiling_device.hpp"
 #include "device/copy_feed.hpp"
 
 #include <chrono>
@@ -11,7 +12,7 @@
 using namespace csgrt;
 
 TEST_CASE("a feed makes all copies, in pieces, beside other commands of the device", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     std::vector<float> values(5'000'003);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 16'777'213);
     const Buffer buffer(device, "lines", values);
@@ -67,7 +68,7 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
 }
 
 TEST_CASE("copies that a device refuses are told by their future, and those behind them are made", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     const std::vector<float> values(100, 3);
     const Buffer buffer(device, "lines", values);
     std::vector<float> host(100);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <thread>
 
+#include "device/compiling_device.hpp"
 #include "device/copy_feed.hpp"
 #include "device/program.hpp"
 #include "device/queued.hpp"
@@ -53,7 +54,7 @@ struct Change {
 }  // namespace
 
 TEST_CASE("numbers go to the device, through a kernel and back", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, scale_source);
     Kernel change = program.kernel("change");
     std::vector<cl_uint> numbers(1000);
@@ -68,7 +69,7 @@ TEST_CASE("numbers go to the device, through a kernel and back", "[device]") {
 }
 
 TEST_CASE("launches of any number of items, in parts or as many: each item comes once", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, "__kernel void part(__global uint* x, uint n, uint first) { uint i = first + (uint)get_global_id(0); if (i < n) ++x[i]; }"
                             "__kernel void many(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) ++x[i]; }");
     Kernel part = program.kernel("part"), many = program.kernel("many");
@@ -88,7 +89,7 @@ TEST_CASE("launches of any number of items, in parts or as many: each item comes
 }
 
 TEST_CASE("launches queue up behind each other and are waited for once", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = 3 * x[i] + 1; }");
     Kernel grow = program.kernel("grow");
     Buffer x(device, "x", 100 * sizeof(cl_uint));
@@ -104,7 +105,7 @@ TEST_CASE("launches queue up behind each other and are waited for once", "[devic
 }
 
 TEST_CASE("what stands in different lanes is all done when a device has finished, and each keeps its order", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = 3 * x[i] + 1; }");
     Kernel grow = program.kernel("grow");
     std::vector<Buffer> x;
@@ -126,7 +127,7 @@ TEST_CASE("what stands in different lanes is all done when a device has finished
     device.finish();
     for (const Event& event : events) {
         cl_int status = CL_QUEUED;
-        clGetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr);
+        event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr);
         CHECK(status == CL_COMPLETE);
     }
     for (std::size_t lane = 0; lane < Device::lanes; ++lane)  // 3^10 x + (3^10 - 1) / 2
@@ -138,7 +139,7 @@ TEST_CASE("what stands in different lanes is all done when a device has finished
 }
 
 TEST_CASE("a kernel takes local memory, and a null pointer for an empty buffer", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, scale_source);
     Buffer in(device, "in", std::vector<cl_uint>(64, 2)), out(device, "out", 4 * sizeof(cl_uint)), empty(device, "empty");
     program.kernel("sum_group").launch(64, 16, in, out, LocalMemory{16 * sizeof(cl_uint)});
@@ -151,7 +152,7 @@ TEST_CASE("a kernel takes local memory, and a null pointer for an empty buffer",
 }
 
 TEST_CASE("nothing to do is nothing queued", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, scale_source);
     Buffer empty(device, "empty");
     const Event event = program.kernel("is_null").launch(0, 64, empty, empty);
@@ -163,7 +164,7 @@ TEST_CASE("nothing to do is nothing queued", "[device]") {
 }
 
 TEST_CASE("transfers reach the middle of a buffer and never past its end", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Buffer buffer(device, "numbers", std::vector<cl_uint>{1, 2, 3, 4});
     const cl_uint nine = 9;
     buffer.upload(&nine, sizeof nine, 2 * sizeof nine);
@@ -177,7 +178,7 @@ TEST_CASE("transfers reach the middle of a buffer and never past its end", "[dev
 }
 
 TEST_CASE("memory is counted by name and given back", "[device]") {
-    Device device("", 10'000);
+    Device device(test::compiling_device(), 10'000);
     CHECK(device.budget() == 10'000);
     CHECK(device.max_buffer() <= 10'000);
     {
@@ -202,7 +203,7 @@ TEST_CASE("memory is counted by name and given back", "[device]") {
 }
 
 TEST_CASE("what does not fit the budget is refused, with who holds what", "[device]") {
-    Device device("", 1 << 20);
+    Device device(test::compiling_device(), 1 << 20);
     Buffer rays(device, "rays", 700 * 1024);
     const std::string text = failure(Status::out_of_memory, [&] { Buffer(device, "segments", 400 * 1024); });
     CHECK(has(text, "\"segments\" needs 400.0 KiB"));
@@ -214,7 +215,7 @@ TEST_CASE("what does not fit the budget is refused, with who holds what", "[devi
 }
 
 TEST_CASE("one buffer larger than the device allows is refused", "[device]") {
-    Device device("", std::uint64_t{1} << 62);
+    Device device(test::compiling_device(), std::uint64_t{1} << 62);
     const std::string text = failure(Status::out_of_memory, [&] { Buffer(device, "partitions", device.info().max_allocation + 1); });
     CHECK(has(text, "\"partitions\" needs "));
     CHECK(has(text, "one buffer may take "));
@@ -222,14 +223,14 @@ TEST_CASE("one buffer larger than the device allows is refused", "[device]") {
 }
 
 TEST_CASE("without a limit the budget is less than the device has", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     CHECK(device.budget() > 0);
     CHECK(device.budget() < device.info().memory);
     CHECK(device.max_buffer() <= device.budget());
 }
 
 TEST_CASE("a program that does not compile shows the compiler's words and the kernel's file", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     const std::string source = assemble_program({"shared/base.h"}) + "#line 7 \"kernels/broken.cl\"\n__kernel void f() { not_declared = 1; }\n";
     const std::string text = failure(Status::device_fault, [&] { Program(device, source, {"SOME=1"}); });
     INFO(text);
@@ -240,7 +241,7 @@ TEST_CASE("a program that does not compile shows the compiler's words and the ke
 }
 
 TEST_CASE("a define reaches the kernel, and so does the precision", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, "__kernel void f(__global uint* out) { out[0] = COUNT; out[1] = sizeof(CSGRT_REAL); }", {"COUNT=42"});
     Buffer out(device, "out", 2 * sizeof(cl_uint));
     program.kernel("f").launch(1, 1, out);
@@ -248,7 +249,7 @@ TEST_CASE("a define reaches the kernel, and so does the precision", "[device]") 
 }
 
 TEST_CASE("a kernel that is not there, or is called wrongly, is named", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     Program program(device, scale_source);
     const std::string missing = failure(Status::device_fault, [&] { program.kernel("weave"); });
     CHECK(has(missing, "clCreateKernel (weave)"));
@@ -280,7 +281,7 @@ TEST_CASE("an error of OpenCL has its name, and memory errors their status", "[d
 }
 
 TEST_CASE("pinned memory is memory that transfers reach", "[device]") {
-    Device device;
+    Device device(test::compiling_device());
     PinnedMemory pinned(device, "pixels", 1000 * sizeof(cl_uint));
     Buffer buffer(device, "pixels", 1000 * sizeof(cl_uint));
     buffer.queue_fill(5, buffer.size());
@@ -318,7 +319,7 @@ TEST_CASE("memory made known to a device keeps what it holds, takes copies by li
 }
 
 TEST_CASE("a home that cannot be written gives a temporary cache and no crash", "[.no_home]") {
-    Device device;
+    Device device(test::compiling_device());
     const char* folder = std::getenv("POCL_CACHE_DIR");
     REQUIRE(folder != nullptr);
     CHECK(std::filesystem::is_directory(folder));
@@ -335,12 +336,12 @@ TEST_CASE("the first devices of a process may be asked for by many threads at on
         threads.emplace_back([&name] {
             try {
                 prepare_devices();
-                name = Device().info().name;
+                name = Device(test::compiling_device()).info().name;
             } catch (const Error& error) {
                 name = error.what();
             }
         });
     for (std::thread& thread : threads) thread.join();
-    const std::string after = Device().info().name;
+    const std::string after = Device(test::compiling_device()).info().name;
     for (const std::string& name : names) CHECK(name == after);
 }

@@ -1,4 +1,5 @@
 // Before a tile whose pixels come by lines: its blocks in order, and the background of those that see nothing.
+#include "device/compiling_device.hpp"
 #include "pipeline/block_list.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 using namespace csgrt;
 
 TEST_CASE("a tile's blocks are listed once each, those that cost most first, the dearest in parts") {
-    Device device(test::on_device().device);
+    Device device(test::compiling_device());
     BlockList list(device);
     list.build();
     std::mt19937 random(3);
@@ -65,7 +66,7 @@ TEST_CASE("a tile's blocks are listed once each, those that cost most first, the
 }
 
 TEST_CASE("blocks that see nothing are background, and the others are left alone") {
-    Device device(test::on_device().device);
+    Device device(test::compiling_device());
     BlockList list(device);
     list.build();
     kernel::Frame frame{};

@@ -13,9 +13,8 @@
 using namespace csgrt;
 
 TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
-    const std::vector<FoundDevice> found = find_devices();
-    const std::vector<std::size_t> chosen = choose_devices(infos_of(found), "cpu");
-    Device device(found[chosen.front()], 0);
+    const std::vector<FoundDevice> found = find_devices().devices;
+    Device device(found[choose_device(infos_of(found), "cpu", Kernels::compiled_by_device)]);
     if (test::sanitized) return;  // it is PoCL that works here: three programs of all types of solids for each precision
     if (device.info().platform != "Portable Computing Language" || !device.info().driver.starts_with("3.")) {
         WARN("the processor's driver is not PoCL 3: nothing seen");
@@ -56,8 +55,8 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
 }
 
 TEST_CASE("a source with a function that builtins.h lacks is built with the driver's declarations") {
-    const std::vector<FoundDevice> found = find_devices();
-    Device device(found[choose_devices(infos_of(found), "cpu").front()], 0);
+    const std::vector<FoundDevice> found = find_devices().devices;
+    Device device(found[choose_device(infos_of(found), "cpu", Kernels::compiled_by_device)]);
     const Program program(device, "__kernel void turn(__global float* x) { x[0] = cos(x[0]); }");
     CHECK_FALSE(program.has_own_declarations());
     CHECK(program.build_log() == "");

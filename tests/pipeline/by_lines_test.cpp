@@ -1,4 +1,5 @@
 // The way in which pixels come from a GPU, on any device: it makes the same picture as from a processor.
+#include "device/compiling_device.hpp"
 #include "pipeline/pipeline.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     const std::uint64_t room = GENERATE(std::uint64_t{0}, std::uint64_t{800'000}, std::uint64_t{5'000});  // beside the scene's
     const std::size_t known_planes = GENERATE(std::size_t{0}, std::size_t{3}, std::size_t{99});  // of the picture's, to the device
     INFO("every partition: " << every_partition << ", room " << room << ", known: " << known_planes);
-    const Settings settings = test::on_device();
+    const Settings settings = test::on_compiling_device();
     Renderer renderer(scene, {}, settings);
     const CompiledScene compiled = compile(scene, {});
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
@@ -178,7 +179,7 @@ struct Lined {
 
     std::uint32_t channels = channel::all;
     double azimuth = 35;
-    Settings settings = test::on_device();
+    Settings settings = test::on_compiling_device();
     Renderer renderer;
     CompiledScene compiled;
     std::unique_ptr<HostKernels> kernels;

@@ -1,4 +1,5 @@
 // What blocks of a picture may see: found by one work-item a block, as on processors, and by several, as on GPUs.
+#include "device/compiling_device.hpp"
 #include "pipeline/cull.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ struct Culled {
 };
 
 Culled cull(const CompiledScene& compiled, const PreparedFrame& prepared, bool together) {
-    const Settings settings = test::on_device();
+    const Settings settings = test::on_compiling_device();
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
     Device device(settings.device);
     const SceneBuffers scene(device, compiled, kernels->tables());

@@ -9,6 +9,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "catch.hpp"
+#include "device/compiling_device.hpp"
 
 namespace csgrt::test {
 
@@ -73,6 +74,13 @@ inline std::vector<Ray> random_rays(const Box& box, int count) {
 inline Settings on_device() {
     Settings settings;
     if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
+    return settings;
+}
+
+/// The same for what needs a device with a compiler (compiling_device.hpp).
+inline Settings on_compiling_device() {
+    Settings settings;
+    settings.device = compiling_device();
     return settings;
 }
 
