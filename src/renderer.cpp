@@ -243,7 +243,8 @@ void Renderer::Impl::set_up_devices() {
             return;
         } catch (const Error& error) {
             if (!can_do_without || error.status() == Status::out_of_memory) throw;
-            notes.push_back(error.what());
+            const std::string what = error.what();
+            notes.push_back(what.substr(0, what.find('\n')));
         }
     }
     std::string why = "no device draws but the CPU reference, which is slow: csgrt has no kernels of its own for this processor";

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "arguments.hpp"
+#include "held_renderer.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -75,5 +76,5 @@ Status run(const TextArguments& arguments) {
 int main(int argc, char** argv) {
     csgrt::cli::hold_standard_files();
     csgrt::cli::catch_interrupts();
-    return csgrt::cli::main_status({argv + (argc > 0), argv + argc});
+    return csgrt::cli::end_process(csgrt::cli::main_status({argv + (argc > 0), argv + argc}));
 }

@@ -44,17 +44,18 @@ std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
 }
 
 /// What the machine is taken for in tests.
+struct Pretence {
+    std::string platform;
+    bool are_broken = false;
+};
 std::mutex pretence_mutex;
-std::string pretended_platform;
+Pretence pretence;
 
-bool is_pretended(const std::string& platform) {
+Pretence pretended() {
     const std::lock_guard lock(pretence_mutex);
-    return !pretended_platform.empty() && platform == pretended_platform;
+    return pretence;
 }
-bool is_any_pretended() {
-    const std::lock_guard lock(pretence_mutex);
-    return !pretended_platform.empty();
-}
+bool is_pretended(const std::string& platform) { return !platform.empty() && platform == pretended().platform; }
 
 DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) {
     DeviceInfo info;
@@ -80,7 +81,9 @@ std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
     check(cl.GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "clGetDeviceIDs");
     std::vector<FoundDevice> devices;
     for (const cl_device_id id : ids) {
-        if (device_value<cl_bool>(cl, id, CL_DEVICE_AVAILABLE)) devices.push_back({&cl, id, describe(cl, platform, id)});
+        if (!device_value<cl_bool>(cl, id, CL_DEVICE_AVAILABLE)) continue;
+        devices.push_back({&cl, id, describe(cl, platform, id)});
+        if (is_pretended(devices.back().info.platform) && pretended().are_broken) devices.back().id = nullptr;
     }
     return devices;
 }
@@ -155,7 +158,7 @@ Discovery find_devices() {
 }
 
 bool may_have_gpu(const std::string& folder) {
-    if (is_any_pretended()) return true;
+    if (!pretended().platform.empty()) return true;
 #ifdef __linux__
     const std::filesystem::path root = folder;
     // NVIDIA's driver, AMD's, WSL's, Arm's and Qualcomm's; all others draw through the kernel's render nodes.
@@ -170,14 +173,14 @@ bool may_have_gpu(const std::string& folder) {
 #endif
 }
 
-PretendedGpu::PretendedGpu(std::string platform) {
+PretendedGpu::PretendedGpu(std::string platform, bool are_broken) {
     const std::lock_guard lock(pretence_mutex);
-    pretended_platform = std::move(platform);
+    pretence = {std::move(platform), are_broken};
 }
 
 PretendedGpu::~PretendedGpu() {
     const std::lock_guard lock(pretence_mutex);
-    pretended_platform.clear();
+    pretence = {};
 }
 
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }

@@ -36,10 +36,11 @@ bool may_have_gpu(const std::string& folder = "/dev");
 /// process, and may write to the environment. find_devices() calls it; a thread must not be the first to.
 void ensure_cache_folder_once();
 
-/// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs. One at a time.
+/// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs, of which none can be used if
+/// they are broken. One at a time.
 class PretendedGpu {
 public:
-    explicit PretendedGpu(std::string platform);
+    explicit PretendedGpu(std::string platform, bool are_broken = false);
     ~PretendedGpu();
     PretendedGpu(const PretendedGpu&) = delete;
     PretendedGpu& operator=(const PretendedGpu&) = delete;
