@@ -24,6 +24,7 @@ DeviceTakeover::~DeviceTakeover() {
 /// The job: from devices that are to be found on, or to more kernels of those that there are. First hits of a few rays go the exact
 /// way, whose kernels no frame waits for either.
 DeviceTakeover::Made DeviceTakeover::work(Made made) {
+    if (is_left_) return made;  // without a thread this is run by who waits for it
     if (!made.pipelines) {
         const std::vector<FoundDevice> devices = plan_.find_next();
         if (devices.empty() || is_left_) return {};

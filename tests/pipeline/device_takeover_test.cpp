@@ -14,6 +14,7 @@
 #include "catch.hpp"
 #include "cli/held_renderer.hpp"
 #include "pipeline/same_answers.hpp"
+#include "reference/reference_kernels.hpp"
 
 using namespace csgrt;
 using namespace std::chrono_literals;
@@ -46,23 +47,24 @@ View view_from(double azimuth, bool every_partition) {
 }
 
 /// What a takeover needs of a Renderer.
-struct Parts {
+struct Model {
     Scene scene = bench::scene_of_parts(20);
     CompiledScene compiled = compile(scene, {});
     Settings settings;
-    std::unique_ptr<HostKernels> kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    std::unique_ptr<ReferenceKernels> kernels = make_kernels(compiled, settings.precision, settings.quartic);
 
     DevicePlan plan(std::function<std::vector<FoundDevice>()> find_next, bool is_default = true) const {
-        DevicePlan plan;
-        plan.first = {find_native_devices().at(0)};
-        plan.find_next = std::move(find_next);
-        plan.next = "gpu";
-        plan.is_default = is_default;
-        return plan;
+        DevicePlan made;
+        made.first = {find_native_devices().at(0)};
+        made.find_next = std::move(find_next);
+        made.next = "gpu";
+        made.is_default = is_default;
+        return made;
     }
     DeviceTakeover::SetUp set_up() const {
         return [this](const std::vector<FoundDevice>& devices) {
-            return std::make_unique<Pipelines>(devices, compiled, *kernels, settings, Readback::lines);
+            const Readback readback = is_native(devices.at(0).info) ? Readback::by_device : Readback::lines;
+            return std::make_unique<Pipelines>(devices, compiled, *kernels, settings, readback);
         };
     }
 };
@@ -102,7 +104,7 @@ TEST_CASE("frames before, while and after a GPU takes over have the same bits") 
             REQUIRE((device == native_name || device == gpu_name));
             CHECK((device == native_name || natively == frame - by_gpu));  // it does not go back
             ++(device == gpu_name ? by_gpu : natively);
-            if (device == native_name) std::this_thread::sleep_for(1ms);
+            if (device == native_name) std::this_thread::sleep_for(20ms);  // which the compiler needs more
         }
         CHECK(natively > 0);
         REQUIRE(by_gpu == 4);
@@ -170,8 +172,8 @@ TEST_CASE("a GPU that fails is a warning, and an error of who named it") {
 
 TEST_CASE("the first devices draw what the next have no kernels for yet") {
     if (!can_take_over()) return;
-    const Parts parts;
-    DeviceTakeover takeover(parts.plan(pocl_devices), parts.set_up(), false);
+    const Model model;
+    DeviceTakeover takeover(model.plan(pocl_devices), model.set_up(), false);
     const std::uint64_t first = takeover.present().number();
     wait_for_job(takeover);  // found and set up, while no call wanted kernels
     CHECK(takeover.drawer(true).number() == first);
@@ -187,13 +189,13 @@ TEST_CASE("the first devices draw what the next have no kernels for yet") {
 
 TEST_CASE("where no device is found the first ones go on, and nothing was wrong") {
     if (!can_take_over()) return;
-    const Parts parts;
+    const Model model;
     for (const bool waits : {false, true}) {
         std::atomic<int> searches{0};
-        DeviceTakeover takeover(parts.plan([&] {
+        DeviceTakeover takeover(model.plan([&] {
             ++searches;
             return std::vector<FoundDevice>{};
-        }), parts.set_up(), waits);
+        }), model.set_up(), waits);
         wait_for_job(takeover);
         for (const bool every : {true, false, true}) CHECK(takeover.drawer(every).name().starts_with("native"));
         CHECK(!takeover.take_fault());
@@ -203,16 +205,16 @@ TEST_CASE("where no device is found the first ones go on, and nothing was wrong"
 
 TEST_CASE("a fault of drivers is told once, or thrown at every call") {
     if (!can_take_over()) return;
-    const Parts parts;
+    const Model model;
     const auto fail = []() -> std::vector<FoundDevice> { throw Error(Status::device_fault, "the driver is broken\nin many words"); };
-    DeviceTakeover by_default(parts.plan(fail), parts.set_up(), false);
+    DeviceTakeover by_default(model.plan(fail), model.set_up(), false);
     wait_for_job(by_default);
     CHECK(by_default.drawer(true).name().starts_with("native"));
     CHECK(by_default.take_fault() == "the GPU cannot be used, the processor draws: the driver is broken");
     CHECK(!by_default.take_fault());
     CHECK(by_default.drawer(false).name().starts_with("native"));
 
-    DeviceTakeover by_name(parts.plan(fail, false), parts.set_up(), false);
+    DeviceTakeover by_name(model.plan(fail, false), model.set_up(), false);
     wait_for_job(by_name);
     for (const bool every : {true, false}) CHECK_THROWS_WITH(by_name.drawer(every), Catch::Matchers::StartsWith("the driver is broken"));
     CHECK(!by_name.take_fault());
@@ -220,18 +222,18 @@ TEST_CASE("a fault of drivers is told once, or thrown at every call") {
 
 TEST_CASE("a takeover goes when its job has ended, which begins nothing more") {
     if (!can_take_over()) return;
-    const Parts parts;
+    const Model model;
     std::promise<void> found;
     std::atomic<bool> is_gone{false};
     std::atomic<int> set_ups{0};
     auto takeover = std::make_unique<DeviceTakeover>(
-        parts.plan([wait = found.get_future().share()] {
+        model.plan([wait = found.get_future().share()] {
             wait.wait();
             return pocl_devices();
         }),
         [&](const std::vector<FoundDevice>& devices) {
             ++set_ups;
-            return parts.set_up()(devices);
+            return model.set_up()(devices);
         },
         false);
     CHECK(takeover->drawer(true).name().starts_with("native"));
