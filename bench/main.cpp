@@ -172,7 +172,11 @@ bool wanted(const Workload& workload, const Options& options) {
 /// By workload, so that a scene is generated or read but once.
 std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
     std::vector<Figures> all;
-    prepare_devices();  // as the command does, and viewers should
+    for (const std::string& device : options.devices) {  // as the command does, and viewers should
+        Settings settings;
+        settings.device = device;
+        prepare_devices(settings);
+    }
     for (const Workload& workload : workloads()) {
         if (!wanted(workload, options)) continue;
         const bool ours = workload.file.ends_with(".json");
@@ -191,6 +195,7 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
                 if (!(every_partition ? options.every_partition : options.first_hits)) continue;
                 Settings settings;
                 settings.device = device;
+                settings.wait_for_device = true;
                 Renderer renderer(scene, workload.objects, settings);
                 all.push_back(measure(workload, renderer, every_partition, options));
                 all.back().ms.emplace(all.back().ms.begin(), "load", load);

@@ -1,7 +1,6 @@
 #include <csgrt/renderer.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <future>
@@ -13,9 +12,10 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
+#include "device/choice.hpp"
 #include "kernel_geometry.hpp"
 #include "parallel.hpp"
-#include "pipeline/pipelines.hpp"
+#include "pipeline/device_takeover.hpp"
 #include "reference/reference.hpp"
 #include "scene/range.hpp"
 
@@ -134,13 +134,17 @@ struct Renderer::Impl {
     CompiledScene scene;
     std::string title;
     std::unique_ptr<ReferenceKernels> kernels;
-    std::unique_ptr<Pipelines> pipelines;
     std::optional<Reference> reference;
+    std::optional<DeviceTakeover> takeover;  // if no reference
+    std::vector<Warning> warnings;  // the scene's, and then those of devices, which are not of the picture
     Statistics statistics;
-    double build_ms = 0;  // of the device, without its kernels
-    double built_before = 0;  // ms.build when the call began
-    const std::uint64_t number = next_number++;  // no two have the same
-    static inline std::atomic<std::uint64_t> next_number{1};
+    double search_ms = 0;  // for devices, before there were any
+    double built_in_call_ms = 0;
+
+    void set_up_devices();
+    void use_reference();
+    Pipelines& drawer(bool every_partition);
+    void draw(const PreparedFrame& prepared, Pipelines& pipelines, const std::vector<ChannelPlane>& planes, Framebuffer& framebuffer);
 
     void start_call(std::uint64_t rays, int width, int height) {
         Statistics fresh;
@@ -151,17 +155,17 @@ struct Renderer::Impl {
         fresh.tolerance = statistics.tolerance;
         fresh.contraction = statistics.contraction;
         fresh.ms.compile = statistics.ms.compile;
-        fresh.ms.build = built_before = statistics.ms.build;
+        fresh.ms.build = statistics.ms.build;
+        built_in_call_ms = 0;
         fresh.rays = rays;
         fresh.width = width;
         fresh.height = height;
         statistics = fresh;
     }
-    /// What compiling kernels took of the call is `build`'s.
-    void end_call(Clock::time_point start) {
-        statistics.ms.frame = milliseconds_since(start) - (statistics.ms.build - built_before);
-    }
-    void take(const PipelineCounts& c) {
+    /// What waiting for kernels took of the call is `build`'s.
+    void end_call(Clock::time_point start) { statistics.ms.frame = milliseconds_since(start) - built_in_call_ms; }
+    /// `built_ms`: what the devices had built when they began with the call.
+    void take(const PipelineCounts& c, const Pipelines& pipelines, double built_ms) {
         statistics.hits = c.hits;
         statistics.segments = c.segments;
         statistics.partitions_used = c.partitions_used;
@@ -170,7 +174,7 @@ struct Renderer::Impl {
         statistics.segment_bytes = c.segment_bytes;
         statistics.partition_bytes = c.partition_bytes;
         statistics.tiles = c.tiles;
-        statistics.device_bytes = pipelines->device_bytes();
+        statistics.device_bytes = pipelines.device_bytes();
         statistics.ms.count_hits = c.count_hits;
         statistics.ms.scan = c.scan;
         statistics.ms.store_segments = c.store_segments;
@@ -179,7 +183,8 @@ struct Renderer::Impl {
         statistics.ms.shade = c.shade;
         statistics.ms.cull_blocks = c.cull_blocks;
         statistics.ms.first_hits = c.first_hits;
-        statistics.ms.build = build_ms + pipelines->build_ms();
+        statistics.ms.build = search_ms + pipelines.build_ms();
+        built_in_call_ms += pipelines.build_ms() - built_ms;
     }
     void take(const ReferenceCounts& c) {
         statistics.hits = c.hits;
@@ -199,29 +204,63 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     Impl& impl = *impl_;
     impl.settings = settings;
     impl.title = scene.title;
-    if (!settings.reference) prepare_devices();
-    auto start = Clock::now();
+    prepare_devices(settings);
+    const auto start = Clock::now();
     impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
     impl.statistics.ms.compile = milliseconds_since(start);
-    const auto make = settings.reference ? make_kernels_to_run : make_kernels;
-    impl.kernels = make(impl.scene, settings.precision, settings.quartic);
+    impl.warnings = impl.scene.warnings;
     impl.statistics.precision = name_of(precision_names, settings.precision);
     if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
     impl.statistics.contraction = settings.contraction;
     impl.statistics.quartic = name_of(quartic_names, settings.quartic);
     impl.statistics.tolerance = tolerance_of(impl.scene, settings);
-    if (settings.reference) {
-        impl.statistics.device = "reference";
-        impl.statistics.method = "every solid near the ray, unique lists";
-        impl.reference.emplace(impl.scene, *impl.kernels, settings.threads);
-        return;
+    settings.reference ? impl.use_reference() : impl.set_up_devices();
+}
+
+void Renderer::Impl::use_reference() {
+    kernels = make_kernels_to_run(scene, settings.precision, settings.quartic);
+    statistics.device = "reference";
+    statistics.method = "every solid near the ray, unique lists";
+    reference.emplace(scene, *kernels, settings.threads);
+}
+
+void Renderer::Impl::set_up_devices() {
+    const auto start = Clock::now();
+    DevicePlan plan = plan_devices(settings);
+    search_ms = milliseconds_since(start);
+    kernels = make_kernels(scene, settings.precision, settings.quartic);
+    const auto set_up = [this](const std::vector<FoundDevice>& devices) {
+        return std::make_unique<Pipelines>(devices, scene, *kernels, settings);
+    };
+    std::vector<std::string> notes = plan.notes;
+    if (!plan.first.empty()) {
+        const bool can_do_without = plan.is_default && kernels_for(settings) == Kernels::any;
+        try {
+            takeover.emplace(std::move(plan), set_up, settings.wait_for_device);
+            statistics.device = takeover->present().name();
+            statistics.method = exact_method;
+            statistics.ms.build = search_ms + takeover->present().build_ms();
+            return;
+        } catch (const Error& error) {
+            if (!can_do_without || error.status() == Status::out_of_memory) throw;
+            const std::string what = error.what();
+            notes.push_back(what.substr(0, what.find('\n')));
+        }
     }
-    start = Clock::now();
-    impl.pipelines = std::make_unique<Pipelines>(impl.scene, *impl.kernels, settings);
-    impl.build_ms = milliseconds_since(start);
-    impl.statistics.ms.build = impl.build_ms;
-    impl.statistics.device = impl.pipelines->name();
-    impl.statistics.method = exact_method;
+    std::string why = "no device draws but the CPU reference, which is slow: csgrt has no kernels of its own for this processor";
+    for (const std::string& note : notes) why += "; " + note;
+    warnings.push_back({.object = {}, .place = {}, .reason = why});
+    use_reference();
+}
+
+/// Who draws the next frame, or shoots the next rays.
+Pipelines& Renderer::Impl::drawer(bool every_partition) {
+    const auto start = Clock::now();
+    Pipelines& pipelines = takeover->drawer(every_partition);
+    built_in_call_ms += milliseconds_since(start);
+    if (auto fault = takeover->take_fault()) warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
+    statistics.device = pipelines.name();
+    return pipelines;
 }
 
 Renderer::~Renderer() = default;
@@ -232,6 +271,27 @@ Image Renderer::render(const View& view) {
     Framebuffer framebuffer;
     render(view, framebuffer);
     return framebuffer.take();
+}
+
+void Renderer::Impl::draw(const PreparedFrame& prepared, Pipelines& pipelines, const std::vector<ChannelPlane>& planes,
+                          Framebuffer& framebuffer) {
+    const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
+    if (std::exchange(framebuffer.drawn_by_, pipelines.number()) != pipelines.number())
+        framebuffer.known_ = nullptr;
+    else if (!framebuffer.known_)
+        framebuffer.known_ = pipelines.make_known(planes, pixels);
+    else
+        pipelines.keep_small(*framebuffer.known_);
+    const double built_ms = pipelines.build_ms();
+    PipelineCounts counts;
+    try {
+        pipelines.render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()}, settings.progress,
+                         counts);
+    } catch (...) {  // pixels may be missing that were said to be there
+        std::fill(framebuffer.drawn_.begin(), framebuffer.drawn_.end(), std::uint8_t{1});
+        throw;
+    }
+    take(counts, pipelines, built_ms);
 }
 
 void Renderer::render(const View& view, Framebuffer& framebuffer) {
@@ -251,11 +311,13 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         background.push_back(source->value(background_pixel));
     }
     const auto fit = [&] { framebuffer.fit(view.width, view.height, std::move(names), std::move(background)); };
-    if (impl.pipelines && framebuffer.drawn_.empty()) {
+    Pipelines* pipelines = nullptr;
+    if (!impl.reference && framebuffer.drawn_.empty()) {
         std::future<void> fitting = std::async(fit);
-        impl.pipelines->prepare(view.every_partition);  // the compiler leaves most processors idle
+        pipelines = &impl.drawer(view.every_partition);  // the compiler leaves most processors idle
         fitting.get();
     } else {
+        if (!impl.reference) pipelines = &impl.drawer(view.every_partition);
         fit();
     }
     Image& image = framebuffer.image_;
@@ -274,21 +336,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         });
         impl.take(counts);
     } else {
-        PipelineCounts counts;
-        if (std::exchange(framebuffer.drawn_by_, impl.number) != impl.number)
-            framebuffer.known_ = nullptr;
-        else if (!framebuffer.known_)
-            framebuffer.known_ = impl.pipelines->make_known(planes, pixels);
-        else
-            impl.pipelines->keep_small(*framebuffer.known_);
-        try {
-            impl.pipelines->render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
-                                   impl.settings.progress, counts);
-        } catch (...) {  // pixels may be missing that were said to be there
-            std::fill(framebuffer.drawn_.begin(), framebuffer.drawn_.end(), std::uint8_t{1});
-            throw;
-        }
-        impl.take(counts);
+        impl.draw(prepared, *pipelines, planes, framebuffer);
     }
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();
@@ -330,9 +378,11 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
         answers = impl.reference->shoot(prepared, shot, impl.settings.progress, counts);
         impl.take(counts);
     } else {
+        Pipelines& pipelines = impl.drawer(true);
+        const double built_ms = pipelines.build_ms();
         PipelineCounts counts;
-        answers = impl.pipelines->shoot(prepared, shot, impl.settings.progress, counts);
-        impl.take(counts);
+        answers = pipelines.shoot(prepared, shot, impl.settings.progress, counts);
+        impl.take(counts, pipelines, built_ms);
     }
     for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
         if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
@@ -353,7 +403,11 @@ std::vector<Ray> Renderer::rays_of(const View& view) const {
 const Box& Renderer::bounds() const { return impl_->scene.bounds; }
 const std::vector<RegionInfo>& Renderer::regions() const { return impl_->scene.region_info; }
 const std::vector<SolidInfo>& Renderer::solids() const { return impl_->scene.solid_info; }
-const Statistics& Renderer::statistics() const { return impl_->statistics; }
-const std::vector<Warning>& Renderer::warnings() const { return impl_->scene.warnings; }
+const std::vector<Warning>& Renderer::warnings() const { return impl_->warnings; }
+
+const Statistics& Renderer::statistics() const {
+    if (impl_->takeover) impl_->statistics.awaited_device = impl_->takeover->awaited();
+    return impl_->statistics;
+}
 
 }  // namespace csgrt

@@ -63,6 +63,7 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
         Settings settings;
         settings.reference = options.device == "reference";
         if (!settings.reference) settings.device = options.device;
+        settings.wait_for_device = true;
         settings.precision = options.precision;
         settings.threads = 1;
         settings.skip_unsupported = true;

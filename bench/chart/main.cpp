@@ -56,6 +56,7 @@ public:
         row_.family = workload.family;
         settings_ = variant.settings;
         settings_.device = options.device;
+        settings_.wait_for_device = true;
         settings_.reference = settings_.reference || (!workload.timed() && variant.on_reference());
         const std::size_t all = workload.tasks.size();
         const bool few = !workload.timed() && !settings_.reference;
@@ -214,6 +215,7 @@ DeviceInfo device_of(const Options& options) {
     Scene scene;
     Settings settings;
     settings.device = options.device;
+    settings.wait_for_device = true;
     scene = load_scene(options.sample.scenes + "/operators.json");
     const std::string name = Renderer(scene, {}, settings).statistics().device;
     for (const DeviceInfo& info : devices())

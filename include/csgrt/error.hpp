@@ -19,7 +19,7 @@ enum class Status : int {
     ok = 0,
     usage = 2,          ///< the command line or an argument of the library makes no sense
     scene = 3,          ///< the scene is wrong
-    no_device = 4,      ///< no OpenCL device fits
+    no_device = 4,      ///< no device fits
     out_of_memory = 5,  ///< host or device memory, or the budget, does not suffice
     file = 6,           ///< a file cannot be read or written
     device_fault = 7,   ///< the device failed, or took too long

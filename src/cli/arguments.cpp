@@ -44,10 +44,10 @@ void define_scene(Options& options, SceneArguments& arguments) {
 Option& define_settings(Options& options, Settings& settings) {
     auto& device =
         options.text("--device", "NAME|cpu|gpu|N|gpus",
-                     "OpenCL device: part of its name, its type, or its number in 'csgrt devices'; several, with commas, or all "
-                     "'gpus' share the work", settings.device);
+                     "device: part of its name, its type, or its number in 'csgrt devices'; several, with commas, or all "
+                     "'gpus' share the work; not given: a GPU if there is one, else this processor", settings.device);
     device.excludes = "--reference";
-    options.flag("--reference", "compute with the CPU reference in place of an OpenCL device", settings.reference);
+    options.flag("--reference", "compute with the CPU reference in place of a device", settings.reference);
     auto& threads =
         options.count("--threads", "threads of the reference; all cores if not given", settings.threads, 1, 4096);
     options.value("--max-memory", "SIZE",
@@ -84,6 +84,10 @@ void define_either(Options& options, Settings& settings) {
         "--contraction", "whether the device may round a product and a sum as one; results then differ; off if not given",
         settings.contraction, on_off);
     contraction.excludes = "--reference";
+    auto& wait = options.flag("--wait-for-device",
+                              "wait until a GPU has compiled its kernels; not given, the processor draws until then, with the same bits",
+                              settings.wait_for_device);
+    wait.excludes = "--reference";
 }
 
 void define(Options& options, RenderArguments& arguments) {
@@ -138,7 +142,7 @@ void define(Options& options, RenderArguments& arguments) {
     define_either(options, arguments.settings);
     options.text("--stats", "FILE",
                  "write the figures of the frame as JSON, times in milliseconds; - is standard output", arguments.stats);
-    options.count("--repeat", "render N frames; the figures are medians without the first", arguments.repeat, 1,
+    options.count("--repeat", "render N frames; the figures are medians without the first (of a GPU: with --wait-for-device)", arguments.repeat, 1,
                   1'000'000);
 }
 
@@ -268,7 +272,9 @@ something does.
 )";
 
 constexpr const char* devices_notes = R"(
-A line begins with the number that --device takes. Memory is in GiB (2^30 bytes).
+A line begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices have
+the kernels of the default method alone, compiled ahead; others compile theirs when they are first
+wanted. A note tells of a driver that cannot be used.
 )";
 
 constexpr const char* info_notes = R"(
@@ -324,7 +330,7 @@ constexpr Entry entries[] = {
     entry<VerifyArguments>("verify", "SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones", verify_notes),
     entry<CompareArguments>("compare", "A B", "compare two pictures, or two files of partitions",
                             compare_notes),
-    entry<DevicesArguments>("devices", "", "list the OpenCL devices", devices_notes),
+    entry<DevicesArguments>("devices", "", "list the devices", devices_notes),
     entry<InfoArguments>("info", "SCENE [OBJECT...]", "what a scene holds", info_notes),
     entry<ConvertArguments>("convert", "IN OUT.json", "rewrite a scene as JSON", convert_notes),
 };

@@ -59,10 +59,14 @@ void ensure_cache_folder() {
     temporary_folder() = made;
     setenv("POCL_CACHE_DIR", made.c_str(), 1);
     // Registered before the driver is loaded, so it runs after whatever the driver does at exit.
-    std::atexit([] {
+    constexpr auto remove = [] {
         std::error_code ignored;
         fs::remove_all(temporary_folder(), ignored);
-    });
+    };
+    std::atexit(remove);
+#ifndef __APPLE__
+    std::at_quick_exit(remove);
+#endif
 }
 
 }  // namespace csgrt::cli

@@ -14,6 +14,7 @@
 
 #include "arguments.hpp"
 #include "cache_folder.hpp"
+#include "held_renderer.hpp"
 #include "interrupt.hpp"
 #ifdef CSGRT_HAVE_IMAGE
 #include "late_image.hpp"
@@ -96,5 +97,5 @@ Status run(const TextArguments& arguments) {
 int main(int argc, char** argv) {
     csgrt::cli::hold_standard_files();
     csgrt::cli::catch_interrupts();
-    return csgrt::cli::main_status({argv + (argc > 0), argv + argc});
+    return csgrt::cli::end_process(csgrt::cli::main_status({argv + (argc > 0), argv + argc}));
 }

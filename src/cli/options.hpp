@@ -31,7 +31,7 @@ struct Option {
 /// The options of one command. Targets must outlive it.
 class Options {
 public:
-    void flag(std::string name, std::string help, bool& target);
+    Option& flag(std::string name, std::string help, bool& target);
 
     /// `read` turns text into an optional that is empty for a wrong value.
     template <class Target, class Parse>

@@ -10,6 +10,7 @@
 
 #include "clock.hpp"
 #include "commands.hpp"
+#include "held_renderer.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "partition_text.hpp"
@@ -172,20 +173,22 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     Framebuffer framebuffer;
     Progress progress;
     progress.stage("compiling");
-    Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
-    report(renderer.warnings());
+    HeldRenderer renderer(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
+    report(renderer->warnings());
+    const std::size_t reported = renderer->warnings().size();
     check_interrupt();
 
     progress.stage("rendering");
     std::vector<Statistics> frames;
     for (int frame = 0; frame < arguments.repeat; ++frame) {
         progress.range(double(frame) / arguments.repeat, double(frame + 1) / arguments.repeat);
-        renderer.render(view, framebuffer);
-        frames.push_back(renderer.statistics());
+        renderer->render(view, framebuffer);
+        frames.push_back(renderer->statistics());
         check_interrupt();
     }
     image = framebuffer.take();
-    renderer.name_pixels(image);
+    renderer->name_pixels(image);
+    report({renderer->warnings().begin() + static_cast<std::ptrdiff_t>(reported), renderer->warnings().end()});
     return median_of(frames);
 }
 
@@ -194,7 +197,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
 Status run(const RenderArguments& arguments) {
     check(arguments);
     auto begin = Clock::now();
-    if (!arguments.settings.reference) prepare_devices();
+    prepare_devices(arguments.settings);
     Scene scene = load_with_progress(arguments.scene, arguments.strict);
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include "commands.hpp"
+#include "held_renderer.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "partition_text.hpp"
@@ -35,13 +36,15 @@ Status run(const ShootArguments& arguments) {
     check_outputs({{"--output", arguments.output}}, {{"SCENE", arguments.scene}, {"--rays", arguments.rays}});
     Progress progress(arguments.output != "-" || isatty(STDOUT_FILENO) != 1);
     progress.stage("loading");
-    if (!arguments.settings.reference) prepare_devices();
+    prepare_devices(arguments.settings);
     Scene scene = load(arguments.scene, arguments.strict);
     progress.stage("reading rays");
     RayReader reader(arguments.rays);
     progress.stage("compiling");
-    Renderer renderer(scene, arguments.objects, with_progress(arguments.settings, progress));
+    HeldRenderer held(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
+    Renderer& renderer = *held;
     report(renderer.warnings(), false);
+    const std::size_t reported = renderer.warnings().size();
     check_interrupt();
 
     OutputFile out(arguments.output);
@@ -60,6 +63,7 @@ Status run(const ShootArguments& arguments) {
         check_interrupt();
     }
     out.commit();
+    report({renderer.warnings().begin() + static_cast<std::ptrdiff_t>(reported), renderer.warnings().end()}, false);
     return Status::ok;
 }
 

@@ -25,7 +25,7 @@ Status run(const VerifyArguments& arguments) {
     {
         Progress progress;
         progress.stage("loading");
-        if (!arguments.settings.reference) prepare_devices();
+        prepare_devices(arguments.settings);
         Scene scene = load(arguments.scene, arguments.strict);
         std::optional<RayReader> reader;
         if (!arguments.rays.empty()) {

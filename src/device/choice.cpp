@@ -9,12 +9,12 @@
 
 namespace csgrt {
 
-namespace {
-
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
+
+namespace {
 
 /// What --device may have meant: a type, a device's or a platform's name, or a word of one.
 std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
@@ -32,7 +32,8 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
     return did_you_mean(wanted, {known.begin(), known.end()});
 }
 
-[[noreturn]] void refuse(const std::vector<DeviceInfo>& devices, const std::string& why, const std::string& wanted = {}) {
+[[noreturn]] void refuse(const std::vector<DeviceInfo>& devices, const std::string& why, const std::string& wanted = {},
+                         const std::string& advice = {}) {
     std::string list;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         list += (i ? "\n" : "") + std::to_string(i) + ": " + devices[i].name + " (" + devices[i].type + ", " +
@@ -47,23 +48,35 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
             : "There is:\n" + list;
     if (const std::string near = wanted.empty() ? "" : nearest_device(devices, wanted); !near.empty() && !devices.empty())
         finding.suggestion = near + "\n" + finding.suggestion;
+    if (!advice.empty()) finding.suggestion = advice + "\n" + finding.suggestion;
     throw Error(Status::no_device, std::vector<Diagnostic>{finding});
 }
 
+/// Of a method that native devices have no kernels for.
+[[noreturn]] void refuse_native(const std::vector<DeviceInfo>& devices) {
+    refuse(devices, "native devices have the kernels of the default method alone: double precision, bracketed quartics, no contraction",
+           {},
+           "An OpenCL device has those of every method: on Debian and Ubuntu the package pocl-opencl-icd brings one that runs on the "
+           "processor. The CPU reference (--reference) has all but contraction.");
+}
+
 }  // namespace
+
+Kernels kernels_for(const Settings& settings) {
+    const bool is_default = settings.precision == Precision::double_ && settings.quartic == Quartic::bracketed && !settings.contraction;
+    return is_default ? Kernels::any : Kernels::compiled_by_device;
+}
 
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice, Kernels kernels) {
     if (devices.empty()) refuse(devices, "no device was found");
 
     const auto is_too_plain = [kernels](const DeviceInfo& d) { return kernels == Kernels::compiled_by_device && is_native(d); };
-    constexpr const char* too_plain =
-        "the native device has the kernels of the default method alone: double precision, bracketed quartics, no contraction";
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), number);
     if (!choice.empty() && end == choice.data() + choice.size()) {
         if (error != std::errc() || number >= devices.size()) refuse(devices, "no device has the number " + choice);
         if (!devices[number].fp64) refuse(devices, "device " + choice + " has no double precision");
-        if (is_too_plain(devices[number])) refuse(devices, too_plain);
+        if (is_too_plain(devices[number])) refuse_native(devices);
         return number;
     }
 
@@ -88,7 +101,7 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
         }
     }
     if (first < devices.size()) return first;
-    if (plain) refuse(devices, too_plain);
+    if (plain) refuse_native(devices);
     const std::string which = choice.empty() ? "" : by_type ? " of the type " + wanted : " has \"" + choice + "\" in its name";
     refuse(devices, without_fp64 ? "no device" + which + (choice.empty() || by_type ? " has" : " and") + " double precision"
                                  : "no device" + which + (by_type ? " was found" : ""),

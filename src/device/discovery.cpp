@@ -1,7 +1,7 @@
 #include "device/discovery.hpp"
 
 #include <algorithm>
-#include <future>
+#include <filesystem>
 #include <mutex>
 
 #include "device/native/driver.hpp"
@@ -42,6 +42,20 @@ std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
     }, "clGetPlatformInfo");
 }
 
+/// What the machine is taken for in tests.
+struct Pretence {
+    std::string platform;
+    bool are_broken = false;
+};
+std::mutex pretence_mutex;
+Pretence pretence;
+
+Pretence pretended() {
+    const std::lock_guard lock(pretence_mutex);
+    return pretence;
+}
+bool is_pretended(const std::string& platform) { return !platform.empty() && platform == pretended().platform; }
+
 DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) {
     DeviceInfo info;
     info.name = device_text(cl, id, CL_DEVICE_NAME);
@@ -49,7 +63,7 @@ DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) 
     info.version = device_text(cl, id, CL_DEVICE_VERSION);
     info.driver = device_text(cl, id, CL_DRIVER_VERSION);
     const auto type = device_value<cl_device_type>(cl, id, CL_DEVICE_TYPE);
-    info.type = type & CL_DEVICE_TYPE_GPU ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
+    info.type = type & CL_DEVICE_TYPE_GPU || is_pretended(info.platform) ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
     info.memory = device_value<cl_ulong>(cl, id, CL_DEVICE_GLOBAL_MEM_SIZE);
     info.max_allocation = device_value<cl_ulong>(cl, id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     info.compute_units = device_value<cl_uint>(cl, id, CL_DEVICE_MAX_COMPUTE_UNITS);
@@ -66,7 +80,9 @@ std::vector<FoundDevice> devices_of(const OpenCl& cl, cl_platform_id platform) {
     check(cl.GetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "clGetDeviceIDs");
     std::vector<FoundDevice> devices;
     for (const cl_device_id id : ids) {
-        if (device_value<cl_bool>(cl, id, CL_DEVICE_AVAILABLE)) devices.push_back({&cl, id, describe(cl, platform, id)});
+        if (!device_value<cl_bool>(cl, id, CL_DEVICE_AVAILABLE)) continue;
+        devices.push_back({&cl, id, describe(cl, platform, id)});
+        if (is_pretended(devices.back().info.platform) && pretended().are_broken) devices.back().id = nullptr;
     }
     return devices;
 }
@@ -97,15 +113,29 @@ void add_devices(const OpenCl& cl, Discovery& found) {
 
 /// The best native device stands before all other processors; levels of instructions that leave some of this one's unused, last.
 void add_native(Discovery& found) {
-    Discovery native;
-    add_devices(native::functions(), native);
-    if (native.devices.empty()) return;
+    std::vector<FoundDevice> native = find_native_devices();
+    if (native.empty()) return;
     const auto is_cpu = [](const FoundDevice& device) { return device.info.type == "cpu"; };
-    found.devices.insert(std::find_if(found.devices.begin(), found.devices.end(), is_cpu), std::move(native.devices.front()));
-    std::move(native.devices.begin() + 1, native.devices.end(), std::back_inserter(found.devices));
+    found.devices.insert(std::find_if(found.devices.begin(), found.devices.end(), is_cpu), std::move(native.front()));
+    std::move(native.begin() + 1, native.end(), std::back_inserter(found.devices));
 }
 
+#ifdef __linux__
+bool has_render_node(const std::filesystem::path& folder) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (entry->path().filename().string().starts_with("renderD")) return true;
+    return static_cast<bool>(error) && std::filesystem::exists(folder, error);  // there is something that is not shown
+}
+#endif
+
 }  // namespace
+
+std::vector<FoundDevice> find_native_devices() {
+    Discovery native;
+    add_devices(native::functions(), native);
+    return std::move(native.devices);
+}
 
 Discovery find_devices() {
     // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
@@ -120,6 +150,32 @@ Discovery find_devices() {
     return found;
 }
 
+bool may_have_gpu(const std::string& folder) {
+    if (!pretended().platform.empty()) return true;
+#ifdef __linux__
+    const std::filesystem::path root = folder;
+    // NVIDIA's driver, AMD's, WSL's, Arm's and Qualcomm's; all others draw through the kernel's render nodes.
+    for (const char* name : {"nvidiactl", "nvidia0", "kfd", "dxg", "mali0", "kgsl-3d0"}) {
+        std::error_code error;
+        if (std::filesystem::exists(root / name, error)) return true;
+    }
+    return has_render_node(root / "dri");
+#else
+    static_cast<void>(folder);
+    return true;
+#endif
+}
+
+PretendedGpu::PretendedGpu(std::string platform, bool are_broken) {
+    const std::lock_guard lock(pretence_mutex);
+    pretence = {std::move(platform), are_broken};
+}
+
+PretendedGpu::~PretendedGpu() {
+    const std::lock_guard lock(pretence_mutex);
+    pretence = {};
+}
+
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
 
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
@@ -132,17 +188,6 @@ std::vector<DeviceInfo> devices(std::vector<std::string>* notes) {
     Discovery found = find_devices();
     if (notes) *notes = std::move(found.notes);
     return infos_of(found.devices);
-}
-
-void prepare_devices() {
-    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
-    // had, nothing is looked for before.
-    static const std::future<void> looking = std::async([] {
-        try {
-            find_devices();
-        } catch (const std::exception&) {
-        }
-    });
 }
 
 }  // namespace csgrt

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-#include "device/choice.hpp"
+#include "clock.hpp"
 #include "parallel.hpp"
 
 namespace csgrt {
@@ -32,18 +32,17 @@ std::size_t planes_fitting(const Device& device, std::uint64_t own, std::size_t 
 
 }  // namespace
 
-/// Whose kernels compute in such a way.
-static Kernels kernels_for(const Settings& settings) {
-    const bool is_default = settings.precision == Precision::double_ && settings.quartic == Quartic::bracketed && !settings.contraction;
-    return is_default ? Kernels::any : Kernels::compiled_by_device;
-}
+static std::atomic<std::uint64_t> next_number{1};
 
-Pipelines::Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, Readback readback) {
-    const std::vector<FoundDevice> found = find_devices().devices;
-    for (const std::size_t number : choose_devices(infos_of(found), settings.device, kernels_for(settings))) {
-        devices_.push_back(std::make_unique<Device>(found[number], settings.max_memory, settings.threads));
+Pipelines::Pipelines(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
+                     const Settings& settings, Readback readback)
+    : number_(next_number++) {
+    const auto start = Clock::now();
+    for (const FoundDevice& device : devices) {
+        devices_.push_back(std::make_unique<Device>(device, settings.max_memory, settings.threads));
         pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings, readback));
     }
+    setup_ms_ = milliseconds_since(start);
 }
 
 // One device alone takes all rays as tiles of its own, unless it copies the first ones' pixels while it draws others; of every
@@ -204,7 +203,7 @@ std::uint64_t Pipelines::device_bytes() const {
 double Pipelines::build_ms() const {
     double longest = 0;
     for (const auto& pipeline : pipelines_) longest = std::max(longest, pipeline->build_ms());
-    return longest;
+    return setup_ms_ + longest;
 }
 
 }  // namespace csgrt

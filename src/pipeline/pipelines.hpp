@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "device/discovery.hpp"
 #include "pipeline/known_picture.hpp"
 #include "pipeline/pipeline.hpp"
 
@@ -17,9 +18,12 @@ using Progress = std::function<bool(double)>;
 
 class Pipelines {
 public:
-    /// `settings.device` says which. The scene and the kernels must outlive this.
-    Pipelines(const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+    /// On these devices; `settings` do not say which. The scene and the kernels must outlive this.
+    Pipelines(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
               Readback readback = Readback::by_device);
+
+    /// No two in a process have the same, which is not 0.
+    std::uint64_t number() const noexcept { return number_; }
 
     void prepare(bool every_partition);
     /// Makes the memory of a picture that will be drawn into again known to its GPUs: `pixels` floats of as many planes, which follow
@@ -35,7 +39,7 @@ public:
 
     std::string name() const;             ///< "A", or "A + B"
     std::uint64_t device_bytes() const;   ///< in buffers and what drivers hold of known pictures, of all devices
-    double build_ms() const;              ///< of the device that took longest to compile its kernels
+    double build_ms() const;  ///< to set up the devices, and of the one that took longest to compile its kernels
 
 private:
     using Work = std::function<void(Pipeline&, const TakeRays&, const Pipeline::Told&, PipelineCounts&)>;
@@ -51,6 +55,8 @@ private:
         Device* device;
         std::uint64_t bytes;
     };
+    std::uint64_t number_;
+    double setup_ms_ = 0;
     std::vector<Claim> claims_;
     std::vector<std::unique_ptr<Device>> devices_;
     std::vector<std::unique_ptr<Pipeline>> pipelines_;

@@ -149,6 +149,7 @@ Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, 
     Impl& impl = *impl_;
     impl.settings = settings;
     Settings own = settings;
+    own.wait_for_device = true;  // what is verified is the device
     own.progress = [&impl](double fraction) { return impl.report(fraction); };
     if (!settings.reference) {
         impl.device.emplace(scene, objects, own);

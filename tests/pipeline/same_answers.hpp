@@ -73,13 +73,14 @@ inline std::vector<Ray> random_rays(const Box& box, int count) {
 /// The device that CSGRT_DEVICE chooses (as --device does), or the default one.
 inline Settings on_device() {
     Settings settings;
+    settings.wait_for_device = true;  // else a native device may draw in its place
     if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
     return settings;
 }
 
 /// The same for what needs a device with a compiler (compiling_device.hpp).
 inline Settings on_compiling_device() {
-    Settings settings;
+    Settings settings = on_device();
     settings.device = compiling_device();
     return settings;
 }

@@ -7,6 +7,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/parts.hpp"
+#include "device/device_plan.hpp"
 #include "pipeline/pipelines.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
@@ -103,7 +104,7 @@ TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
     settings.device = both_pocls();
     const CompiledScene compiled = compile(scene, {});
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
-    Pipelines two(compiled, *kernels, settings, Readback::lines);
+    Pipelines two(plan_devices(settings).first, compiled, *kernels, settings, Readback::lines);
     View view;
     view.width = 301;
     view.height = 257;

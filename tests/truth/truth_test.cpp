@@ -173,6 +173,7 @@ void check_set(const Set& set, const std::string& rays_name, const Scene& scene,
 
     Settings settings;
     settings.skip_unsupported = true;
+    settings.wait_for_device = true;
     if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
     Renderer renderer(scene, set.objects, settings);
     std::set<std::string> ours;

@@ -1,0 +1,111 @@
+#include "device/device_plan.hpp"
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "device/choice.hpp"
+
+namespace csgrt {
+namespace {
+
+std::vector<FoundDevice> pick(const std::vector<FoundDevice>& devices, const std::vector<std::size_t>& numbers) {
+    std::vector<FoundDevice> picked;
+    for (const std::size_t number : numbers) picked.push_back(devices[number]);
+    return picked;
+}
+
+bool is_processor(const FoundDevice& device) { return device.info.type == "cpu"; }
+
+/// The GPU that the default choice prefers to processors, if there is one.
+std::vector<FoundDevice> find_gpu() {
+    const std::vector<FoundDevice> devices = find_devices().devices;
+    const auto fits = [](const FoundDevice& device) { return device.info.type == "gpu" && device.info.fp64; };
+    const auto gpu = std::find_if(devices.begin(), devices.end(), fits);
+    return gpu == devices.end() ? std::vector<FoundDevice>{} : std::vector<FoundDevice>{*gpu};
+}
+
+/// The native devices that are meant, where no other one can be: the best of them comes before all other processors.
+std::vector<FoundDevice> chosen_native(const Settings& settings) {
+    const bool by_name = lower(settings.device).starts_with("native");
+    if (kernels_for(settings) != Kernels::any || (!by_name && lower(settings.device) != "cpu")) return {};
+    const std::vector<FoundDevice> native = find_native_devices();
+    if (native.empty()) return {};
+    try {
+        return pick(native, choose_devices(infos_of(native), settings.device));
+    } catch (const Error&) {  // whoever looks at all of them says what there is
+        return {};
+    }
+}
+
+/// The native device, if it draws without being asked for.
+std::vector<FoundDevice> native_by_default(const Settings& settings) {
+    std::vector<FoundDevice> native;
+    if (kernels_for(settings) == Kernels::any) native = find_native_devices();
+    if (native.size() > 1) native.resize(1);
+    return native;
+}
+
+DevicePlan plan_default(const Settings& settings) {
+    DevicePlan plan;
+    plan.first = native_by_default(settings);
+    if (!plan.first.empty()) {
+        if (!may_have_gpu()) return plan;
+        plan.find_next = find_gpu;
+        plan.next = "gpu";
+        return plan;
+    }
+    Discovery found = find_devices();
+    const Kernels kernels = kernels_for(settings);
+    try {
+        plan.first = pick(found.devices, choose_devices(infos_of(found.devices), "", kernels));
+    } catch (const Error&) {
+        if (kernels != Kernels::any) throw;
+        plan.notes = std::move(found.notes);
+        plan.notes.push_back("there is no OpenCL device with double precision");
+    }
+    return plan;
+}
+
+DevicePlan plan_chosen(const Settings& settings) {
+    DevicePlan plan;
+    plan.is_default = false;
+    plan.first = chosen_native(settings);
+    if (!plan.first.empty()) return plan;
+    const std::vector<FoundDevice> found = find_devices().devices;
+    plan.first = pick(found, choose_devices(infos_of(found), settings.device, kernels_for(settings)));
+    std::vector<FoundDevice> native = native_by_default(settings);
+    const bool are_processors = std::all_of(plan.first.begin(), plan.first.end(), is_processor);
+    if (settings.wait_for_device || are_processors || native.empty()) return plan;
+    for (const FoundDevice& device : plan.first) plan.next += (plan.next.empty() ? "" : " + ") + device.info.name;
+    plan.find_next = [chosen = std::move(plan.first)] { return chosen; };
+    plan.first = std::move(native);
+    return plan;
+}
+
+/// Whether such a Renderer loads drivers.
+bool looks_for_devices(const Settings& settings) {
+    if (settings.reference) return false;
+    if (settings.device.empty()) return native_by_default(settings).empty() || may_have_gpu();
+    return chosen_native(settings).empty();
+}
+
+}  // namespace
+
+DevicePlan plan_devices(const Settings& settings) {
+    return settings.device.empty() ? plan_default(settings) : plan_chosen(settings);
+}
+
+void prepare_devices(const Settings& settings) {
+    if (!looks_for_devices(settings)) return;
+    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
+    // had, nothing is looked for before.
+    static const std::future<void> looking = std::async([] {
+        try {
+            find_devices();
+        } catch (const std::exception&) {
+        }
+    });
+}
+
+}  // namespace csgrt
