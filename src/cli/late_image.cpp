@@ -57,6 +57,10 @@ namespace cli {
 ImageLoading::ImageLoading(const Command& command) {
     const auto* render = std::get_if<RenderArguments>(&command);
     if (!render || render->outputs.empty()) return;
+    // A driver that is named may need other releases of libraries than the pictures' (Intel's needs a newer TBB), and the first
+    // that is loaded stays. A native device needs no driver.
+    const std::string& device = render->settings.device;
+    if (!device.empty() && !device.starts_with("native")) return;
     try {
         loading = std::jthread([](std::stop_token stop) {
             try {
