@@ -1,7 +1,7 @@
-// csgrt_answers SIZE FILE...: what csgrt answers, one line of text for each subject: hashes of every bit of its pictures (first hits and
-// every partition) and of the partitions along rays. Subjects are the scenes of the files and samples of the stress suite. The native
-// device and the reference answer; if they differ the line says so, and the program fails. Two builds of csgrt, say for two processors,
-// agree if they write the same text (portable/answers_test.cmake).
+// csgrt_answers SIZE FILE...: what csgrt answers, one line of text for each subject: hashes of the compiled scene and of every bit of its
+// pictures (first hits and every partition) and of the partitions along rays. Subjects are the scenes of the files and samples of the
+// stress suite. The native device and the reference answer; if they differ the line says so, and the program fails. Two builds of csgrt,
+// say for two processors, agree if they write the same text for each scene that both compile alike (compare_answers.cmake).
 #include <bit>
 #include <cinttypes>
 #include <cstdint>
@@ -17,6 +17,8 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/stress/families.hpp"
+#include "compile/compiled_scene.hpp"
+#include "compile/hash.hpp"
 
 namespace {
 
@@ -96,11 +98,20 @@ Answers ask(const Subject& subject, int size, bool reference) {
     return answers;
 }
 
+/// What a device is given.
+std::uint64_t hash_of(const Subject& subject) {
+    CompileOptions options;
+    options.air = subject.air;
+    const CompiledScene compiled = compile(subject.scene, subject.objects, options);
+    return csgrt::hash_of(compiled, hash_of_geometry(compiled));
+}
+
 bool tell(const Subject& subject, int size) {
     const Answers answers = ask(subject, size, false);
     const bool agree = answers == ask(subject, size, true);
-    std::printf("%s first hits %016" PRIx64 " partitions %016" PRIx64 " rays %016" PRIx64 "%s\n", subject.name.c_str(), answers.first_hits,
-                answers.partitions, answers.rays, agree ? "" : ": THE REFERENCE DIFFERS");
+    std::printf("%s: scene %016" PRIx64 " first hits %016" PRIx64 " partitions %016" PRIx64 " rays %016" PRIx64 "%s\n",
+                subject.name.c_str(), hash_of(subject), answers.first_hits, answers.partitions, answers.rays,
+                agree ? "" : " THE REFERENCE DIFFERS");
     std::fflush(stdout);
     return agree;
 }
