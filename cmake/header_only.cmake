@@ -7,7 +7,7 @@ function(find_header_only name header)
         message(FATAL_ERROR "${header} was not found: install ${name}, or give -D${name}_ROOT=FOLDER")
     endif()
     set(folder ${${name}_INCLUDE_DIR})
-    if(CMAKE_CROSSCOMPILING)  # the host's /usr/include has its own C library, too: a link to the library's headers alone
+    if(CMAKE_CROSSCOMPILING)  # the host's /usr/include has its C library, too: a link to these headers alone
         string(REGEX MATCH "^[^/]+" own ${header})
         set(links ${CMAKE_BINARY_DIR}/headers/${name})
         file(MAKE_DIRECTORY ${links})

@@ -78,7 +78,8 @@ public:
         target_ = target.path.string();
         if (target.endless) fail("cannot create", ELOOP);
         if (target.direct) {
-            file_ = target.descriptor >= 0 ? duplicate(target.descriptor) : open(target_.c_str(), O_WRONLY | open_flags);
+            const bool own = target.descriptor >= 0;
+            file_ = own ? duplicate(target.descriptor) : open(target_.c_str(), O_WRONLY | open_flags);
             if (file_ < 0) fail("cannot open", errno);
             return;
         }
@@ -95,7 +96,8 @@ public:
             temporary_.clear();
             fail("cannot create", errno);
         }
-        if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);  // as an editor would leave it
+        // As an editor would leave it.
+        if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);
     }
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;

@@ -31,7 +31,8 @@ std::uint64_t host_memory() { return memory_of_system().ullTotalPhys; }
 
 #elif defined(__APPLE__)
 
-std::uint64_t available_host_memory() { return 0; }  // the system frees and compresses as it goes, and names no such number
+// The system frees and compresses memory as it goes, and names no such number.
+std::uint64_t available_host_memory() { return 0; }
 
 std::uint64_t host_memory() {
     std::uint64_t bytes = 0;

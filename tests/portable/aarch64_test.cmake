@@ -1,6 +1,7 @@
-# Builds csgrt for aarch64 into WORK with Debian's cross compiler, runs it under qemu, and compares its answers with those of this
-# machine's BUILD (csgrt_answers). Both have the reference's bits. A scene that both compile to the same numbers has the same answers. Not
-# every scene is compiled so: compiling computes with long double, of 64 bits' precision on x86-64 and of 113 on aarch64.
+# Builds csgrt for aarch64 into WORK with Debian's cross compiler, runs it under qemu, and compares its answers with
+# those of this machine's BUILD (csgrt_answers). Both have the reference's bits. A scene that both compile to the same
+# numbers has the same answers. Some scenes are compiled to other numbers: compiling computes with long double, whose
+# precision is 64 bits on x86-64 and 113 on aarch64.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
@@ -24,7 +25,8 @@ list(FILTER scenes EXCLUDE REGEX schema)
 set(emulated ${emulator} -L /usr/aarch64-linux-gnu)
 run(${emulated} ${WORK}/csgrt devices)
 execute_process(COMMAND ${BUILD}/tests/csgrt_answers 128 ${scenes} OUTPUT_VARIABLE here RESULT_VARIABLE here_result)
-execute_process(COMMAND ${emulated} ${WORK}/tests/csgrt_answers 128 ${scenes} OUTPUT_VARIABLE there RESULT_VARIABLE there_result)
+execute_process(COMMAND ${emulated} ${WORK}/tests/csgrt_answers 128 ${scenes}
+    OUTPUT_VARIABLE there RESULT_VARIABLE there_result)
 if(here_result OR there_result)
     message(FATAL_ERROR "csgrt_answers failed: here ${here_result}, for aarch64 ${there_result}\n${here}\n${there}")
 endif()

@@ -1,7 +1,8 @@
-// csgrt_answers SIZE FILE...: what csgrt answers, one line of text for each subject: hashes of the compiled scene and of every bit of its
-// pictures (first hits and every partition) and of the partitions along rays. Subjects are the scenes of the files and samples of the
-// stress suite. The native device and the reference answer; if they differ the line says so, and the program fails. Two builds of csgrt,
-// say for two processors, agree if they write the same text for each scene that both compile alike (compare_answers.cmake).
+// csgrt_answers SIZE FILE...: what csgrt answers, one line of text for each subject: hashes of the compiled scene and
+// of every bit of its pictures (first hits and every partition) and of the partitions along rays. Subjects are the
+// scenes of the files and samples of the stress suite. The native device and the reference answer; if they differ the
+// line says so, and the program fails. Two builds of csgrt, say for two processors, agree if they write the same text
+// for each scene that both compile to the same numbers (aarch64_test.cmake).
 #include <bit>
 #include <cinttypes>
 #include <cstdint>
@@ -127,7 +128,8 @@ int run(int size, std::span<char* const> files) {
     for (const std::string& family : stress::families()) {
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             stress::StressScene made = stress::make(family, seed);
-            agree &= tell({family + " " + std::to_string(seed), std::move(made.scene), made.objects, made.air, made.rays}, size);
+            const std::string name = family + " " + std::to_string(seed);
+            agree &= tell({name, std::move(made.scene), made.objects, made.air, made.rays}, size);
         }
     }
     return agree ? 0 : 1;
