@@ -23,10 +23,21 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     find_program(CSGRT_CLANG NAMES ${clangs} DOC "clang, which compiles the native device's kernels")
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
         set(native_levels x86-64-v4 x86-64-v3)
-        set(native_target x86_64-pc-linux-gnu)
-    elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+        set(native_processor x86_64)
+    elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64|ARM64)$")
         set(native_levels aarch64)
-        set(native_target aarch64-linux-gnu)
+        set(native_processor aarch64)
+    endif()
+    set(native_ldexp ldexp)
+    if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+        set(native_target ${native_processor}-linux-gnu)
+    elseif(WIN32)
+        set(native_target ${native_processor}-w64-windows-gnu)
+    elseif(APPLE)
+        string(REPLACE aarch64 arm64 native_target ${native_processor}-apple-macos11)
+        set(native_ldexp _ldexp)  # as compilers name a function of C there
+    else()
+        set(native_levels "")
     endif()
     set(native_default OFF)
     if(CSGRT_CLANG AND native_levels)
@@ -34,7 +45,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     endif()
     option(CSGRT_NATIVE "Kernels compiled ahead of time for processors (needs clang)" ${native_default})
     if(CSGRT_NATIVE AND NOT native_default)
-        message(FATAL_ERROR "CSGRT_NATIVE is ON, but clang was not found (Debian, Ubuntu: clang), or the processor is not known")
+        message(FATAL_ERROR "CSGRT_NATIVE is ON, but clang was not found (Debian, Ubuntu: clang), "
+            "or the processor or the system is not known")
     elseif(NOT CSGRT_NATIVE)
         set(native_levels "")
         message(NOTICE "No native device: it needs clang (Debian, Ubuntu: clang) and x86-64 or aarch64. OpenCL alone draws.")
@@ -61,10 +73,11 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
         endif()
 
         execute_process(COMMAND ${CSGRT_CLANG} -print-resource-dir OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
-        # clang tells kernels no version of OpenCL C where its target is a processor. Contraction: as of the host's code.
-        set(options -x cl -cl-std=CL1.2 -cl-no-stdinc -target ${native_target} -w -fPIC -fvisibility=hidden
-            -fno-math-errno -ffp-contract=off
-            -include ${resources}/include/opencl-c-base.h -D__OPENCL_VERSION__=120 -DCSGRT_LDEXP="ldexp"
+        # clang tells kernels no version of OpenCL C where its target is a processor, nor, on aarch64, that it has doubles.
+        # Contraction: as of the host's code.
+        set(options -x cl -cl-std=CL1.2 -Xclang -cl-ext=+cl_khr_fp64 -cl-no-stdinc -target ${native_target} -w -fPIC
+            -fvisibility=hidden -fno-math-errno -ffp-contract=off
+            -include ${resources}/include/opencl-c-base.h -D__OPENCL_VERSION__=120 -DCSGRT_LDEXP="${native_ldexp}"
             -include ${PROJECT_SOURCE_DIR}/src/device/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
             -DCSGRT_REAL=double -DCSGRT_SOLIDS=131071u -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
@@ -76,6 +89,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
         if(CSGRT_SANITIZE)
             list(APPEND options -fsanitize=${CSGRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
         endif()
+        set(objects "")
         foreach(level IN LISTS native_levels)
             set(march "")
             if(level MATCHES "^x86-64")
@@ -83,7 +97,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             endif()
             string(MAKE_C_IDENTIFIER ${level} suffix)
             foreach(program IN LISTS programs)
-                set(object ${folder}/${program}_${suffix}.o)
+                set(object ${folder}/${program}_${suffix}${CMAKE_CXX_OUTPUT_EXTENSION})
                 add_custom_command(
                     OUTPUT ${object}
                     COMMAND ${CSGRT_CLANG} ${options} ${march} ${${program}_options} "-DNATIVE_NAME(x)=csgrt_${suffix}_${program}_##x"
@@ -93,8 +107,11 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
                     COMMENT "Compiling the kernels of ${program} for ${level}" VERBATIM)
                 set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
                 target_sources(${target} PRIVATE ${object})
+                list(APPEND objects ${object})
             endforeach()
         endforeach()
+        # For a system whose C++ headers are not there: clang alone makes these.
+        add_custom_target(${target}_kernels DEPENDS ${objects})
     endfunction()
     return()
 endif()

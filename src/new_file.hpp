@@ -13,12 +13,23 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <unistd.h>  // Windows: with mingw-w64
+#ifdef _WIN32
+#include <io.h>
+#endif
 
 #include <csgrt/error.hpp>
 
 namespace csgrt {
+
+/// How open files are opened: not for processes that this one starts, and, under Windows, without changing line ends.
+#ifdef _WIN32
+inline constexpr int open_flags = _O_NOINHERIT | _O_BINARY;
+inline int duplicate(int file) { return _dup(file); }
+#else
+inline constexpr int open_flags = O_CLOEXEC;
+inline int duplicate(int file) { return fcntl(file, F_DUPFD_CLOEXEC, 3); }
+#endif
 
 /// Where a name leads over links: the file that is written, so that a link stays a link.
 struct Target {
@@ -67,24 +78,26 @@ public:
         target_ = target.path.string();
         if (target.endless) fail("cannot create", ELOOP);
         if (target.direct) {
-            file_ = target.descriptor >= 0 ? fcntl(target.descriptor, F_DUPFD_CLOEXEC, 3)
-                                           : open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+            const bool own = target.descriptor >= 0;
+            file_ = own ? duplicate(target.descriptor) : open(target_.c_str(), O_WRONLY | open_flags);
             if (file_ < 0) fail("cannot open", errno);
             return;
         }
-        struct stat old {};
-        const bool replaces = stat(target_.c_str(), &old) == 0;
-        if (replaces && S_ISDIR(old.st_mode)) fail("cannot replace", EISDIR);
+        namespace fs = std::filesystem;
+        std::error_code error;
+        const fs::file_status old = fs::status(target.path, error);
+        const bool replaces = fs::exists(old);
+        if (fs::is_directory(old)) fail("cannot replace", EISDIR);
         if (replaces && access(target_.c_str(), W_OK) != 0) fail("cannot replace", errno);
         for (int attempt = 0; file_ < 0; ++attempt) {
             temporary_ = beside(target.path, attempt);
-            file_ = open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+            file_ = open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | open_flags, 0666);
             if (file_ >= 0 || errno == EEXIST) continue;
             temporary_.clear();
             fail("cannot create", errno);
         }
-        constexpr mode_t permissions = 0777;
-        if (replaces) static_cast<void>(fchmod(file_, old.st_mode & permissions));  // as an editor would leave it
+        // As an editor would leave it.
+        if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);
     }
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
@@ -98,18 +111,21 @@ public:
     void keep() {
         if (close(std::exchange(file_, -1)) != 0) fail("cannot write", errno);
         if (temporary_.empty()) return;
-        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot replace", errno);
+        std::error_code error;
+        std::filesystem::rename(temporary_, target_, error);  // std::rename replaces nothing under Windows
+        if (error) refuse(name_, "cannot replace", error.message());
         temporary_.clear();
     }
 
     /// All of it to an open file that is called `name`.
     static void write_to(int file, std::string_view bytes, const std::string& name, void (*on_signal)() = nullptr) {
+        constexpr std::size_t most = std::size_t{1} << 30;  // at once: Windows counts bytes in an int
         while (!bytes.empty()) {
-            const ssize_t written = ::write(file, bytes.data(), bytes.size());
+            const auto written = ::write(file, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), most)));
             if (written >= 0) {
                 bytes.remove_prefix(static_cast<std::size_t>(written));
             } else if (errno != EINTR) {
-                refuse(name, "cannot write", errno);
+                refuse(name, "cannot write", words(errno));
             } else if (on_signal != nullptr) {
                 on_signal();
             }
@@ -117,10 +133,11 @@ public:
     }
 
 private:
-    [[noreturn]] static void refuse(const std::string& name, const char* what, int code) {
-        throw Error(Status::file, name + ": " + what + ": " + (code == EBADF ? "it is closed" : std::strerror(code)));
+    static std::string words(int code) { return code == EBADF ? "it is closed" : std::strerror(code); }
+    [[noreturn]] static void refuse(const std::string& name, const char* what, const std::string& why) {
+        throw Error(Status::file, name + ": " + what + ": " + why);
     }
-    [[noreturn]] void fail(const char* what, int code) const { refuse(name_, what, code); }
+    [[noreturn]] void fail(const char* what, int code) const { refuse(name_, what, words(code)); }
 
     /// Another name where a process that ended badly, and had our number, left its own; no longer than a folder bears.
     static std::string beside(const std::filesystem::path& target, int attempt) {

@@ -5,7 +5,42 @@
 #include <limits>
 #include <string>
 
+#if defined(_WIN32)
+#include <windows.h>
+#elif defined(__APPLE__)
+#include <sys/sysctl.h>
+#endif
+
 namespace csgrt {
+
+#if defined(_WIN32)
+
+namespace {
+
+MEMORYSTATUSEX memory_of_system() {
+    MEMORYSTATUSEX memory{};
+    memory.dwLength = sizeof memory;
+    if (!GlobalMemoryStatusEx(&memory)) memory.ullAvailPhys = memory.ullTotalPhys = 0;
+    return memory;
+}
+
+}  // namespace
+
+std::uint64_t available_host_memory() { return memory_of_system().ullAvailPhys; }
+std::uint64_t host_memory() { return memory_of_system().ullTotalPhys; }
+
+#elif defined(__APPLE__)
+
+// The system frees and compresses memory as it goes, and names no such number.
+std::uint64_t available_host_memory() { return 0; }
+
+std::uint64_t host_memory() {
+    std::uint64_t bytes = 0;
+    std::size_t size = sizeof bytes;
+    return sysctlbyname("hw.memsize", &bytes, &size, nullptr, 0) == 0 ? bytes : 0;
+}
+
+#else
 
 namespace {
 
@@ -47,5 +82,7 @@ std::uint64_t host_memory() {
     const std::uint64_t bytes = of_system("MemTotal:");
     return bytes == unknown ? 0 : bytes;
 }
+
+#endif
 
 }  // namespace csgrt

@@ -111,7 +111,7 @@ std::string BrlcadParts::read_file(const std::string& name, std::uint64_t bytes)
         throw Lack{what + "has " + std::to_string(size) + " bytes, not " + std::to_string(bytes)};
     }
     errno = 0;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.string().c_str(), "rb"), &std::fclose);
     if (!file) throw Lack{what + "cannot be opened: " + std::strerror(errno)};
     std::string data(static_cast<std::size_t>(bytes), '\0');
     if (std::fread(data.data(), 1, data.size(), file.get()) != data.size()) {

@@ -28,7 +28,17 @@ PURE double fabs(double x) { return __builtin_fabs(x); }
 PURE float floor(float x) { return __builtin_floorf(x); }
 PURE double floor(double x) { return __builtin_floor(x); }
 PURE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-PURE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+// A number that the compiler knows nothing of, where it would take -fma(a, b, c) for fma(-a, b, -c): if a b + c is 0, the zero's sign
+// is another one (clang 15 for aarch64's fnmadd; host_math.hpp has it for GCC).
+#if defined(__aarch64__)
+PURE double opaque(double x) {
+    __asm("" : "+w"(x));
+    return x;
+}
+#else
+PURE double opaque(double x) { return x; }
+#endif
+PURE double fma(double a, double b, double c) { return opaque(__builtin_fma(a, b, c)); }
 // Exact, of x > 0: the exponent's bits, or how many zeros a subnormal number begins with.
 PURE int ilogb(double x) {
     const int e = (int)(as_ulong(x) >> 52 & 2047u);

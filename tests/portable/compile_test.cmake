@@ -1,0 +1,15 @@
+# Compiles TARGETS for the system of TOOLCHAIN into WORK: nothing is linked or run. Skipped where there is no COMPILER.
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+
+find_program(compiler NAMES ${COMPILER})
+find_program(clang NAMES clang clang-20 clang-19 clang-18 clang-17 clang-16 clang-15 clang-14)
+if(NOT compiler OR NOT clang)
+    message("SKIPPED: it needs ${COMPILER} and clang")
+    return()
+endif()
+# Not optimized, but for the kernels: soon done, and as good for this.
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${ROOT} -B ${WORK}
+    -DCMAKE_TOOLCHAIN_FILE=${ROOT}/cmake/toolchains/${TOOLCHAIN}.cmake -DCSGRT_NATIVE=ON -DCSGRT_WERROR=ON -DBUILD_TESTING=OFF
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
+run(${CMAKE_COMMAND} --build ${WORK} --target ${TARGETS})
