@@ -272,9 +272,9 @@ something does.
 )";
 
 constexpr const char* devices_notes = R"(
-A line begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices have
-the kernels of the default method alone, compiled ahead; others compile theirs when they are first
-wanted. A note tells of a driver that cannot be used.
+A line begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices
+have the kernels of the default method alone, compiled ahead; others compile theirs when they are
+first wanted. A note tells of a driver that cannot be used.
 )";
 
 constexpr const char* info_notes = R"(

@@ -25,10 +25,12 @@ std::vector<FoundDevice> find_gpu() {
     return gpu == devices.end() ? std::vector<FoundDevice>{} : std::vector<FoundDevice>{*gpu};
 }
 
-/// The native devices that are meant, where no other one can be: the best of them comes before all other processors.
+/// The native device that is meant, where it can be no other: the best of them comes before all other processors. Of several choices
+/// one may be a number, which counts all devices.
 std::vector<FoundDevice> chosen_native(const Settings& settings) {
-    const bool by_name = lower(settings.device).starts_with("native");
-    if (kernels_for(settings) != Kernels::any || (!by_name && lower(settings.device) != "cpu")) return {};
+    const std::string choice = lower(settings.device);
+    const bool is_one = choice == "cpu" || (choice.starts_with("native") && choice.find(',') == std::string::npos);
+    if (!is_one || kernels_for(settings) != Kernels::any) return {};
     const std::vector<FoundDevice> native = find_native_devices();
     if (native.empty()) return {};
     try {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include <unistd.h>
+
 namespace csgrt {
 
 namespace {
@@ -45,7 +47,12 @@ std::uint64_t available_host_memory() {
 
 std::uint64_t host_memory() {
     const std::uint64_t bytes = of_system("MemTotal:");
-    return bytes == unknown ? 0 : bytes;
+    if (bytes != unknown) return bytes;
+#ifdef _SC_PHYS_PAGES
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);  // /proc is not everywhere
+    if (pages > 0 && page > 0) return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
+#endif
+    return 0;
 }
 
 }  // namespace csgrt

@@ -58,6 +58,16 @@ string(REGEX MATCH "\"hits\": [0-9]+" hits "${figures}")
 if(NOT hits MATCHES "[1-9]")
     message(FATAL_ERROR "nothing was drawn:\n${figures}")
 endif()
+
+# It has not even looked for one, since no driver could reach a GPU: the system's loader tells what it looked for.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_DEBUG=files ${into_root} ${WORK} /csgrt /scene.json --size 64 --stats -
+    RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
+if(NOT said MATCHES "libcsgrt")
+    message(FATAL_ERROR "the loader does not tell what it loads: ${said}")
+elseif(HAS_NATIVE AND levels AND said MATCHES "OpenCL")
+    message(FATAL_ERROR "a picture without a GPU looks for OpenCL")
+endif()
+
 execute_process(COMMAND ${into_root} ${WORK} /csgrt /scene.json --precision single --size 64 --stats - RESULT_VARIABLE status
     OUTPUT_QUIET ERROR_VARIABLE said)
 if(NOT status EQUAL 4 OR NOT said MATCHES "pocl-opencl-icd")
