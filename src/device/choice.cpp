@@ -29,6 +29,7 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
                 if (word.size() > 2) known.push_back(word);
         }
     }
+    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end()) return {};  // known, and not there
     return did_you_mean(wanted, {known.begin(), known.end()});
 }
 

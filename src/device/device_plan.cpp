@@ -69,13 +69,24 @@ DevicePlan plan_default(const Settings& settings) {
     return plan;
 }
 
+/// The error with what is known of drivers that cannot be used: one of theirs may be what was meant.
+[[noreturn]] void refuse_with(const std::vector<std::string>& notes, const Error& error) {
+    std::vector<Diagnostic> findings = error.diagnostics();
+    for (const std::string& note : notes) findings.back().suggestion += "\n" + note;
+    throw Error(error.status(), std::move(findings));
+}
+
 DevicePlan plan_chosen(const Settings& settings) {
     DevicePlan plan;
     plan.is_default = false;
     plan.first = chosen_native(settings);
     if (!plan.first.empty()) return plan;
-    const std::vector<FoundDevice> found = find_devices().devices;
-    plan.first = pick(found, choose_devices(infos_of(found), settings.device, kernels_for(settings)));
+    const Discovery found = find_devices();
+    try {
+        plan.first = pick(found.devices, choose_devices(infos_of(found.devices), settings.device, kernels_for(settings)));
+    } catch (const Error& error) {
+        refuse_with(found.notes, error);
+    }
     std::vector<FoundDevice> native = native_by_default(settings);
     const bool are_processors = std::all_of(plan.first.begin(), plan.first.end(), is_processor);
     if (settings.wait_for_device || are_processors || native.empty()) return plan;
