@@ -20,6 +20,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "cli/cache_folder.hpp"
 #include "figures.hpp"
 #include "floors.hpp"
 #include "parts.hpp"
@@ -213,6 +214,7 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::ensure_cache_folder();
     try {
         const Options options = parse(argc, argv);
         if (!options.compare.empty()) {

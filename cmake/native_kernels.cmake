@@ -37,7 +37,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
         message(FATAL_ERROR "CSGRT_NATIVE is ON, but clang was not found (Debian, Ubuntu: clang), or the processor is not known")
     elseif(NOT CSGRT_NATIVE)
         set(native_levels "")
-        message(STATUS "No native device: it needs clang (Debian, Ubuntu: clang); OpenCL alone draws")
+        message(NOTICE "No native device: it needs clang (Debian, Ubuntu: clang) and x86-64 or aarch64. OpenCL alone draws.")
     endif()
 
     function(native_kernels target)
@@ -62,14 +62,19 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
 
         execute_process(COMMAND ${CSGRT_CLANG} -print-resource-dir OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
         # clang tells kernels no version of OpenCL C where its target is a processor. Contraction: as of the host's code.
-        set(options -x cl -cl-std=CL1.2 -cl-no-stdinc -target ${native_target} -w -O3 -g1 -fPIC -fvisibility=hidden
+        set(options -x cl -cl-std=CL1.2 -cl-no-stdinc -target ${native_target} -w -fPIC -fvisibility=hidden
             -fno-math-errno -ffp-contract=off
             -include ${resources}/include/opencl-c-base.h -D__OPENCL_VERSION__=120 -DCSGRT_LDEXP="ldexp"
             -include ${PROJECT_SOURCE_DIR}/src/device/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
             -DCSGRT_REAL=double -DCSGRT_SOLIDS=131071u -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
+        if(CSGRT_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")  # to step through them: docs/native.md
+            list(APPEND options -O1 -g)
+        else()
+            list(APPEND options -O3 -mllvm -inline-threshold=3000)  # as drivers do: evaluate takes three quarters
+        endif()
         if(CSGRT_SANITIZE)
-            list(APPEND options -O1 -fsanitize=${CSGRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+            list(APPEND options -fsanitize=${CSGRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
         endif()
         foreach(level IN LISTS native_levels)
             set(march "")

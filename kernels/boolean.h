@@ -286,14 +286,15 @@ typedef struct {
     u32 least, other;
 } claim;
 
-// Looks at the terms that the solids of c.bits start. `ranks`: Frame.rank_ends; 0: `other` is not wanted. `changed`: no region
-// claimed before these solids came or went, so one of its terms has one of them.
-FN claim find_claim(cover c, const covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
+// Looks at the terms that the solids of `starting` start, some of those that c.bits cover. `ranks`: Frame.rank_ends; 0:
+// `other` is not wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
+FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
+                    SolidFilter changed) {
     claim found;
     u32 word, words = words_of(c.segments);
     found.least = found.other = NONE;
     for (word = 0; word < words; ++word) {
-        u32 bits = c.bits[word];
+        u32 bits = starting[word];
         while (bits) {
             const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
             u32 i = c.solids[solid].first_start, end = is_missed(c, segment) ? i : i + c.solids[solid].start_count;
@@ -322,7 +323,6 @@ FN claim find_claim(cover c, const covered_solids* list, GLOBAL const u32* ranks
 // what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in an edge,
 // of which some part holds either side.
 FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
-    ENDS const u32* const covering = c.bits;
     const u32 marked = list->missed;
     claim touched, found;
     u32 step = 0;
@@ -332,11 +332,9 @@ FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* li
         claim side;
         if (step > 0) {
             c.missed = step == 1 ? MISSED_ABOVE : MISSED_BELOW;
-            c.bits = covering;
             list_covered(c, list);
         }
-        c.bits = starting;
-        side = find_claim(c, list, ranks, changed);
+        side = find_claim(c, starting, list, ranks, changed);
         if (step == 0) {
             touched = side;
         } else {

@@ -22,6 +22,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/chart/report.hpp"
+#include "cli/cache_folder.hpp"
 #include "tally.hpp"
 #include "verify/answers.hpp"
 
@@ -200,6 +201,7 @@ int run_all(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::ensure_cache_folder();
     try {
         return run_all(parse(argc, argv));
     } catch (const Error& error) {

@@ -19,6 +19,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "bench/workloads.hpp"
+#include "cli/cache_folder.hpp"
 #include "report.hpp"
 #include "tasks.hpp"
 #include "truth.hpp"
@@ -225,6 +226,7 @@ DeviceInfo device_of(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::ensure_cache_folder();
     try {
         const auto start = std::chrono::steady_clock::now();
         const Options options = parse(argc, argv);

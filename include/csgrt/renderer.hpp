@@ -23,6 +23,11 @@ struct DeviceInfo {
 /// Every device, in the order of their numbers: those of OpenCL, and the native ones (platform "csgrt"), which are this machine's
 /// processors with kernels that csgrt brings itself. Empty if there is none. `notes`: takes a sentence on each driver that cannot be
 /// used. Any thread.
+///
+/// PoCL, the driver for processors, has no device, compiles no kernel or ends the process where it cannot write its cache:
+/// POCL_CACHE_DIR, else XDG_CACHE_HOME/pocl/kcache, else HOME/.cache/pocl/kcache. The library leaves the environment alone: a
+/// program without a home (a service, a container) sets POCL_CACHE_DIR to a folder before its first devices(),
+/// prepare_devices() or Renderer, and before it starts threads. csgrt's command does so.
 CSGRT_API std::vector<DeviceInfo> devices(std::vector<std::string>* notes = nullptr);
 
 struct Settings {

@@ -1,24 +1,41 @@
-// The command's write_image and read_image: they load csgrt::image when they are first called. OpenImageIO brings some 200
-// libraries with it, and a command that writes no picture should not wait a quarter of a second for them.
+// The command's write_image and read_image: they load csgrt::image when they are first called. OpenImageIO brings some 260
+// libraries with it, and a command that writes no picture should not wait a fifth of a second for them. One that will write
+// a picture loads them meanwhile.
+#include "late_image.hpp"
+
 #include <dlfcn.h>
 
+#include <exception>
 #include <filesystem>
+#include <thread>
 
 #include <csgrt/image.hpp>
 #include <csgrt/renderer.hpp>
 
 #include "image/functions.hpp"
+#include "leaves_first.hpp"
 
 namespace csgrt {
 namespace {
 
+std::jthread loading;
+
+/// Beside the library that is here already: a sanitizer's dlopen knows nothing of this program's search path.
+std::string library_path() {
+    Dl_info core;
+    std::filesystem::path path;
+    if (dladdr(reinterpret_cast<const void*>(&version), &core)) path = std::filesystem::path(core.dli_fname).parent_path();
+    return path / CSGRT_IMAGE_LIBRARY;
+}
+
 const ImageFunctions& functions() {
     static const ImageFunctions* found = [] {
-        // Beside the library that is here already: a sanitizer's dlopen knows nothing of this program's search path.
-        Dl_info core;
-        std::filesystem::path path;
-        if (dladdr(reinterpret_cast<const void*>(&version), &core)) path = std::filesystem::path(core.dli_fname).parent_path();
-        void* library = dlopen((path / CSGRT_IMAGE_LIBRARY).c_str(), RTLD_LAZY | RTLD_LOCAL);
+        const std::string path = library_path();
+        if (loading.joinable())
+            loading.join();
+        else
+            cli::load_leaves_first(path);
+        void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
         if (!library) library = dlopen(CSGRT_IMAGE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
         void* symbol = library ? dlsym(library, image_functions_name) : nullptr;
         if (!symbol) throw Error(Status::file, std::string("cannot load the library for pictures: ") + dlerror());
@@ -35,4 +52,23 @@ void write_image(const Image& image, const std::string& path, const std::string&
 
 Image read_image(const std::string& path) { return functions().read(path); }
 
+namespace cli {
+
+ImageLoading::ImageLoading(const Command& command) {
+    const auto* render = std::get_if<RenderArguments>(&command);
+    if (!render || render->outputs.empty()) return;
+    try {
+        loading = std::jthread([](std::stop_token stop) {
+            try {
+                load_leaves_first(library_path(), stop);
+            } catch (const std::exception&) {  // no memory: functions() says so, if there is none then either
+            }
+        });
+    } catch (const std::system_error&) {  // no thread to be had: they are loaded when they are needed
+    }
+}
+
+ImageLoading::~ImageLoading() { loading = {}; }
+
+}  // namespace cli
 }  // namespace csgrt

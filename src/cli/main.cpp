@@ -5,14 +5,20 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include "arguments.hpp"
+#include "cache_folder.hpp"
 #include "held_renderer.hpp"
 #include "interrupt.hpp"
+#ifdef CSGRT_HAVE_IMAGE
+#include "late_image.hpp"
+#endif
 #include "output.hpp"
 #include "progress.hpp"
 
@@ -48,9 +54,24 @@ void hold_standard_files() {
             static_cast<void>(open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
+bool may_use_opencl(const Command& command) {
+    return std::visit(
+        []<class Arguments>(const Arguments& arguments) {
+            if constexpr (requires { arguments.settings; } && !std::is_same_v<Arguments, InfoArguments>)
+                return !arguments.settings.reference;
+            else
+                return std::is_same_v<Arguments, DevicesArguments>;
+        },
+        command);
+}
+
 int main_status(const std::vector<std::string>& words) {
     try {
         Command command = parse_arguments(words);
+        if (may_use_opencl(command)) ensure_cache_folder();
+#ifdef CSGRT_HAVE_IMAGE
+        ImageLoading loading(command);
+#endif
         return static_cast<int>(std::visit([](const auto& arguments) { return run(arguments); }, command));
     } catch (const Error& error) {
         return fail(error);

@@ -111,7 +111,6 @@ DevicePlan plan_devices(const Settings& settings) {
 
 void prepare_devices(const Settings& settings) {
     if (!looks_for_devices(settings)) return;
-    ensure_cache_folder_once();  // on this thread, since it may write to the environment
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
     // had, nothing is looked for before.
     static const std::future<void> looking = std::async([] {

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <mutex>
 
-#include "device/cache_folder.hpp"
 #include "device/native/driver.hpp"
 #include "device/opencl.hpp"
 #include "device/opencl_loader.hpp"
@@ -132,11 +131,6 @@ bool has_render_node(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void ensure_cache_folder_once() {
-    static std::once_flag once;
-    std::call_once(once, ensure_cache_folder);
-}
-
 std::vector<FoundDevice> find_native_devices() {
     Discovery native;
     add_devices(native::functions(), native);
@@ -144,7 +138,6 @@ std::vector<FoundDevice> find_native_devices() {
 }
 
 Discovery find_devices() {
-    ensure_cache_folder_once();
     // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
     static std::mutex mutex;
     const std::lock_guard lock(mutex);

@@ -32,10 +32,6 @@ std::vector<FoundDevice> find_native_devices();
 /// a GPU through a file there; elsewhere that is not known, and the answer is yes. Any thread.
 bool may_have_gpu(const std::string& folder = "/dev");
 
-/// PoCL and its like write compiled kernels below the user's home, and crash where they cannot: makes a folder for them, once in a
-/// process, and may write to the environment. find_devices() calls it; a thread must not be the first to.
-void ensure_cache_folder_once();
-
 /// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs, of which none can be used if
 /// they are broken. One at a time.
 class PretendedGpu {

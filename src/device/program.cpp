@@ -1,8 +1,11 @@
 #include "device/program.hpp"
 
+#include <optional>
 #include <stdexcept>
 
 #include <csgrt/error.hpp>
+
+#include "device/binary_cache.hpp"
 
 namespace csgrt {
 
@@ -33,6 +36,19 @@ T group_info(const Device& device, cl_kernel kernel, cl_kernel_work_group_info w
     return value;
 }
 
+/// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one maker
+/// do: how long their vectors are tells most of it, and a driver refuses what its device cannot run.
+std::string key_of(const Device& device, const std::string& source, const std::string& options) {
+    cl_uint vector = 0;
+    check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE, sizeof vector, &vector, nullptr),
+          "clGetDeviceInfo");
+    const DeviceInfo& info = device.info();
+    std::string key;
+    for (const std::string* part : {&info.platform, &info.name, &info.version, &info.driver, &options})
+        key += *part + '\n';
+    return key + std::to_string(vector) + '\n' + source;
+}
+
 }  // namespace
 
 Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines, bool single)
@@ -42,31 +58,68 @@ Program::Program(const Device& device, const std::string& source, const std::vec
     if (single && rounds_single_correctly(device)) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const std::string& define : defines) options += " -D" + define;
 
+    const std::optional<BinaryCache> cache = binary_cache_for(device.info());
+    const std::string key = cache ? key_of(device, source, options) : "";
+    const std::optional<std::string> kept = cache ? cache->find(key) : std::nullopt;
+    is_from_cache_ = kept && load(*kept);
+    if (is_from_cache_) return;
+    compile(source, options);
+    if (cache) cache->keep(key, binary());
+}
+
+void Program::compile(const std::string& source, const std::string& options) {
     // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for what it has compiled: 45 of
     // 60 ms of each start. Without them it takes those that are used from builtins.h. Other releases than those that this was
     // seen with may have them elsewhere; and should one not know these, it gets its own.
-    const DeviceInfo& info = device.info();
+    const DeviceInfo& info = device_->info();
     has_own_declarations_ = info.platform == "Portable Computing Language" && info.driver.starts_with("3.");
 
+    const OpenCl& cl = device_->cl();
     const char* text = source.data();
     const std::size_t size = source.size();
     cl_int code = CL_SUCCESS;
     program_ = Handle<cl_program, &OpenCl::ReleaseProgram>(
-        device.cl(), device.cl().CreateProgramWithSource(device.context(), 1, &text, &size, &code));
+        cl, cl.CreateProgramWithSource(device_->context(), 1, &text, &size, &code));
     check(code, "clCreateProgramWithSource");
-    const cl_device_id id = device.id();
+    const cl_device_id id = device_->id();
     const auto build = [&](const std::string& more) {
-        code = device.cl().BuildProgram(program_.get(), 1, &id, (options + more).c_str(), nullptr, nullptr);
+        code = cl.BuildProgram(program_.get(), 1, &id, (options + more).c_str(), nullptr, nullptr);
         return code == CL_SUCCESS;
     };
     if (has_own_declarations_) has_own_declarations_ = build(" -D_OPENCL_H_ -DCSGRT_BUILTINS");
     if (!has_own_declarations_) build("");
-    build_log_ = log_of(device, program_.get());
+    build_log_ = log_of(*device_, program_.get());
     if (code == CL_BUILD_PROGRAM_FAILURE) {
         throw Error(Status::device_fault,
-                    "the kernels do not compile for " + device.info().name + " (" + options + "):\n" + build_log_);
+                    "the kernels do not compile for " + info.name + " (" + options + "):\n" + build_log_);
     }
     check(code, "clBuildProgram (" + options + ")");
+}
+
+/// False if the driver does not take it: then it is compiled anew.
+bool Program::load(const std::string& binary) {
+    const OpenCl& cl = device_->cl();
+    const cl_device_id id = device_->id();
+    const auto* bytes = reinterpret_cast<const unsigned char*>(binary.data());
+    const std::size_t size = binary.size();
+    cl_int status = CL_SUCCESS, code = CL_SUCCESS;
+    program_ = Handle<cl_program, &OpenCl::ReleaseProgram>(
+        cl, cl.CreateProgramWithBinary(device_->context(), 1, &id, &size, &bytes, &status, &code));
+    if (code != CL_SUCCESS || status != CL_SUCCESS) return false;
+    return cl.BuildProgram(program_.get(), 1, &id, "", nullptr, nullptr) == CL_SUCCESS;
+}
+
+/// What the driver made of the source; empty if it does not give it.
+std::string Program::binary() const {
+    const OpenCl& cl = device_->cl();
+    std::size_t size = 0;  // of one device, as the context has
+    const auto info = [&](cl_program_info what, std::size_t bytes, void* out) {
+        return cl.GetProgramInfo(program_.get(), what, bytes, out, nullptr) == CL_SUCCESS;
+    };
+    if (!info(CL_PROGRAM_BINARY_SIZES, sizeof size, &size)) return {};
+    std::string binary(size, '\0');
+    char* bytes = binary.data();
+    return info(CL_PROGRAM_BINARIES, sizeof bytes, &bytes) ? binary : std::string();
 }
 
 Kernel Program::kernel(const std::string& name) const {

@@ -84,22 +84,29 @@ private:
 /// the device can do it, as every result in double is.
 class Program {
 public:
+    /// Takes what was compiled before, in this process or another, where the driver does not do so itself (binary_cache.hpp).
     /// Throws Error (device_fault) with the compiler's words if the source does not compile.
     Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {},
             bool single = false);
 
     /// Throws Error (device_fault) if the program has no kernel of that name.
     Kernel kernel(const std::string& name) const;
-    /// What the compiler had to say; empty when all was well.
+    /// What the compiler had to say; empty when all was well, and for a program that was compiled before.
     const std::string& build_log() const noexcept { return build_log_; }
+    /// It was compiled before, and not now.
+    bool is_from_cache() const noexcept { return is_from_cache_; }
     /// Built with what builtins.h declares, not with the driver's declarations.
     bool has_own_declarations() const noexcept { return has_own_declarations_; }
 
 private:
+    void compile(const std::string& source, const std::string& options);
+    bool load(const std::string& binary);
+    std::string binary() const;
+
     const Device* device_;
     Handle<cl_program, &OpenCl::ReleaseProgram> program_;
     std::string build_log_;
-    bool has_own_declarations_ = false;
+    bool has_own_declarations_ = false, is_from_cache_ = false;
 };
 
 }  // namespace csgrt

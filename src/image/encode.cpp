@@ -1,6 +1,5 @@
 #include "image/encode.hpp"
 
-#include <cmath>
 #include <memory>
 
 #include <OpenImageIO/filesystem.h>
@@ -49,7 +48,7 @@ std::vector<unsigned char> quantize(const Image& image, const std::string& name)
         for (std::size_t i = 0; i < channel->size(); ++i) {
             const float value = (*channel)[i];
             const float clamped = value > 0 ? (value < 1 ? value : 1) : 0;  // NaN is 0
-            pixels[3 * i + c] = static_cast<unsigned char>(std::lround(255 * clamped));
+            pixels[3 * i + c] = static_cast<unsigned char>(static_cast<double>(255 * clamped) + 0.5);
         }
     }
     return pixels;

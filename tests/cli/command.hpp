@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -81,11 +82,13 @@ struct How {
     rlim_t address_space = 0;  ///< bytes; 0: no limit
     std::vector<int> closed = {};  ///< standard files that are not open
     rlim_t file_size = 0;          ///< bytes that a file may have, as if the disk were full; 0: no limit
+    std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables that are set, in place of this process's
 };
 
 /// Starts the command in a child; the caller waits for it.
 inline pid_t start(const std::vector<std::string>& arguments, const std::string& input, const std::string& output,
-                   const std::string& errors, rlim_t address_space = 0, const std::vector<int>& closed = {}, rlim_t file_size = 0) {
+                   const std::string& errors, rlim_t address_space = 0, const std::vector<int>& closed = {}, rlim_t file_size = 0,
+                   const std::vector<std::pair<std::string, std::string>>& environment = {}) {
     std::string program = command();
     std::vector<std::string> words = arguments;
     std::vector<char*> pointers = {program.data()};
@@ -107,6 +110,7 @@ inline pid_t start(const std::vector<std::string>& arguments, const std::string&
     std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
     if (file_size > 0 && setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(126);
     for (const int file : closed) close(file);
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     execv(program.c_str(), pointers.data());
     _exit(127);
 }
@@ -122,7 +126,7 @@ inline Result run(const std::vector<std::string>& arguments, const How& how = {}
     const std::string out = how.output.empty() ? folder / "out" : how.output, err = folder / "err";
     const std::string input = how.input.empty() ? "/dev/null" : how.input;
     Result result;
-    result.status = wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size));
+    result.status = wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size, how.environment));
     if (how.output.empty()) result.out = read_file(out);
     result.err = read_file(err);
     return result;

@@ -1,7 +1,5 @@
 #include "catch.hpp"
 
-#include <cstdlib>
-#include <filesystem>
 #include <numeric>
 #include <thread>
 
@@ -316,17 +314,6 @@ TEST_CASE("memory made known to a device keeps what it holds, takes copies by li
     device.reset();
     moved.reset();
     CHECK(host == expected);
-}
-
-TEST_CASE("a home that cannot be written gives a temporary cache and no crash", "[.no_home]") {
-    Device device(test::compiling_device());
-    const char* folder = std::getenv("POCL_CACHE_DIR");
-    REQUIRE(folder != nullptr);
-    CHECK(std::filesystem::is_directory(folder));
-    Program program(device, "__kernel void f(__global uint* out) { out[0] = 6; }");
-    Buffer out(device, "out", sizeof(cl_uint));
-    program.kernel("f").launch(1, 1, out);
-    CHECK(out.read<cl_uint>(1)[0] == 6);
 }
 
 TEST_CASE("the first devices of a process may be asked for by many threads at once", "[.first_threads]") {

@@ -1,9 +1,8 @@
 // The device and the reference agree to the last bit: every channel of every pixel, every partition of every ray,
 // whatever the view and however small the tiles.
-#include <bit>
-
 #include <csgrt/csgrt.hpp>
 
+#include "bench/stress/families.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "pipeline/every_type.hpp"
@@ -16,27 +15,19 @@ using test::require_agreement;
 
 namespace {
 
-// What an OpenCL compiler takes for each program is most of the time here, so by default a scene has its own only if it brings two
-// types of solids or more that no program of few types had; the others share that of every type. `all`: each its own.
+/// `all`: each with its own program (FewPrograms).
 void require_scenes(bool all) {
     const auto files = test::scene_files();
     if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
-    std::uint32_t seen = 0;
-    int own = 0;
+    test::FewPrograms programs;
     for (const std::string& file : files) {
         INFO(file);
-        Scene scene = load_scene(file);
         std::vector<std::string> objects;
-        const std::uint32_t types = compile(scene).solid_types;
-        if (all || std::popcount(types & ~seen) >= 2) {
-            seen |= types;
-            ++own;
-        } else {
-            scene = test::with_every_type(std::move(scene), objects);
-        }
+        Scene scene = load_scene(file);
+        if (!all) scene = programs.of(std::move(scene), objects);
         require_agreement(scene, objects, 96, 500);
     }
-    if (!files.empty()) CHECK(own >= 2);
+    if (!files.empty() && !all) CHECK(programs.own() >= 2);
 }
 
 }  // namespace
@@ -57,4 +48,12 @@ TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a 
     } catch (const Error& error) {
         CHECK(error.status() == Status::out_of_memory);
     }
+}
+
+// Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those
+// that do.
+TEST_CASE("device and reference agree on a tree that is walked from covered leaf to covered leaf", "[agreement]") {
+    const stress::StressScene made = stress::make("deep_trees", 1);
+    REQUIRE(compile(made.scene, made.objects).has_large_terms);
+    require_agreement(made.scene, made.objects, 48, 500);
 }

@@ -2,7 +2,10 @@
 // so tests of many scenes give all of them one program; those of our own scenes have one for each set of types.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <csgrt/csgrt.hpp>
@@ -61,5 +64,24 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     scene.objects.push_back(std::move(all));
     return scene;
 }
+
+/// What an OpenCL compiler takes for each program is most of the time of a test of many scenes, so a scene has its own only
+/// if it brings two types of solids or more that no program before had; the others share that of every type.
+class FewPrograms {
+public:
+    /// `scene` itself, or with every type; then `objects` gets more (with_every_type).
+    Scene of(Scene scene, std::vector<std::string>& objects) {
+        const std::uint32_t types = compile(scene, objects).solid_types;
+        if (std::popcount(types & ~seen_) < 2) return with_every_type(std::move(scene), objects);
+        seen_ |= types;
+        ++own_;
+        return scene;
+    }
+    int own() const { return own_; }  ///< scenes that have their own
+
+private:
+    std::uint32_t seen_ = 0;
+    int own_ = 0;
+};
 
 }  // namespace csgrt::test

@@ -1,4 +1,4 @@
-#include "device/cache_folder.hpp"
+#include "cache_folder.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-namespace csgrt {
+namespace csgrt::cli {
 
 namespace {
 
@@ -48,7 +48,10 @@ fs::path& temporary_folder() {
 }  // namespace
 
 void ensure_cache_folder() {
-    if (can_write(cache_folder())) return;
+    if (const fs::path folder = cache_folder(); can_write(folder)) {
+        setenv("POCL_CACHE_DIR", folder.c_str(), 1);  // PoCL takes an empty variable for a name
+        return;
+    }
     std::error_code error;
     const fs::path parent = fs::temp_directory_path(error);
     std::string made = ((error ? fs::path("/tmp") : parent) / "csgrt-pocl-XXXXXX").string();
@@ -66,4 +69,4 @@ void ensure_cache_folder() {
 #endif
 }
 
-}  // namespace csgrt
+}  // namespace csgrt::cli

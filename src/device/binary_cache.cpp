@@ -1,0 +1,156 @@
+#include "device/binary_cache.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "device/discovery.hpp"
+#include "fnv1a.hpp"
+#include "new_file.hpp"
+
+namespace csgrt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// In every name: the folder may be one that holds the user's own files, too.
+constexpr const char* suffix = ".csgrt-binary";
+
+std::string hex(std::uint64_t number) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
+    return digits;
+}
+
+/// What stands before the binary. The first line is the version of all this: a file of another one is replaced.
+std::string head_of(const std::string& key, std::string_view binary) {
+    Fnv1a sum;
+    sum.add_text(key);
+    sum.add_text(binary);
+    return "csgrt binary 1\n" + hex(sum.state()) + hex(key.size()) + hex(binary.size()) + '\n' + key;
+}
+
+/// Empty where there is no file or one of more than `most_bytes`; what was read of one that cannot be read to its end.
+std::string content_of(const fs::path& file, std::uint64_t most_bytes) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error || size > most_bytes) return {};
+    std::string content(size, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(content.data(), static_cast<std::streamsize>(size));
+    content.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    return content;
+}
+
+struct Kept {
+    fs::file_time_type used;
+    std::uint64_t bytes;
+    fs::path file;
+};
+
+/// The cache's own files in a folder, the longest unused first.
+std::vector<Kept> files_in(const fs::path& folder) {
+    std::vector<Kept> all;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        if (entry->path().filename().string().find(suffix) == std::string::npos) continue;
+        std::error_code gone;  // another process removes files, too
+        const auto used = entry->last_write_time(gone);
+        const std::uint64_t bytes = gone ? 0 : entry->file_size(gone);
+        if (!gone) all.push_back({used, bytes, entry->path()});
+    }
+    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
+    return all;
+}
+
+fs::path folder_of(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value ? value : "";
+}
+
+}  // namespace
+
+BinaryCache::BinaryCache(fs::path folder, std::uint64_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+
+fs::path BinaryCache::file_of(const std::string& key) const {
+    Fnv1a name;
+    name.add_text(key);
+    return folder_ / (hex(name.state()) + suffix);
+}
+
+std::optional<std::string> BinaryCache::find(const std::string& key) const {
+    if (folder_.empty()) return {};
+    const fs::path file = file_of(key);
+    std::string content = content_of(file, most_bytes_);
+    const std::size_t head = head_of(key, {}).size();
+    if (content.size() <= head) return {};
+    const std::string_view binary = std::string_view(content).substr(head);
+    if (!content.starts_with(head_of(key, binary))) return {};
+    content.erase(0, head);
+    std::error_code ignored;  // where files can only be read
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+    return content;
+}
+
+void BinaryCache::keep(const std::string& key, std::string_view binary) const {
+    const std::string head = head_of(key, binary);
+    if (folder_.empty() || binary.empty() || head.size() + binary.size() > most_bytes_) return;
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) return;
+    try {
+        NewFile file(file_of(key).string());
+        file.write(head);
+        file.write(binary);
+        file.keep();
+    } catch (const Error&) {
+        return;
+    }
+    remove_oldest();
+}
+
+void BinaryCache::remove_oldest() const {
+    const std::vector<Kept> all = files_in(folder_);
+    std::uint64_t bytes = 0;
+    for (const Kept& kept : all) bytes += kept.bytes;
+    // What a process that ended badly did not finish is nobody's; what one now writes is younger.
+    const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+    for (const Kept& kept : all) {
+        const bool unfinished = !kept.file.string().ends_with(suffix);
+        if (unfinished ? kept.used > old : bytes <= most_bytes_) continue;
+        std::error_code ignored;
+        fs::remove(kept.file, ignored);
+        bytes -= kept.bytes;
+    }
+}
+
+fs::path binary_cache_folder() {
+    if (fs::path folder = folder_of("CSGRT_CACHE_DIR"); !folder.empty()) return folder;
+#ifdef _WIN32
+    const fs::path caches = folder_of("LOCALAPPDATA");
+#else
+    const fs::path home = folder_of("HOME");
+#ifdef __APPLE__
+    const fs::path caches = home.empty() ? home : home / "Library" / "Caches";
+#else
+    fs::path caches = folder_of("XDG_CACHE_HOME");
+    if (caches.empty() && !home.empty()) caches = home / ".cache";
+#endif
+#endif
+    return caches.empty() ? caches : caches / "csgrt";
+}
+
+std::optional<BinaryCache> binary_cache_for(const DeviceInfo& device) {
+    const bool keeps_its_own =
+        is_native(device) || device.platform == "Portable Computing Language" || device.platform == "NVIDIA CUDA";
+    if (keeps_its_own && !BinaryCache::for_every_driver) return {};
+    return BinaryCache(binary_cache_folder());
+}
+
+}  // namespace csgrt

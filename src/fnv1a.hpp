@@ -1,0 +1,49 @@
+// One number for many bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace csgrt {
+
+/// FNV-1a by words of 8 bytes, with the high bits of each product brought down: they would never reach the low ones.
+class Fnv1a {
+public:
+    template <class T>
+    void add(const T& value) {
+        add_bytes(&value, sizeof(T));
+        static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, std::string_view>);
+    }
+    template <class T>
+    void add_all(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add(static_cast<std::uint64_t>(values.size()));
+        add_bytes(values.data(), values.size() * sizeof(T));
+    }
+    void add_text(std::string_view text) {
+        add(static_cast<std::uint64_t>(text.size()));
+        add_bytes(text.data(), text.size());
+    }
+    std::uint64_t state() const { return state_; }
+
+private:
+    void add_bytes(const void* data, std::size_t size) {
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        for (; size > 0; bytes += 8) {
+            const std::size_t part = size < 8 ? size : 8;
+            std::uint64_t word = 0;
+            std::memcpy(&word, bytes, part);
+            state_ = (state_ ^ word) * 1099511628211u;
+            state_ ^= state_ >> 32;
+            size -= part;
+        }
+    }
+
+    std::uint64_t state_ = 14695981039346656037u;
+};
+
+}  // namespace csgrt

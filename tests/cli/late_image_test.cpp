@@ -1,0 +1,89 @@
+// The library for pictures, which the command loads while it draws.
+#include "cli/command.hpp"
+
+#include <random>
+
+#include "cli/leaves_first.hpp"
+
+using namespace command_test;
+
+#ifdef CSGRT_HAVE_IMAGE
+
+namespace {
+
+std::vector<std::string> drawing(const std::string& scene, const std::string& picture) {
+    return {scene, "--size", "16", "--reference", "-o", picture};
+}
+
+}  // namespace
+
+TEST_CASE("a command that ends while the library for pictures is loaded ends as without it") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("broken.json", "{\"csgrt\": 1,\n \"sloids\": {}}"), picture = folder / "x.png";
+    const Result expected = run({"info", scene});
+    REQUIRE(expected.status == 3);
+    for (int i = 0; i < 20; ++i) {
+        const Result result = run(drawing(scene, picture));
+        CHECK(result.status == 3);
+        CHECK(result.err == expected.err);
+    }
+    CHECK(!fs::exists(picture));
+    CHECK(run({scene, "-o", "x.bmp"}).status == 2);
+}
+
+TEST_CASE("a library for pictures that cannot be loaded is an error where the picture is written") {
+    NEEDS_COMMAND();
+    const Folder folder, libraries;
+    const std::string scene = folder.write("balls.asc", two_balls), picture = folder / "x.png";
+    const fs::path core = fs::absolute(command()).parent_path() / "libcsgrt.so.0";
+    REQUIRE(fs::exists(core));
+    fs::create_symlink(core, libraries / "libcsgrt.so.0");
+    libraries.write("libcsgrt_image.so.0", "no library");
+    How how;
+    how.environment = {{"LD_LIBRARY_PATH", libraries / ""}};
+    const Result result = run(drawing(scene, picture), how);
+    INFO(result.err);
+    CHECK(result.status == 6);
+    CHECK(contains(result.err, "cannot load the library for pictures: "));
+    CHECK(contains(result.err, "libcsgrt_image.so.0"));
+    CHECK(!fs::exists(picture));
+    CHECK(run({"info", scene}, how).status == 0);
+}
+
+TEST_CASE("the libraries that the one for pictures needs are loaded one by one") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls), log = folder / "log";
+    How how;
+    how.environment = {{"LD_DEBUG", "files"}, {"LD_DEBUG_OUTPUT", log}};
+    REQUIRE(run(drawing(scene, folder / "x.png"), how).status == 0);
+    // "file=libOpenImageIO.so.2.4 [0];  dynamically loaded by ...", not "needed by"
+    std::size_t one_by_one = 0;
+    for (const std::string& name : folder.files()) {
+        if (!name.starts_with("log")) continue;
+        std::ifstream lines(folder / name);
+        for (std::string line; std::getline(lines, line);)
+            one_by_one += contains(line, "file=libOpenImageIO") && contains(line, "dynamically loaded by");
+    }
+    CHECK(one_by_one >= 2);  // libOpenImageIO and libOpenImageIO_Util
+}
+
+#endif
+
+TEST_CASE("files that are no libraries, or broken ones, need nothing") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    csgrt::cli::load_leaves_first(folder / "none");
+    csgrt::cli::load_leaves_first(folder / "");
+    csgrt::cli::load_leaves_first(folder.write("text", "no library"));
+    const std::string whole = read_file(command());
+    REQUIRE(whole.size() > 4096);
+    std::mt19937 random(1);
+    for (int i = 0; i < 300; ++i) {
+        std::string broken = i % 2 ? whole : whole.substr(0, 1 + random() % 4096);
+        for (int change = 0; change < 8; ++change)  // of its header and table of segments
+            broken[(16 + random() % 1000) % broken.size()] = static_cast<char>(random());
+        csgrt::cli::load_leaves_first(folder.write("broken", broken));
+    }
+}
