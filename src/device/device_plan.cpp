@@ -25,8 +25,8 @@ std::vector<FoundDevice> find_gpu() {
     return gpu == devices.end() ? std::vector<FoundDevice>{} : std::vector<FoundDevice>{*gpu};
 }
 
-/// The native device that is meant, where it can be no other: the best of them comes before all other processors. Of several choices
-/// one may be a number, which counts all devices.
+/// The native device that is meant, where it can be no other: the best of them comes before all other processors. Of
+/// several choices one may be a number, which counts all devices.
 std::vector<FoundDevice> chosen_native(const Settings& settings) {
     const std::string choice = lower(settings.device);
     const bool is_one = choice == "cpu" || (choice.starts_with("native") && choice.find(',') == std::string::npos);
@@ -83,7 +83,8 @@ DevicePlan plan_chosen(const Settings& settings) {
     if (!plan.first.empty()) return plan;
     const Discovery found = find_devices();
     try {
-        plan.first = pick(found.devices, choose_devices(infos_of(found.devices), settings.device, kernels_for(settings)));
+        plan.first =
+            pick(found.devices, choose_devices(infos_of(found.devices), settings.device, kernels_for(settings)));
     } catch (const Error& error) {
         refuse_with(found.notes, error);
     }
@@ -111,8 +112,8 @@ DevicePlan plan_devices(const Settings& settings) {
 
 void prepare_devices(const Settings& settings) {
     if (!looks_for_devices(settings)) return;
-    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
-    // had, nothing is looked for before.
+    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread
+    // to be had, nothing is looked for before.
     static const std::future<void> looking = std::async([] {
         try {
             find_devices();

@@ -63,7 +63,9 @@ DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) 
     info.version = device_text(cl, id, CL_DEVICE_VERSION);
     info.driver = device_text(cl, id, CL_DRIVER_VERSION);
     const auto type = device_value<cl_device_type>(cl, id, CL_DEVICE_TYPE);
-    info.type = type & CL_DEVICE_TYPE_GPU || is_pretended(info.platform) ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
+    info.type = type & CL_DEVICE_TYPE_GPU || is_pretended(info.platform) ? "gpu"
+                : type & CL_DEVICE_TYPE_CPU                              ? "cpu"
+                                                                         : "accelerator";
     info.memory = device_value<cl_ulong>(cl, id, CL_DEVICE_GLOBAL_MEM_SIZE);
     info.max_allocation = device_value<cl_ulong>(cl, id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     info.compute_units = device_value<cl_uint>(cl, id, CL_DEVICE_MAX_COMPUTE_UNITS);

@@ -19,7 +19,8 @@ constexpr const char* pocl = "Portable Computing Language";
 
 bool has_pocl() {
     const std::vector<FoundDevice> found = find_devices().devices;
-    const bool has = std::any_of(found.begin(), found.end(), [](const FoundDevice& device) { return device.info.platform == pocl; });
+    const bool has =
+        std::any_of(found.begin(), found.end(), [](const FoundDevice& device) { return device.info.platform == pocl; });
     if (!has) WARN("no PoCL: skipped");
     return has;
 }
@@ -117,7 +118,8 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
     }
     Settings single = with_device("native");
     single.precision = Precision::single;
-    CHECK_THROWS_WITH(plan_devices(single), Catch::Matchers::Contains("the default method alone") && Catch::Matchers::Contains("--reference"));
+    CHECK_THROWS_WITH(plan_devices(single), Catch::Matchers::Contains("the default method alone") &&
+                                                Catch::Matchers::Contains("--reference"));
 }
 
 TEST_CASE("a picture without a GPU is drawn by the native device, which awaits nobody", "[device]") {
