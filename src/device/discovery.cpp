@@ -1,6 +1,7 @@
 #include "device/discovery.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <mutex>
 
@@ -47,6 +48,7 @@ struct Pretence {
     std::string platform;
     bool are_broken = false;
 };
+std::atomic<bool> is_native_hidden{false};
 std::mutex pretence_mutex;
 Pretence pretence;
 
@@ -135,7 +137,7 @@ bool has_render_node(const std::filesystem::path& folder) {
 
 std::vector<FoundDevice> find_native_devices() {
     Discovery native;
-    add_devices(native::functions(), native);
+    if (!is_native_hidden) add_devices(native::functions(), native);
     return std::move(native.devices);
 }
 
@@ -177,6 +179,9 @@ PretendedGpu::~PretendedGpu() {
     const std::lock_guard lock(pretence_mutex);
     pretence = {};
 }
+
+HiddenNative::HiddenNative() { is_native_hidden = true; }
+HiddenNative::~HiddenNative() { is_native_hidden = false; }
 
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
 

@@ -48,4 +48,13 @@ bool is_native(const DeviceInfo& device);
 /// What there is to know of each.
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices);
 
+/// For tests where there are native devices: until this is gone, there are none. One at a time.
+class HiddenNative {
+public:
+    HiddenNative();
+    ~HiddenNative();
+    HiddenNative(const HiddenNative&) = delete;
+    HiddenNative& operator=(const HiddenNative&) = delete;
+};
+
 }  // namespace csgrt

@@ -9,6 +9,8 @@
 
 #include "catch.hpp"
 #include "cli/command.hpp"
+#include "device/choice.hpp"
+#include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
 
 using namespace csgrt;
@@ -120,6 +122,47 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
     single.precision = Precision::single;
     CHECK_THROWS_WITH(plan_devices(single), Catch::Matchers::Contains("the default method alone") &&
                                                 Catch::Matchers::Contains("--reference"));
+}
+
+TEST_CASE("without native devices OpenCL draws by default, and the reference where there is none", "[device]") {
+    const HiddenNative hidden;
+    CHECK(find_native_devices().empty());
+    const Discovery found = find_devices();
+    const DevicePlan plan = plan_devices({});
+    CHECK(plan.is_default);
+    CHECK(!plan.find_next);
+    if (found.devices.empty()) {
+        CHECK(plan.first.empty());
+        CHECK(plan.notes.back() == "there is no OpenCL device with double precision");
+    } else {
+        CHECK(plan.first.at(0).info.name == found.devices[choose_device(infos_of(found.devices), "")].info.name);
+    }
+}
+
+TEST_CASE("without any device the reference draws, and says so", "[.no_driver]") {
+    const HiddenNative hidden;
+    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    View view{.width = 24, .height = 16, .camera = scene.camera};
+    Renderer renderer(scene);
+    CHECK(renderer.statistics().device == "reference");
+    const Image image = renderer.render(view);
+    REQUIRE(!renderer.warnings().empty());
+    const std::string told = renderer.warnings().back().reason;
+    CHECK(told.starts_with("no device draws but the CPU reference"));
+    CHECK(told.ends_with("there is no OpenCL device with double precision"));
+    CHECK(image.attributes.count("csgrt:warnings") == (renderer.warnings().size() > 1));
+    Renderer reference(scene, {}, {.reference = true});
+    test::require_same(image, reference.render(view));
+    CHECK(reference.warnings().size() + 1 == renderer.warnings().size());
+
+    Settings settings;
+    for (const char* choice : {"native", "pocl", "0", "gpu"}) {
+        settings.device = choice;
+        CHECK_THROWS_AS(Renderer(scene, {}, settings), Error);
+    }
+    settings = {};
+    settings.precision = Precision::single;
+    CHECK_THROWS_WITH(Renderer(scene, {}, settings), Catch::Matchers::Contains("pocl-opencl-icd"));
 }
 
 TEST_CASE("a picture without a GPU is drawn by the native device, which awaits nobody", "[device]") {
