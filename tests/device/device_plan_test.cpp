@@ -142,7 +142,7 @@ TEST_CASE("without native devices OpenCL draws by default, and the reference whe
 TEST_CASE("without any device the reference draws, and says so", "[.no_driver]") {
     const HiddenNative hidden;
     const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
-    View view{.width = 24, .height = 16, .camera = scene.camera};
+    const View view{.width = 24, .height = 16, .camera = scene.camera};
     Renderer renderer(scene);
     CHECK(renderer.statistics().device == "reference");
     const Image image = renderer.render(view);
@@ -151,11 +151,13 @@ TEST_CASE("without any device the reference draws, and says so", "[.no_driver]")
     CHECK(told.starts_with("no device draws but the CPU reference"));
     CHECK(told.ends_with("there is no OpenCL device with double precision"));
     CHECK(image.attributes.count("csgrt:warnings") == (renderer.warnings().size() > 1));
-    Renderer reference(scene, {}, {.reference = true});
+    Settings settings;
+    settings.reference = true;
+    Renderer reference(scene, {}, settings);
     test::require_same(image, reference.render(view));
     CHECK(reference.warnings().size() + 1 == renderer.warnings().size());
 
-    Settings settings;
+    settings = {};
     for (const char* choice : {"native", "pocl", "0", "gpu"}) {
         settings.device = choice;
         CHECK_THROWS_AS(Renderer(scene, {}, settings), Error);
