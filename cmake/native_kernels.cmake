@@ -79,7 +79,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             -fvisibility=hidden -fno-math-errno -ffp-contract=off
             -include ${resources}/include/opencl-c-base.h -D__OPENCL_VERSION__=120 -DCSGRT_LDEXP="${native_ldexp}"
             -include ${PROJECT_SOURCE_DIR}/src/device/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
-            -DCSGRT_REAL=double -DCSGRT_SOLIDS=131071u -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
+            -DCSGRT_REAL=double "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
         if(CSGRT_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")  # to step through them: docs/native.md
             list(APPEND options -O1 -g)

@@ -144,7 +144,8 @@ struct Renderer::Impl {
     void set_up_devices();
     void use_reference();
     Pipelines& drawer(bool every_partition);
-    void draw(const PreparedFrame& prepared, Pipelines& pipelines, const std::vector<ChannelPlane>& planes, Framebuffer& framebuffer);
+    void draw(const PreparedFrame& prepared, Pipelines& pipelines, const std::vector<ChannelPlane>& planes,
+              Framebuffer& framebuffer);
 
     void start_call(std::uint64_t rays, int width, int height) {
         Statistics fresh;
@@ -247,7 +248,8 @@ void Renderer::Impl::set_up_devices() {
             notes.push_back(what.substr(0, what.find('\n')));
         }
     }
-    std::string why = "no device draws but the CPU reference, which is slow: csgrt has no kernels of its own for this processor";
+    std::string why =
+        "no device draws but the CPU reference, which is slow: csgrt has no kernels of its own for this processor";
     for (const std::string& note : notes) why += "; " + note;
     warnings.push_back({.object = {}, .place = {}, .reason = why});
     use_reference();
@@ -258,7 +260,8 @@ Pipelines& Renderer::Impl::drawer(bool every_partition) {
     const auto start = Clock::now();
     Pipelines& pipelines = takeover->drawer(every_partition);
     built_in_call_ms += milliseconds_since(start);
-    if (auto fault = takeover->take_fault()) warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
+    if (auto fault = takeover->take_fault())
+        warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
     statistics.device = pipelines.name();
     return pipelines;
 }
@@ -285,8 +288,8 @@ void Renderer::Impl::draw(const PreparedFrame& prepared, Pipelines& pipelines, c
     const double built_ms = pipelines.build_ms();
     PipelineCounts counts;
     try {
-        pipelines.render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()}, settings.progress,
-                         counts);
+        pipelines.render(prepared, {.planes = planes, .drawn = framebuffer.drawn_, .known = framebuffer.known_.get()},
+                         settings.progress, counts);
     } catch (...) {  // pixels may be missing that were said to be there
         std::fill(framebuffer.drawn_.begin(), framebuffer.drawn_.end(), std::uint8_t{1});
         throw;

@@ -32,11 +32,12 @@ CSGRT_API std::vector<DeviceInfo> devices(std::vector<std::string>* notes = null
 
 struct Settings {
     bool reference = false;       ///< the CPU reference in place of a device
-    /// "" (a GPU if there is one, else a native device, else any, else the reference, with a warning), "cpu", "gpu", a number, or
-    /// part of a name; several share the work of a call: "gpus", all there are, or such choices with commas between them, "0,1".
+    /// "" (a GPU if there is one, else a native device, else any, else the reference, with a warning), "cpu", "gpu", a
+    /// number, or part of a name; several share the work of a call: "gpus", all there are, or such choices with commas
+    /// between them, "0,1".
     std::string device;
-    /// Where a GPU is meant, a native device draws the same bits until the GPU's driver has compiled the kernels, which takes up to
-    /// half a minute. True: calls wait for the GPU instead, as figures of it need.
+    /// Where a GPU is meant, a native device draws the same bits until the GPU's driver has compiled the kernels, which
+    /// takes up to half a minute. True: calls wait for the GPU instead, as figures of it need.
     bool wait_for_device = false;
     std::uint64_t max_memory = 0; ///< bytes of device memory; 0: what the device can give
     Precision precision = Precision::double_;
@@ -51,10 +52,10 @@ struct Settings {
     std::function<bool(double)> progress;
 };
 
-/// Begins to look for the devices that a Renderer with such settings will need, on a thread of its own, once in a process; later
-/// calls do nothing, nor does one where no driver need be loaded: the reference, native devices, and the default choice on a machine
-/// without a GPU. A driver takes some 30 ms to start: called before a scene is loaded, this spares its Renderer the wait. Renderer
-/// calls it before it compiles.
+/// Begins to look for the devices that a Renderer with such settings will need, on a thread of its own, once in a
+/// process; later calls do nothing, nor does one where no driver need be loaded: the reference, native devices, and the
+/// default choice on a machine without a GPU. A driver takes some 30 ms to start: called before a scene is loaded, this
+/// spares its Renderer the wait. Renderer calls it before it compiles.
 CSGRT_API void prepare_devices(const Settings& settings = {});
 
 /// Groups of a picture's channels.
@@ -117,8 +118,8 @@ struct SolidInfo {
 /// Segments and partitions are not counted where only first hits were wanted, but for rays that needed the exact way.
 struct Statistics {
     std::string device;  ///< who drew
-    /// Made ready now, when Renderer::statistics() is called, to take over from it: a name; "gpu" as long as none is found; empty:
-    /// nobody.
+    /// Made ready now, when Renderer::statistics() is called, to take over from it: a name; "gpu" as long as none is
+    /// found; empty: nobody.
     std::string awaited_device;
     std::string precision, method;
     std::string quartic;   ///< as in quartic_names
@@ -171,17 +172,18 @@ private:
     std::shared_ptr<KnownPicture> known_;  ///< to its devices; must not outlast the image
 };
 
-/// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time. A GPU is made ready on a
-/// thread of the Renderer's own while a native device draws (Settings::wait_for_device), and takes over between two calls.
+/// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time. A GPU is made
+/// ready on a thread of the Renderer's own while a native device draws (Settings::wait_for_device), and takes over
+/// between two calls.
 class CSGRT_API Renderer {
 public:
-    /// Validates, compiles and uploads `objects` of `scene` (empty: its top objects): names, or paths like "all.g/tor.r",
-    /// which give an object the place and the attributes that it has there.
-    /// Throws Error: scene, no_device, out_of_memory, device_fault. A GPU that was asked for and fails as it is made ready is told of
-    /// by the next call (device_fault, out_of_memory); one that nobody asked for, by a warning.
+    /// Validates, compiles and uploads `objects` of `scene` (empty: its top objects): names, or paths like
+    /// "all.g/tor.r", which give an object the place and the attributes that it has there. Throws Error: scene,
+    /// no_device, out_of_memory, device_fault. A GPU that was asked for and fails as it is made ready is told of by the
+    /// next call (device_fault, out_of_memory); one that nobody asked for, by a warning.
     explicit Renderer(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
-    /// Waits for kernels that a driver is compiling, since no driver can be stopped: up to half a minute, once for a driver that keeps
-    /// them. Statistics::awaited_device tells whether it would.
+    /// Waits for kernels that a driver is compiling, since no driver can be stopped: up to half a minute, once for a
+    /// driver that keeps them. Statistics::awaited_device tells whether it would.
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
@@ -203,8 +205,8 @@ public:
     const std::vector<SolidInfo>& solids() const;
     const Statistics& statistics() const;
     /// What the scene's reader bore, what was left out and what else is worth telling: air regions, open meshes, ...
-    /// Each object and reason once. The first of them stand in a picture's attribute csgrt:warnings. Then, of devices: that the
-    /// reference draws for want of one, or that a GPU cannot be used, which a call may add.
+    /// Each object and reason once. The first of them stand in a picture's attribute csgrt:warnings. Then, of devices:
+    /// that the reference draws for want of one, or that a GPU cannot be used, which a call may add.
     const std::vector<Warning>& warnings() const;
 
 private:

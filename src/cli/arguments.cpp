@@ -42,10 +42,11 @@ void define_scene(Options& options, SceneArguments& arguments) {
 
 /// Returns the option of the reference's threads.
 Option& define_settings(Options& options, Settings& settings) {
-    auto& device =
-        options.text("--device", "NAME|cpu|gpu|N|gpus",
-                     "device: part of its name, its type, or its number in 'csgrt devices'; several, with commas, or all "
-                     "'gpus' share the work; not given: a GPU if there is one, else this processor", settings.device);
+    auto& device = options.text(
+        "--device", "NAME|cpu|gpu|N|gpus",
+        "device: part of its name, its type, or its number in 'csgrt devices'; several, with commas, or all "
+        "'gpus' share the work; not given: a GPU if there is one, else this processor",
+        settings.device);
     device.excludes = "--reference";
     options.flag("--reference", "compute with the CPU reference in place of a device", settings.reference);
     auto& threads =
@@ -84,9 +85,10 @@ void define_either(Options& options, Settings& settings) {
         "--contraction", "whether the device may round a product and a sum as one; results then differ; off if not given",
         settings.contraction, on_off);
     contraction.excludes = "--reference";
-    auto& wait = options.flag("--wait-for-device",
-                              "wait until a GPU has compiled its kernels; not given, the processor draws until then, with the same bits",
-                              settings.wait_for_device);
+    auto& wait = options.flag(
+        "--wait-for-device",
+        "wait until a GPU has compiled its kernels; not given, the processor draws until then, with the same bits",
+        settings.wait_for_device);
     wait.excludes = "--reference";
 }
 
@@ -142,8 +144,9 @@ void define(Options& options, RenderArguments& arguments) {
     define_either(options, arguments.settings);
     options.text("--stats", "FILE",
                  "write the figures of the frame as JSON, times in milliseconds; - is standard output", arguments.stats);
-    options.count("--repeat", "render N frames; the figures are medians without the first (of a GPU: with --wait-for-device)", arguments.repeat, 1,
-                  1'000'000);
+    options.count("--repeat",
+                  "render N frames; the figures are medians without the first (of a GPU: with --wait-for-device)",
+                  arguments.repeat, 1, 1'000'000);
 }
 
 void define(Options& options, ShootArguments& arguments) {
@@ -272,9 +275,9 @@ something does.
 )";
 
 constexpr const char* devices_notes = R"(
-A line begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices have
-the kernels of the default method alone, compiled ahead; others compile theirs when they are first
-wanted. A note tells of a driver that cannot be used.
+A line begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices
+have the kernels of the default method alone, compiled ahead; others compile theirs when they are
+first wanted. A note tells of a driver that cannot be used.
 )";
 
 constexpr const char* info_notes = R"(

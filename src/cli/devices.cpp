@@ -24,7 +24,8 @@ Status run(const DevicesArguments&) {
     std::vector<std::string> notes;
     const std::vector<DeviceInfo> found = devices(&notes);
     if (found.empty()) {
-        std::string advice = "install an OpenCL driver; pocl-opencl-icd makes a device of the CPU, and --reference needs none";
+        std::string advice =
+            "install an OpenCL driver; pocl-opencl-icd makes a device of the CPU, and --reference needs none";
         for (const std::string& note : notes) advice += "\n" + note;
         throw Error(Status::no_device, {Diagnostic{{}, "no device", advice, {}}});
     }
@@ -32,8 +33,8 @@ Status run(const DevicesArguments&) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         const DeviceInfo& device = found[i];
         const bool is_native = device.platform == "csgrt";
-        text += std::to_string(i) + "  " + device.type + "  " + device.name + "\n     " + device.platform + ", " + device.version +
-                (is_native ? "" : ", driver " + device.driver) + "\n";
+        text += std::to_string(i) + "  " + device.type + "  " + device.name + "\n     " + device.platform + ", " +
+                device.version + (is_native ? "" : ", driver " + device.driver) + "\n";
         text += "     " + gibibytes(device.memory) + " of memory, " + gibibytes(device.max_allocation) +
                 " in one piece, " + std::to_string(device.compute_units) + " compute units, " +
                 (device.fp64 ? "double precision" : "NO double precision: csgrt cannot use it") + "\n";

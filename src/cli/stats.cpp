@@ -62,8 +62,9 @@ std::string to_json(const Statistics& s) {
     auto text = [](const char* name, const std::string& value) {
         return std::string("  \"") + name + "\": " + json_text(value) + ",\n";
     };
-    std::string out = "{\n" + text("device", s.device) + text("awaited_device", s.awaited_device) + text("precision", s.precision) + text("method", s.method) +
-                      text("quartic", s.quartic) + "  \"tolerance\": " + shortest(s.tolerance) +
+    std::string out = "{\n" + text("device", s.device) + text("awaited_device", s.awaited_device) +
+                      text("precision", s.precision) + text("method", s.method) + text("quartic", s.quartic) +
+                      "  \"tolerance\": " + shortest(s.tolerance) +
                       ",\n  \"contraction\": " + (s.contraction ? "true" : "false") + ",\n";
     out += "  \"size\": [" + std::to_string(s.width) + ", " + std::to_string(s.height) + "],\n";
     out += count("rays", s.rays) + count("hits", s.hits) + count("segments", s.segments);

@@ -29,6 +29,7 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
                 if (word.size() > 2) known.push_back(word);
         }
     }
+    if (std::find(known.begin(), known.end(), lower(wanted)) != known.end()) return {};  // known, and not there
     return did_you_mean(wanted, {known.begin(), known.end()});
 }
 
@@ -54,16 +55,19 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
 
 /// Of a method that native devices have no kernels for.
 [[noreturn]] void refuse_native(const std::vector<DeviceInfo>& devices) {
-    refuse(devices, "native devices have the kernels of the default method alone: double precision, bracketed quartics, no contraction",
+    refuse(devices,
+           "native devices have the kernels of the default method alone: double precision, bracketed quartics, no "
+           "contraction",
            {},
-           "An OpenCL device has those of every method: on Debian and Ubuntu the package pocl-opencl-icd brings one that runs on the "
-           "processor. The CPU reference (--reference) has all but contraction.");
+           "An OpenCL device has those of every method: on Debian and Ubuntu the package pocl-opencl-icd brings one "
+           "that runs on the processor. The CPU reference (--reference) has all but contraction.");
 }
 
 }  // namespace
 
 Kernels kernels_for(const Settings& settings) {
-    const bool is_default = settings.precision == Precision::double_ && settings.quartic == Quartic::bracketed && !settings.contraction;
+    const bool is_default =
+        settings.precision == Precision::double_ && settings.quartic == Quartic::bracketed && !settings.contraction;
     return is_default ? Kernels::any : Kernels::compiled_by_device;
 }
 

@@ -25,10 +25,12 @@ std::vector<FoundDevice> find_gpu() {
     return gpu == devices.end() ? std::vector<FoundDevice>{} : std::vector<FoundDevice>{*gpu};
 }
 
-/// The native devices that are meant, where no other one can be: the best of them comes before all other processors.
+/// The native device that is meant, where it can be no other: the best of them comes before all other processors. Of
+/// several choices one may be a number, which counts all devices.
 std::vector<FoundDevice> chosen_native(const Settings& settings) {
-    const bool by_name = lower(settings.device).starts_with("native");
-    if (kernels_for(settings) != Kernels::any || (!by_name && lower(settings.device) != "cpu")) return {};
+    const std::string choice = lower(settings.device);
+    const bool is_one = choice == "cpu" || (choice.starts_with("native") && choice.find(',') == std::string::npos);
+    if (!is_one || kernels_for(settings) != Kernels::any) return {};
     const std::vector<FoundDevice> native = find_native_devices();
     if (native.empty()) return {};
     try {
@@ -67,13 +69,25 @@ DevicePlan plan_default(const Settings& settings) {
     return plan;
 }
 
+/// The error with what is known of drivers that cannot be used: one of theirs may be what was meant.
+[[noreturn]] void refuse_with(const std::vector<std::string>& notes, const Error& error) {
+    std::vector<Diagnostic> findings = error.diagnostics();
+    for (const std::string& note : notes) findings.back().suggestion += "\n" + note;
+    throw Error(error.status(), std::move(findings));
+}
+
 DevicePlan plan_chosen(const Settings& settings) {
     DevicePlan plan;
     plan.is_default = false;
     plan.first = chosen_native(settings);
     if (!plan.first.empty()) return plan;
-    const std::vector<FoundDevice> found = find_devices().devices;
-    plan.first = pick(found, choose_devices(infos_of(found), settings.device, kernels_for(settings)));
+    const Discovery found = find_devices();
+    try {
+        plan.first =
+            pick(found.devices, choose_devices(infos_of(found.devices), settings.device, kernels_for(settings)));
+    } catch (const Error& error) {
+        refuse_with(found.notes, error);
+    }
     std::vector<FoundDevice> native = native_by_default(settings);
     const bool are_processors = std::all_of(plan.first.begin(), plan.first.end(), is_processor);
     if (settings.wait_for_device || are_processors || native.empty()) return plan;
@@ -98,8 +112,13 @@ DevicePlan plan_devices(const Settings& settings) {
 
 void prepare_devices(const Settings& settings) {
     if (!looks_for_devices(settings)) return;
+<<<<<<< HEAD
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
     // had, nothing is looked for before.
+=======
+    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread
+    // to be had, nothing is looked for before.
+>>>>>>> h-takeover2
     static const std::future<void> looking = std::async([] {
         try {
             find_devices();

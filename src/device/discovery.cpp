@@ -1,6 +1,7 @@
 #include "device/discovery.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <mutex>
 
@@ -47,6 +48,7 @@ struct Pretence {
     std::string platform;
     bool are_broken = false;
 };
+std::atomic<bool> is_native_hidden{false};
 std::mutex pretence_mutex;
 Pretence pretence;
 
@@ -63,7 +65,9 @@ DeviceInfo describe(const OpenCl& cl, cl_platform_id platform, cl_device_id id) 
     info.version = device_text(cl, id, CL_DEVICE_VERSION);
     info.driver = device_text(cl, id, CL_DRIVER_VERSION);
     const auto type = device_value<cl_device_type>(cl, id, CL_DEVICE_TYPE);
-    info.type = type & CL_DEVICE_TYPE_GPU || is_pretended(info.platform) ? "gpu" : type & CL_DEVICE_TYPE_CPU ? "cpu" : "accelerator";
+    info.type = type & CL_DEVICE_TYPE_GPU || is_pretended(info.platform) ? "gpu"
+                : type & CL_DEVICE_TYPE_CPU                              ? "cpu"
+                                                                         : "accelerator";
     info.memory = device_value<cl_ulong>(cl, id, CL_DEVICE_GLOBAL_MEM_SIZE);
     info.max_allocation = device_value<cl_ulong>(cl, id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     info.compute_units = device_value<cl_uint>(cl, id, CL_DEVICE_MAX_COMPUTE_UNITS);
@@ -133,7 +137,7 @@ bool has_render_node(const std::filesystem::path& folder) {
 
 std::vector<FoundDevice> find_native_devices() {
     Discovery native;
-    add_devices(native::functions(), native);
+    if (!is_native_hidden) add_devices(native::functions(), native);
     return std::move(native.devices);
 }
 
@@ -175,6 +179,9 @@ PretendedGpu::~PretendedGpu() {
     const std::lock_guard lock(pretence_mutex);
     pretence = {};
 }
+
+HiddenNative::HiddenNative() { is_native_hidden = true; }
+HiddenNative::~HiddenNative() { is_native_hidden = false; }
 
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
 

@@ -24,16 +24,21 @@ struct Discovery {
 /// Every device of every platform, and the native ones: the best of them before all other processors. Any thread.
 Discovery find_devices();
 
-/// The native ones alone, the best first, for which no driver is loaded. Empty if this processor can run none, or csgrt was built
-/// without their kernels. Any thread.
+/// The native ones alone, the best first, for which no driver is loaded. Empty if this processor can run none, or csgrt
+/// was built without their kernels. Any thread.
 std::vector<FoundDevice> find_native_devices();
 
-/// Whether it is worth it to load drivers in search of a GPU. `folder` is where the system has its devices: on Linux a driver reaches
-/// a GPU through a file there; elsewhere that is not known, and the answer is yes. Any thread.
+/// Whether it is worth it to load drivers in search of a GPU. `folder` is where the system has its devices: on Linux a
+/// driver reaches a GPU through a file there; elsewhere that is not known, and the answer is yes. Any thread.
 bool may_have_gpu(const std::string& folder = "/dev");
 
+<<<<<<< HEAD
 /// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs, of which none can be used if
 /// they are broken. One at a time.
+=======
+/// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs, of which none can
+/// be used if they are broken. One at a time.
+>>>>>>> h-takeover2
 class PretendedGpu {
 public:
     explicit PretendedGpu(std::string platform, bool are_broken = false);
@@ -47,5 +52,14 @@ bool is_native(const DeviceInfo& device);
 
 /// What there is to know of each.
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices);
+
+/// For tests where there are native devices: until this is gone, there are none. One at a time.
+class HiddenNative {
+public:
+    HiddenNative();
+    ~HiddenNative();
+    HiddenNative(const HiddenNative&) = delete;
+    HiddenNative& operator=(const HiddenNative&) = delete;
+};
 
 }  // namespace csgrt

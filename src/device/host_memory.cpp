@@ -5,11 +5,15 @@
 #include <limits>
 #include <string>
 
+<<<<<<< HEAD
 #if defined(_WIN32)
 #include <windows.h>
 #elif defined(__APPLE__)
 #include <sys/sysctl.h>
 #endif
+=======
+#include <unistd.h>
+>>>>>>> h-takeover2
 
 namespace csgrt {
 
@@ -80,7 +84,12 @@ std::uint64_t available_host_memory() {
 
 std::uint64_t host_memory() {
     const std::uint64_t bytes = of_system("MemTotal:");
-    return bytes == unknown ? 0 : bytes;
+    if (bytes != unknown) return bytes;
+#ifdef _SC_PHYS_PAGES
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);  // /proc is not everywhere
+    if (pages > 0 && page > 0) return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
+#endif
+    return 0;
 }
 
 #endif

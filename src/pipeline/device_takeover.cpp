@@ -21,8 +21,8 @@ DeviceTakeover::~DeviceTakeover() {
     if (job_.valid()) job_.wait();
 }
 
-/// The job: from devices that are to be found on, or to more kernels of those that there are. First hits of a few rays go the exact
-/// way, whose kernels no frame waits for either.
+/// The job: from devices that are to be found on, or to more kernels of those that there are. First hits of a few rays
+/// go the exact way, whose kernels no frame waits for either.
 DeviceTakeover::Made DeviceTakeover::work(Made made) {
     if (is_left_) return made;  // without a thread this is run by who waits for it
     if (!made.pipelines) {
@@ -109,7 +109,8 @@ std::optional<std::string> DeviceTakeover::take_fault() {
         std::rethrow_exception(fault_);
     } catch (const std::exception& error) {
         const std::string why = error.what();
-        return "the GPU cannot be used, the processor draws: " + why.substr(0, why.find('\n'));  // not all that a compiler said
+        const std::string first_line = why.substr(0, why.find('\n'));  // a compiler says hundreds
+        return "the GPU cannot be used, the processor draws: " + first_line;
     }
 }
 

@@ -1,6 +1,6 @@
-// Who draws: at once the devices that need no compiler, and others as soon as they are ready. These are found, set up and given
-// their kernels by a job on a thread, which has them to itself meanwhile; a call takes them over between two frames. Either draws
-// the same bits.
+// Who draws: at once the devices that need no compiler, and others as soon as they are ready. These are found, set up
+// and given their kernels by a job on a thread, which has them to itself meanwhile; a call takes them over between two
+// frames. Either draws the same bits.
 //
 //     first:   frame   frame   frame   frame
 //     job:     find, set up, compile ........|
@@ -29,17 +29,17 @@ public:
     /// Sets devices up; the job calls it too.
     using SetUp = std::function<std::unique_ptr<Pipelines>(const std::vector<FoundDevice>&)>;
 
-    /// Sets the plan's first devices up and begins to look for the next. `waits`: these draw from the first call on, if there are
-    /// any. Throws Error (out_of_memory, device_fault).
+    /// Sets the plan's first devices up and begins to look for the next. `waits`: these draw from the first call on, if
+    /// there are any. Throws Error (out_of_memory, device_fault).
     DeviceTakeover(DevicePlan plan, SetUp set_up, bool waits);
     DeviceTakeover(const DeviceTakeover&) = delete;
     DeviceTakeover& operator=(const DeviceTakeover&) = delete;
     /// Waits for what the job is about, at most until one mode's kernels are compiled.
     ~DeviceTakeover();
 
-    /// Who draws such a call, every partition or first hits, with its kernels compiled. Valid until the next call. Next devices that
-    /// lack the mode's kernels get them from the job, and the first ones draw meanwhile. Throws what kept named devices from
-    /// becoming ready, at this call and all later ones.
+    /// Who draws such a call, every partition or first hits, with its kernels compiled. Valid until the next call. Next
+    /// devices that lack the mode's kernels get them from the job, and the first ones draw meanwhile. Throws what kept
+    /// named devices from becoming ready, at this call and all later ones.
     Pipelines& drawer(bool every_partition);
     /// Who would draw, were there a call now that all kernels are compiled for.
     const Pipelines& present() const { return next_ ? *next_ : *first_; }

@@ -19,8 +19,8 @@ using Progress = std::function<bool(double)>;
 class Pipelines {
 public:
     /// On these devices; `settings` do not say which. The scene and the kernels must outlive this.
-    Pipelines(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-              Readback readback = Readback::by_device);
+    Pipelines(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
+              const Settings& settings, Readback readback = Readback::by_device);
 
     /// No two in a process have the same, which is not 0.
     std::uint64_t number() const noexcept { return number_; }

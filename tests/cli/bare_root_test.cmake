@@ -1,6 +1,7 @@
-# The command starts and draws where there is nothing but it: a root folder with the command, the libraries that the system's loader
-# says it needs, and a scene. No OpenCL loader, no driver, no home.
-# cmake -DCOMMAND=<csgrt> -DLIBRARY=<libcsgrt.so> -DSCENE=<file> -DWORK=<folder> -DHAS_NATIVE=<bool> -P bare_root_test.cmake
+# The command starts and draws where there is nothing but it: a root folder with the command, the libraries that the
+# system's loader says it needs, and a scene. No OpenCL loader, no driver, no home.
+# cmake -DCOMMAND=<csgrt> -DLIBRARY=<libcsgrt.so> -DSCENE=<file> -DWORK=<folder> -DHAS_NATIVE=<bool>
+#       -P bare_root_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE ${WORK})
@@ -38,11 +39,13 @@ if(NOT into_root)
 endif()
 
 execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=HOME --unset=XDG_CACHE_HOME
-    ${into_root} ${WORK} /csgrt /scene.json --size 64 --stats - RESULT_VARIABLE status OUTPUT_VARIABLE figures ERROR_VARIABLE said)
+    ${into_root} ${WORK} /csgrt /scene.json --size 64 --stats -
+    RESULT_VARIABLE status OUTPUT_VARIABLE figures ERROR_VARIABLE said)
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "it does not draw (${status}): ${said}")
 endif()
-file(STRINGS /proc/cpuinfo levels REGEX "avx2|asimd" LIMIT_COUNT 1)  # older processors have the reference, as have builds without clang
+# Older processors have the reference, as have builds without clang.
+file(STRINGS /proc/cpuinfo levels REGEX "avx2|asimd" LIMIT_COUNT 1)
 if(HAS_NATIVE AND levels)
     set(expected "\"device\": \"native-")
 else()
@@ -58,8 +61,19 @@ string(REGEX MATCH "\"hits\": [0-9]+" hits "${figures}")
 if(NOT hits MATCHES "[1-9]")
     message(FATAL_ERROR "nothing was drawn:\n${figures}")
 endif()
-execute_process(COMMAND ${into_root} ${WORK} /csgrt /scene.json --precision single --size 64 --stats - RESULT_VARIABLE status
-    OUTPUT_QUIET ERROR_VARIABLE said)
+
+# It has not even looked for one, since no driver could reach a GPU: the system's loader tells what it looked for.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_DEBUG=files
+    ${into_root} ${WORK} /csgrt /scene.json --size 64 --stats -
+    RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
+if(NOT said MATCHES "libcsgrt")
+    message(FATAL_ERROR "the loader does not tell what it loads: ${said}")
+elseif(HAS_NATIVE AND levels AND said MATCHES "OpenCL")
+    message(FATAL_ERROR "a picture without a GPU looks for OpenCL")
+endif()
+
+execute_process(COMMAND ${into_root} ${WORK} /csgrt /scene.json --precision single --size 64 --stats -
+    RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE said)
 if(NOT status EQUAL 4 OR NOT said MATCHES "pocl-opencl-icd")
     message(FATAL_ERROR "single precision without OpenCL should be refused, with advice (${status}): ${said}")
 endif()

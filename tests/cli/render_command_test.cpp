@@ -39,7 +39,8 @@ TEST_CASE("--stats holds the promised keys in their order") {
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
     const std::vector<std::string> expected = {
-        "device",         "precision", "method",    "quartic",  "tolerance",    "contraction",     "size",     "rays",         "hits",          "segments",
+        "device",         "awaited_device", "precision", "method",   "quartic",      "tolerance",     "contraction",
+        "size",           "rays",      "hits",      "segments",
         "partitions",     "used",      "allocated", "overlaps", "device_bytes", "segment_bytes", "partition_bytes",
         "tiles",          "ms",        "load",      "compile",  "build",        "count_hits",    "scan",
         "store_segments", "weave",     "evaluate",  "shade", "cull_blocks", "first_hits",    "frame",        "write"};

@@ -306,6 +306,7 @@ TEST_CASE("pictures and partitions of programs from the cache have the bits of t
     const Scene scene = load_scene(scenes + "/operators.json");
     Settings settings;
     settings.device = test::compiling_device();
+    settings.wait_for_device = true;
     View view;
     view.width = view.height = 48;
     Image pictures[2];

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include <dlfcn.h>
-
 #include <csgrt/scene_io.hpp>
 
 #include "catch.hpp"
 #include "cli/command.hpp"
+#include "device/choice.hpp"
+#include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
 
 using namespace csgrt;
@@ -21,7 +21,8 @@ constexpr const char* pocl = "Portable Computing Language";
 
 bool has_pocl() {
     const std::vector<FoundDevice> found = find_devices().devices;
-    const bool has = std::any_of(found.begin(), found.end(), [](const FoundDevice& device) { return device.info.platform == pocl; });
+    const bool has =
+        std::any_of(found.begin(), found.end(), [](const FoundDevice& device) { return device.info.platform == pocl; });
     if (!has) WARN("no PoCL: skipped");
     return has;
 }
@@ -82,7 +83,7 @@ TEST_CASE("where a GPU may be the native device draws until one is found", "[dev
     const std::vector<FoundDevice> next = plan_devices({}).find_next();
     REQUIRE(next.size() == 1);
     CHECK(next[0].info.platform == pocl);
-    for (const char* choice : {"gpu", "gpus", "pocl", "native,gpu"}) {
+    for (const char* choice : {"gpu", "gpus", "pocl", "native,gpu", "native,0"}) {
         INFO(choice);
         Settings settings = with_device(choice);
         const DevicePlan plan = plan_devices(settings);
@@ -119,12 +120,55 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
     }
     Settings single = with_device("native");
     single.precision = Precision::single;
-    CHECK_THROWS_WITH(plan_devices(single), Catch::Matchers::Contains("the default method alone") && Catch::Matchers::Contains("--reference"));
+    CHECK_THROWS_WITH(plan_devices(single), Catch::Matchers::Contains("the default method alone") &&
+                                                Catch::Matchers::Contains("--reference"));
 }
 
-TEST_CASE("a picture without a GPU loads no OpenCL", "[.no_search]") {
+TEST_CASE("without native devices OpenCL draws by default, and the reference where there is none", "[device]") {
+    const HiddenNative hidden;
+    CHECK(find_native_devices().empty());
+    const Discovery found = find_devices();
+    const DevicePlan plan = plan_devices({});
+    CHECK(plan.is_default);
+    CHECK(!plan.find_next);
+    if (found.devices.empty()) {
+        CHECK(plan.first.empty());
+        CHECK(plan.notes.back() == "there is no OpenCL device with double precision");
+    } else {
+        CHECK(plan.first.at(0).info.name == found.devices[choose_device(infos_of(found.devices), "")].info.name);
+    }
+}
+
+TEST_CASE("without any device the reference draws, and says so", "[.no_driver]") {
+    const HiddenNative hidden;
+    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    const View view{.width = 24, .height = 16, .camera = scene.camera};
+    Renderer renderer(scene);
+    CHECK(renderer.statistics().device == "reference");
+    const Image image = renderer.render(view);
+    REQUIRE(!renderer.warnings().empty());
+    const std::string told = renderer.warnings().back().reason;
+    CHECK(told.starts_with("no device draws but the CPU reference"));
+    CHECK(told.ends_with("there is no OpenCL device with double precision"));
+    CHECK(image.attributes.count("csgrt:warnings") == (renderer.warnings().size() > 1));
+    Settings settings;
+    settings.reference = true;
+    Renderer reference(scene, {}, settings);
+    test::require_same(image, reference.render(view));
+    CHECK(reference.warnings().size() + 1 == renderer.warnings().size());
+
+    settings = {};
+    for (const char* choice : {"native", "pocl", "0", "gpu"}) {
+        settings.device = choice;
+        CHECK_THROWS_AS(Renderer(scene, {}, settings), Error);
+    }
+    settings = {};
+    settings.precision = Precision::single;
+    CHECK_THROWS_WITH(Renderer(scene, {}, settings), Catch::Matchers::Contains("pocl-opencl-icd"));
+}
+
+TEST_CASE("a picture without a GPU is drawn by the native device, which awaits nobody", "[device]") {
     if (!has_native() || may_have_gpu()) return;
-    prepare_devices();
     for (const char* choice : {"", "native", "cpu"}) {
         Renderer renderer(load_scene(test::folder("CSGRT_SCENES") + "/operators.json"), {}, with_device(choice));
         renderer.render({.width = 16, .height = 16, .camera = {}});
@@ -132,5 +176,4 @@ TEST_CASE("a picture without a GPU loads no OpenCL", "[.no_search]") {
         CHECK(renderer.statistics().awaited_device.empty());
         CHECK(renderer.warnings().empty());
     }
-    CHECK(dlopen("libOpenCL.so.1", RTLD_NOW | RTLD_NOLOAD) == nullptr);
 }

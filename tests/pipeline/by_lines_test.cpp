@@ -402,7 +402,8 @@ TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and 
 
 TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last one, and one that sees nothing") {
     Lined lined(bench::scene_of_parts(20));
-    Pipelines pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings, Readback::lines);
+    Pipelines pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
+                        Readback::lines);
     View view;
     view.width = 1600;
     view.height = 1000;

@@ -142,7 +142,8 @@ TEST_CASE("a GPU that fails is a warning, and an error of who named it") {
     Settings settings;
     const auto wait = [](Renderer& renderer) {
         const auto end = std::chrono::steady_clock::now() + longest_wait;
-        while (!renderer.statistics().awaited_device.empty() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);
+        while (!renderer.statistics().awaited_device.empty() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(1ms);
     };
     for (const bool waits : {false, true}) {
         INFO("waits " << waits);
@@ -206,7 +207,9 @@ TEST_CASE("where no device is found the first ones go on, and nothing was wrong"
 TEST_CASE("a fault of drivers is told once, or thrown at every call") {
     if (!can_take_over()) return;
     const Model model;
-    const auto fail = []() -> std::vector<FoundDevice> { throw Error(Status::device_fault, "the driver is broken\nin many words"); };
+    const auto fail = []() -> std::vector<FoundDevice> {
+        throw Error(Status::device_fault, "the driver is broken\nin many words");
+    };
     DeviceTakeover by_default(model.plan(fail), model.set_up(), false);
     wait_for_job(by_default);
     CHECK(by_default.drawer(true).name().starts_with("native"));
@@ -216,7 +219,8 @@ TEST_CASE("a fault of drivers is told once, or thrown at every call") {
 
     DeviceTakeover by_name(model.plan(fail, false), model.set_up(), false);
     wait_for_job(by_name);
-    for (const bool every : {true, false}) CHECK_THROWS_WITH(by_name.drawer(every), Catch::Matchers::StartsWith("the driver is broken"));
+    for (const bool every : {true, false})
+        CHECK_THROWS_WITH(by_name.drawer(every), Catch::Matchers::StartsWith("the driver is broken"));
     CHECK(!by_name.take_fault());
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("every device gives the reference's bits", "[.vendors]") {
             const auto seconds = [start] { return std::chrono::duration<double>(clock::now() - start).count(); };
             Settings settings;
             settings.device = std::to_string(number);
-            settings.wait_for_device = true;  // a native device would draw in a GPU's place
+            settings.wait_for_device = true;
             const int models = compare_models(settings);
             const double until_scenes = seconds();
             const int scenes = compare_scenes(settings);
