@@ -112,13 +112,8 @@ DevicePlan plan_devices(const Settings& settings) {
 
 void prepare_devices(const Settings& settings) {
     if (!looks_for_devices(settings)) return;
-<<<<<<< HEAD
-    // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread to be
-    // had, nothing is looked for before.
-=======
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread
     // to be had, nothing is looked for before.
->>>>>>> h-takeover2
     static const std::future<void> looking = std::async([] {
         try {
             find_devices();

@@ -32,13 +32,8 @@ std::vector<FoundDevice> find_native_devices();
 /// driver reaches a GPU through a file there; elsewhere that is not known, and the answer is yes. Any thread.
 bool may_have_gpu(const std::string& folder = "/dev");
 
-<<<<<<< HEAD
-/// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs, of which none can be used if
-/// they are broken. One at a time.
-=======
 /// For tests where there is no GPU: until this is gone, all devices of a platform are taken for GPUs, of which none can
 /// be used if they are broken. One at a time.
->>>>>>> h-takeover2
 class PretendedGpu {
 public:
     explicit PretendedGpu(std::string platform, bool are_broken = false);

@@ -5,15 +5,13 @@
 #include <limits>
 #include <string>
 
-<<<<<<< HEAD
 #if defined(_WIN32)
 #include <windows.h>
 #elif defined(__APPLE__)
 #include <sys/sysctl.h>
-#endif
-=======
+#else
 #include <unistd.h>
->>>>>>> h-takeover2
+#endif
 
 namespace csgrt {
 
