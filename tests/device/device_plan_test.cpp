@@ -120,8 +120,8 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
     }
     Settings single = with_device("native");
     single.precision = Precision::single;
-    CHECK_THROWS_WITH(plan_devices(single), Catch::Matchers::Contains("the default method alone") &&
-                                                Catch::Matchers::Contains("--reference"));
+    CHECK_THROWS_WITH(plan_devices(single), ContainsSubstring("the default method alone") &&
+                                                ContainsSubstring("--reference"));
 }
 
 TEST_CASE("without native devices OpenCL draws by default, and the reference where there is none", "[device]") {
@@ -164,7 +164,7 @@ TEST_CASE("without any device the reference draws, and says so", "[.no_driver]")
     }
     settings = {};
     settings.precision = Precision::single;
-    CHECK_THROWS_WITH(Renderer(scene, {}, settings), Catch::Matchers::Contains("pocl-opencl-icd"));
+    CHECK_THROWS_WITH(Renderer(scene, {}, settings), ContainsSubstring("pocl-opencl-icd"));
 }
 
 TEST_CASE("a picture without a GPU is drawn by the native device, which awaits nobody", "[device]") {
