@@ -40,8 +40,7 @@ void define_scene(Options& options, SceneArguments& arguments) {
                  arguments.settings.skip_unsupported);
 }
 
-/// Returns the option of the reference's threads.
-Option& define_settings(Options& options, Settings& settings) {
+void define_settings(Options& options, Settings& settings) {
     auto& device = options.text(
         "--device", "NAME|cpu|gpu|N|gpus",
         "device: part of its name, its type, or its number in 'csgrt devices'; several, with commas, or all "
@@ -49,8 +48,8 @@ Option& define_settings(Options& options, Settings& settings) {
         settings.device);
     device.excludes = "--reference";
     options.flag("--reference", "compute with the CPU reference in place of a device", settings.reference);
-    auto& threads =
-        options.count("--threads", "threads of the reference; all cores if not given", settings.threads, 1, 4096);
+    options.count("--threads", "threads of the native device and of the reference; all cores if not given",
+                  settings.threads, 1, 4096);
     options.value("--max-memory", "SIZE",
                   "device memory to use, bytes, or such as 512M or 2G (powers of 1024); a frame that needs more is split into tiles",
                   settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
@@ -75,12 +74,11 @@ Option& define_settings(Options& options, Settings& settings) {
                    settings.precision, precision_names);
     options.choice("--quartic", "how quartics (tori, ...) are solved; bracketed if not given", settings.quartic,
                    quartic_names);
-    return threads;
 }
 
 /// Of commands that compute either on a device or on the reference.
 void define_either(Options& options, Settings& settings) {
-    define_settings(options, settings).needs = "--reference";
+    define_settings(options, settings);
     auto& contraction = options.choice(
         "--contraction", "whether the device may round a product and a sum as one; results then differ; off if not given",
         settings.contraction, on_off);

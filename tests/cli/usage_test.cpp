@@ -53,7 +53,7 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{scene, "--contraction", "on", "--reference", "--stats", "-"}, "--contraction: cannot be combined with --reference"},
         {{scene, "--quartic", "cardano", "--stats", "-"}, "--quartic: 'cardano' is not one of bracketed|"},
         {{scene, "--repeat", "0", "--stats", "-"}, "--repeat: '0'"},
-        {{scene, "--threads", "2", "--stats", "-"}, "--threads: has a meaning only with --reference"},
+        {{scene, "--threads", "0", "--stats", "-"}, "--threads: '0'"},
         {{scene, "--device", "cpu", "--reference", "--stats", "-"}, "--device: cannot be combined with --reference"},
         {{scene, "--air=yes", "--stats", "-"}, "--air: takes no value"},
         {{scene, "--siez", "4", "--stats", "-"}, "--siez: no such option\n  did you mean '--size'?"},
