@@ -87,7 +87,9 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             list(APPEND options -O3 -mllvm -inline-threshold=3000)  # as drivers do: evaluate takes three quarters
         endif()
         if(CSGRT_SANITIZE)
-            list(APPEND options -fsanitize=${CSGRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+            # An empty buffer is a null pointer, to which kernels add 0: C++ allows it, C does not.
+            list(APPEND options -fsanitize=${CSGRT_SANITIZE} -fno-sanitize=pointer-overflow -fno-sanitize-recover=all
+                -fno-omit-frame-pointer)
         endif()
         set(objects "")
         foreach(level IN LISTS native_levels)
