@@ -81,8 +81,10 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             -include ${PROJECT_SOURCE_DIR}/src/device/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
             -DCSGRT_REAL=double "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
-        if(CSGRT_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")  # to step through them: docs/native.md
+        if(CSGRT_SANITIZE)
             list(APPEND options -O1 -g)
+        elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")  # to step through them: docs/native.md
+            list(APPEND options -O0 -g)
         else()
             list(APPEND options -O3 -mllvm -inline-threshold=3000)  # as drivers do: evaluate takes three quarters
         endif()
