@@ -227,11 +227,12 @@ TEST_CASE("a fault of drivers is told once, or thrown at every call") {
 TEST_CASE("a takeover goes when its job has ended, which begins nothing more") {
     if (!can_take_over()) return;
     const Model model;
-    std::promise<void> found;
+    std::promise<void> begun, found;
     std::atomic<bool> is_gone{false};
     std::atomic<int> set_ups{0};
     auto takeover = std::make_unique<DeviceTakeover>(
-        model.plan([wait = found.get_future().share()] {
+        model.plan([&begun, wait = found.get_future().share()] {
+            begun.set_value();
             wait.wait();
             return pocl_devices();
         }),
@@ -242,6 +243,7 @@ TEST_CASE("a takeover goes when its job has ended, which begins nothing more") {
         false);
     CHECK(takeover->drawer(true).name().starts_with("native"));
     CHECK(takeover->awaited() == "gpu");
+    begun.get_future().wait();  // else it may be left before it begins, and is not waited for
     std::thread leaving([&] {
         takeover.reset();
         is_gone = true;
