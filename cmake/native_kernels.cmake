@@ -82,16 +82,13 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             -DCSGRT_REAL=double "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
         if(CSGRT_SANITIZE)
-            list(APPEND options -O1 -g)
+            # An empty buffer is a null pointer, to which kernels add 0: C++ allows it, C does not.
+            list(APPEND options -O1 -g -fsanitize=${CSGRT_SANITIZE} -fno-sanitize=pointer-overflow -fno-sanitize-recover=all
+                -fno-omit-frame-pointer)
         elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")  # to step through them: docs/native.md
             list(APPEND options -O0 -g)
         else()
             list(APPEND options -O3 -mllvm -inline-threshold=3000)  # as drivers do: evaluate takes three quarters
-        endif()
-        if(CSGRT_SANITIZE)
-            # An empty buffer is a null pointer, to which kernels add 0: C++ allows it, C does not.
-            list(APPEND options -fsanitize=${CSGRT_SANITIZE} -fno-sanitize=pointer-overflow -fno-sanitize-recover=all
-                -fno-omit-frame-pointer)
         endif()
         set(objects "")
         foreach(level IN LISTS native_levels)

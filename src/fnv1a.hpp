@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -45,5 +47,12 @@ private:
 
     std::uint64_t state_ = 14695981039346656037u;
 };
+
+/// Such a number as text: 16 digits.
+inline std::string hexadecimal(std::uint64_t number) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
+    return digits;
+}
 
 }  // namespace csgrt

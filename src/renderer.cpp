@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <future>
 #include <limits>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
 #include "device/choice.hpp"
+#include "fnv1a.hpp"
 #include "kernel_geometry.hpp"
 #include "parallel.hpp"
 #include "pipeline/device_takeover.hpp"
@@ -106,12 +106,6 @@ double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     }
     const double of_size = rounding_tolerance(settings.precision) * 2 * scene.radius;
     return std::max(of_size, coordinate_rounding * largest_coordinate(scene.center, scene.radius));
-}
-
-std::string hexadecimal(std::uint64_t value) {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-    return text;
 }
 
 /// A line each. A header is no place for thousands.

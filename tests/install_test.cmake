@@ -1,13 +1,6 @@
 # Installs the build into an empty prefix, moves it, and builds and runs a program against it with find_package alone.
 cmake_minimum_required(VERSION 3.25)
-
-function(run)
-    execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
-    if(NOT result EQUAL 0)
-        list(JOIN ARGV " " command)
-        message(FATAL_ERROR "failed (${result}): ${command}")
-    endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <utility>
@@ -21,18 +20,12 @@ namespace fs = std::filesystem;
 // In every name: the folder may be one that holds the user's own files, too.
 constexpr const char* suffix = ".csgrt-binary";
 
-std::string hex(std::uint64_t number) {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(number));
-    return digits;
-}
-
 /// What stands before the binary. The first line is the version of all this: a file of another one is replaced.
 std::string head_of(const std::string& key, std::string_view binary) {
     Fnv1a sum;
     sum.add_text(key);
     sum.add_text(binary);
-    return "csgrt binary 1\n" + hex(sum.state()) + hex(key.size()) + hex(binary.size()) + '\n' + key;
+    return "csgrt binary 1\n" + hexadecimal(sum.state()) + hexadecimal(key.size()) + hexadecimal(binary.size()) + '\n' + key;
 }
 
 /// Empty where there is no file or one of more than `most_bytes`; what was read of one that cannot be read to its end.
@@ -81,7 +74,7 @@ BinaryCache::BinaryCache(fs::path folder, std::uint64_t most_bytes)
 fs::path BinaryCache::file_of(const std::string& key) const {
     Fnv1a name;
     name.add_text(key);
-    return folder_ / (hex(name.state()) + suffix);
+    return folder_ / (hexadecimal(name.state()) + suffix);
 }
 
 std::optional<std::string> BinaryCache::find(const std::string& key) const {
@@ -147,8 +140,7 @@ fs::path binary_cache_folder() {
 }
 
 std::optional<BinaryCache> binary_cache_for(const DeviceInfo& device) {
-    const bool keeps_its_own =
-        is_native(device) || device.platform == "Portable Computing Language" || device.platform == "NVIDIA CUDA";
+    const bool keeps_its_own = is_native(device) || is_pocl(device) || device.platform == "NVIDIA CUDA";
     if (keeps_its_own && !BinaryCache::for_every_driver) return {};
     return BinaryCache(binary_cache_folder());
 }

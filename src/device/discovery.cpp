@@ -185,6 +185,8 @@ HiddenNative::~HiddenNative() { is_native_hidden = false; }
 
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
 
+bool is_pocl(const DeviceInfo& device) { return device.platform == "Portable Computing Language"; }
+
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
     std::vector<DeviceInfo> all;
     for (const FoundDevice& device : devices) all.push_back(device.info);

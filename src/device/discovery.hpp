@@ -45,6 +45,8 @@ public:
 /// Has its kernels from csgrt itself, those of the default method and no others.
 bool is_native(const DeviceInfo& device);
 
+bool is_pocl(const DeviceInfo& device);
+
 /// What there is to know of each.
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices);
 

@@ -6,6 +6,7 @@
 #include <csgrt/error.hpp>
 
 #include "device/binary_cache.hpp"
+#include "device/discovery.hpp"
 
 namespace csgrt {
 
@@ -72,7 +73,7 @@ void Program::compile(const std::string& source, const std::string& options) {
     // 60 ms of each start. Without them it takes those that are used from builtins.h. Other releases than those that this was
     // seen with may have them elsewhere; and should one not know these, it gets its own.
     const DeviceInfo& info = device_->info();
-    has_own_declarations_ = info.platform == "Portable Computing Language" && info.driver.starts_with("3.");
+    has_own_declarations_ = is_pocl(info) && info.driver.starts_with("3.");
 
     const OpenCl& cl = device_->cl();
     const char* text = source.data();
@@ -155,7 +156,7 @@ void Kernel::check_count(std::size_t count) const {
 }
 
 bool Kernel::is_compiled_twice() const {
-    return device_->info().type == "cpu" && device_->info().platform == "Portable Computing Language";
+    return device_->info().type == "cpu" && is_pocl(device_->info());
 }
 
 Event Kernel::queue(std::size_t items, std::size_t group) {

@@ -22,7 +22,7 @@ std::vector<std::string> pocl_numbers() {
     std::vector<std::string> numbers;
     const std::vector<DeviceInfo> found = devices();
     for (std::size_t i = 0; i < found.size(); ++i)
-        if (found[i].platform == "Portable Computing Language") numbers.push_back(std::to_string(i));
+        if (is_pocl(found[i])) numbers.push_back(std::to_string(i));
     REQUIRE(numbers.size() == 2);
     return numbers;
 }

@@ -3,13 +3,12 @@
 # numbers has the same answers. Some scenes are compiled to other numbers: compiling computes with long double, whose
 # precision is 64 bits on x86-64 and 113 on aarch64.
 cmake_minimum_required(VERSION 3.25)
-include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
 
 set(toolchain ${ROOT}/cmake/toolchains/aarch64-linux-gnu.cmake)
 find_program(compiler aarch64-linux-gnu-g++)
 find_program(emulator NAMES qemu-aarch64-static qemu-aarch64)
-find_program(clang NAMES clang clang-20 clang-19 clang-18 clang-17 clang-16 clang-15 clang-14)
-foreach(tool compiler emulator clang)
+foreach(tool compiler emulator CLANG)
     if(NOT ${tool})
         message("SKIPPED: no ${tool} for aarch64 (Debian, Ubuntu: g++-aarch64-linux-gnu qemu-user-static clang)")
         return()
@@ -18,10 +17,10 @@ endforeach()
 
 # The negative of a fma must stay one, for the sign of its zero (src/device/native/builtins.h). None of the scenes below
 # shows it.
-execute_process(COMMAND ${clang} -print-resource-dir OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
+execute_process(COMMAND ${CLANG} -print-resource-dir OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
 file(WRITE ${WORK}/zero.cl "double negative(double a, double b, double c) { return -fma(a, b, c); }\n")
 execute_process(
-    COMMAND ${clang} -x cl -cl-std=CL1.2 -Xclang -cl-ext=+cl_khr_fp64 -cl-no-stdinc -target aarch64-linux-gnu -w -O3
+    COMMAND ${CLANG} -x cl -cl-std=CL1.2 -Xclang -cl-ext=+cl_khr_fp64 -cl-no-stdinc -target aarch64-linux-gnu -w -O3
         -ffp-contract=off -include ${resources}/include/opencl-c-base.h "-DCSGRT_LDEXP=\"ldexp\""
         -include ${ROOT}/src/device/native/builtins.h -S -o - ${WORK}/zero.cl
     OUTPUT_VARIABLE assembly COMMAND_ERROR_IS_FATAL ANY)

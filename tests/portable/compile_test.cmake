@@ -1,10 +1,9 @@
 # Compiles TARGETS for the system of TOOLCHAIN into WORK: nothing is linked or run. Skipped where there is no COMPILER.
 cmake_minimum_required(VERSION 3.25)
-include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
 
 find_program(compiler NAMES ${COMPILER})
-find_program(clang NAMES clang clang-20 clang-19 clang-18 clang-17 clang-16 clang-15 clang-14)
-if(NOT compiler OR NOT clang)
+if(NOT compiler OR NOT CLANG)
     message("SKIPPED: it needs ${COMPILER} and clang")
     return()
 endif()

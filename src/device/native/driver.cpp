@@ -36,9 +36,6 @@ namespace {
 
 // ---- What OpenCL's handles point to ----
 
-struct Shared {
-    std::atomic<int> owners{1};
-};
 struct Context {
     explicit Context(unsigned threads) : threads_wanted(threads) {}
 
@@ -46,18 +43,18 @@ struct Context {
     std::mutex kernels;  ///< one runs at a time
     std::optional<Pool> pool;  ///< from the first kernel on
 };
-struct Queue : Shared {
+struct Queue {
     explicit Queue(Context& c) : context(c) {}
+
     Context& context;
+    std::atomic<int> owners{1};
 };
 struct Memory {
     char* data;
     bool is_own;
 };
 struct BuiltProgram {
-    const Level* level = nullptr;
-    const Program* program = nullptr;
-    bool is_refused = false;
+    const Program* program = nullptr;  ///< null: not built, or refused
 };
 struct BuiltKernel {
     const CompiledKernel* compiled;
@@ -277,10 +274,10 @@ bool was_compiled(std::string_view options) {
 cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const char* options, void (*)(cl_program, void*), void*) {
     BuiltProgram& p = as<BuiltProgram>(program);
     const bool is_first_hits = has(options, "-DCSGRT_PRIVATE_ENDS");
-    p.level = &level_of(*devices);
-    p.program = p.level->program(!is_first_hits ? "partitions" : has(options, "-DCSGRT_FETCH") ? "first_hits_fetch" : "first_hits");
-    p.is_refused = !was_compiled(options);
-    return p.is_refused ? CL_BUILD_PROGRAM_FAILURE : CL_SUCCESS;
+    if (!was_compiled(options)) return CL_BUILD_PROGRAM_FAILURE;
+    const Level& level = level_of(*devices);
+    p.program = level.program(!is_first_hits ? "partitions" : has(options, "-DCSGRT_FETCH") ? "first_hits_fetch" : "first_hits");
+    return CL_SUCCESS;
 }
 cl_int release_program(cl_program program) {
     delete &as<BuiltProgram>(program);
@@ -291,7 +288,7 @@ cl_int get_build_info(cl_program program, cl_device_id, cl_program_build_info wh
                       std::size_t* needed) {
     if (what != CL_PROGRAM_BUILD_LOG) return CL_INVALID_VALUE;
     const char* const refusal = "the native device has the kernels that were compiled with csgrt, no others";
-    return answer(std::string(as<BuiltProgram>(program).is_refused ? refusal : ""), room, out, needed);
+    return answer(std::string(as<BuiltProgram>(program).program ? "" : refusal), room, out, needed);
 }
 
 // ---- Kernels ----
@@ -302,10 +299,10 @@ const CompiledKernel* find(std::span<const CompiledKernel> kernels, std::string_
 }
 
 cl_kernel create_kernel(cl_program program, const char* name, cl_int* code) {
-    const BuiltProgram& p = as<BuiltProgram>(program);
-    const CompiledKernel* compiled = p.program && !p.is_refused ? find(p.program->kernels, name) : nullptr;
-    if (!compiled && p.program && !p.is_refused) compiled = find(scan_kernels(), name);
-    set(code, compiled ? CL_SUCCESS : p.program ? CL_INVALID_KERNEL_NAME : CL_INVALID_PROGRAM_EXECUTABLE);
+    const Program* const built = as<BuiltProgram>(program).program;
+    const CompiledKernel* compiled = built ? find(built->kernels, name) : nullptr;
+    if (!compiled && built) compiled = find(scan_kernels(), name);
+    set(code, compiled ? CL_SUCCESS : built ? CL_INVALID_KERNEL_NAME : CL_INVALID_PROGRAM_EXECUTABLE);
     if (!compiled) return nullptr;
     return handle_of<cl_kernel>(new BuiltKernel{compiled, std::vector<std::uint64_t>(compiled->argument_count)});
 }
