@@ -1,13 +1,16 @@
 // Every device that is there gives the reference's bits: native ones of each level, and those of whatever OpenCL
-// drivers are installed. Minutes a device: ctest -C Long -L opencl-vendors (docs/drivers.md).
+// drivers are installed. Minutes a device: ctest -C Long -L opencl-vendors (docs/drivers.md). CSGRT_DEVICE names one to
+// test alone.
 #include "catch.hpp"
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 
 #include <csgrt/csgrt.hpp>
 
 #include "bench/stress/families.hpp"
+#include "device/choice.hpp"
 #include "pipeline/every_type.hpp"
 #include "pipeline/same_answers.hpp"
 #include "pipeline/scenes.hpp"
@@ -93,7 +96,9 @@ TEST_CASE("every driver that is installed can be used", "[.vendors]") {
 TEST_CASE("every device gives the reference's bits", "[.vendors]") {
     const std::vector<DeviceInfo> all = devices();
     REQUIRE_FALSE(all.empty());
+    const char* name_of_one = std::getenv("CSGRT_DEVICE");
     for (std::size_t number = 0; number < all.size(); ++number) {
+        if (name_of_one && number != choose_device(all, name_of_one)) continue;
         // One that differs does not keep the others from their turn.
         DYNAMIC_SECTION(name_of(number, all[number])) {
             const std::string name = name_of(number, all[number]);
