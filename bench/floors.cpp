@@ -16,7 +16,7 @@ static Counted counted;
 #define box_is_hit(ray, node) (++counted.boxes, box_is_hit(ray, node))
 #undef TREE_SHIFT  // every word of a tree is split by it when it is read
 #define TREE_SHIFT (++counted.words, 29u)
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 #define collect(...) (++counted.solids, collect(__VA_ARGS__))
 #include "tests/pipeline/host_kernels.hpp"
 

@@ -1,6 +1,6 @@
 # The native device: the files of kernels/, compiled ahead of time by clang's OpenCL C front end.
 #
-# native_kernels(TARGET): the library TARGET of the objects and their table (src/device/native/kernels.hpp). Without clang, or with
+# native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without clang, or with
 # CSGRT_NATIVE=OFF, the table is empty. The same file is the script that writes what is compiled: cmake -DFOLDER=... -DOUTPUT=...
 # -DLEVELS=... -P native_kernels.cmake
 #
@@ -78,7 +78,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
         set(options -x cl -cl-std=CL1.2 -Xclang -cl-ext=+cl_khr_fp64 -cl-no-stdinc -target ${native_target} -w -fPIC
             -fvisibility=hidden -fno-math-errno -ffp-contract=off
             -include ${resources}/include/opencl-c-base.h -D__OPENCL_VERSION__=120 -DCSGRT_LDEXP="${native_ldexp}"
-            -include ${PROJECT_SOURCE_DIR}/src/device/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
+            -include ${PROJECT_SOURCE_DIR}/src/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
             -DCSGRT_REAL=double "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
         if(CSGRT_SANITIZE)
@@ -103,7 +103,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
                     OUTPUT ${object}
                     COMMAND ${CSGRT_CLANG} ${options} ${march} ${${program}_options} "-DNATIVE_NAME(x)=csgrt_${suffix}_${program}_##x"
                         -MD -MF ${object}.d -c ${folder}/${program}_program.cl -o ${object}
-                    DEPENDS ${folder}/${program}_program.cl ${PROJECT_SOURCE_DIR}/src/device/native/builtins.h
+                    DEPENDS ${folder}/${program}_program.cl ${PROJECT_SOURCE_DIR}/src/native/builtins.h
                     DEPFILE ${object}.d
                     COMMENT "Compiling the kernels of ${program} for ${level}" VERBATIM)
                 set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
@@ -222,7 +222,7 @@ else()
     set(result "{}")
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT}/table.cpp CONTENT "// Made by cmake/native_kernels.cmake from kernels/; edit those.
-#include \"device/native/kernels.hpp\"
+#include \"native/kernels.hpp\"
 
 extern \"C\" {
 ${declarations}}

@@ -9,7 +9,7 @@
 #include "bench/stress/families.hpp"
 #include "bench/stress/random.hpp"
 #include "oracle/scene_judge.hpp"
-#include "stress/expected.hpp"
+#include "integration/stress/expected.hpp"
 
 namespace csgrt::campaign {
 namespace {

@@ -66,7 +66,7 @@ FN int real_exponent(real x) { return ilogb(x); }  // 2^e <= x < 2^(e+1); x > 0
 FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #else
 // The host includes kernels/ inside a namespace that has defined `real`, `wide`, `u32` and REAL_INFINITY
-// (src/kernel_host.hpp); src/host_math.hpp has the functions for each kind of number.
+// (src/kernel_host/kernels.hpp); src/kernel_host/math.hpp has the functions for each kind of number.
 #define GLOBAL
 #define ENDS
 #define FN [[maybe_unused]] static inline

@@ -1,5 +1,5 @@
 // THE one file for every record that crosses the bus, every opcode and every limit that host and device share.
-// Sizes and offsets are asserted on the host (src/kernel_host.hpp) and reported by a probe kernel from the device.
+// Sizes and offsets are asserted on the host (src/kernel_host/kernels.hpp) and reported by a probe kernel from the device.
 #ifndef CSGRT_LAYOUT_H
 #define CSGRT_LAYOUT_H
 

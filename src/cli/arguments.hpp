@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
+#include "cli/commands/commands.hpp"
 
 namespace csgrt::cli {
 

@@ -1,7 +1,7 @@
 // The library for pictures, loaded while the scene is loaded and drawn.
 #pragma once
 
-#include "commands.hpp"
+#include "cli/commands/commands.hpp"
 
 namespace csgrt::cli {
 

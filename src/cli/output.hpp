@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "new_file.hpp"
+#include "base/new_file.hpp"
 
 namespace csgrt::cli {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "decimal.hpp"
+#include "base/decimal.hpp"
 #include "scene/nearest.hpp"
 
 namespace csgrt::cli {

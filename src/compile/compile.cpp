@@ -11,21 +11,21 @@
 #include <string_view>
 #include <utility>
 
-#include "compile/bvh.hpp"
-#include "compile/extent.hpp"
-#include "compile/flatten.hpp"
+#include "compile/bvh/build.hpp"
+#include "compile/bounds/extent.hpp"
+#include "compile/flatten/flatten.hpp"
 #include "compile/hash.hpp"
 #include "compile/lights.hpp"
 #include "compile/linear.hpp"
-#include "compile/measured.hpp"
-#include "compile/pack_regions.hpp"
-#include "compile/pack_solids.hpp"
-#include "compile/polyhedron.hpp"
-#include "compile/terms.hpp"
+#include "compile/bounds/instance_bounds.hpp"
+#include "compile/regions/pack.hpp"
+#include "compile/solids/pack.hpp"
+#include "compile/solids/polyhedron.hpp"
+#include "compile/regions/terms.hpp"
 #include "formats/source.hpp"
-#include "parallel.hpp"
+#include "base/parallel.hpp"
 #include "scene/excerpt.hpp"
-#include "scene/validate.hpp"
+#include "scene/faults/validate.hpp"
 
 namespace csgrt {
 

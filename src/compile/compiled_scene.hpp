@@ -8,7 +8,7 @@
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>
 
-#include "../kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 
 namespace csgrt {
 

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "compile/lights.hpp"
-#include "compile/window.hpp"
+#include "compile/screen_bounds.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {

@@ -1,6 +1,6 @@
 #include "compile/hash.hpp"
 
-#include "fnv1a.hpp"
+#include "base/fnv1a.hpp"
 
 namespace csgrt {
 

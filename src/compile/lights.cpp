@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "scene/vector.hpp"
 

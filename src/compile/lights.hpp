@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compile/flatten.hpp"
+#include "compile/flatten/flatten.hpp"
 
 namespace csgrt {
 

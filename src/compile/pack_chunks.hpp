@@ -9,8 +9,8 @@
 #include <csgrt/scene.hpp>
 
 #include "compile/compiled_scene.hpp"
-#include "compile/planes.hpp"
-#include "compile/surfaces.hpp"
+#include "compile/solids/planes.hpp"
+#include "compile/solids/surfaces.hpp"
 
 namespace csgrt {
 

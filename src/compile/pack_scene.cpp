@@ -5,10 +5,10 @@
 
 #include "compile/linear.hpp"
 #include "compile/pack_chunks.hpp"
-#include "compile/pack_solids.hpp"
-#include "compile/packer.hpp"
-#include "fetch.hpp"
-#include "parallel.hpp"
+#include "compile/solids/pack.hpp"
+#include "compile/solids/packer.hpp"
+#include "base/prefetch.hpp"
+#include "base/parallel.hpp"
 
 namespace csgrt {
 

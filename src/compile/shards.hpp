@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "compile/cells.hpp"
-#include "parallel.hpp"
+#include "compile/solids/near_lookup.hpp"
+#include "base/parallel.hpp"
 
 namespace csgrt {
 

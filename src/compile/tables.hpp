@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compile/compiled_scene.hpp"
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 
 namespace csgrt {
 

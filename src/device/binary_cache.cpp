@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "device/discovery.hpp"
-#include "fnv1a.hpp"
-#include "new_file.hpp"
+#include "base/fnv1a.hpp"
+#include "base/new_file.hpp"
 
 namespace csgrt {
 

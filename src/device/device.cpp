@@ -5,7 +5,7 @@
 
 #include "device/choice.hpp"
 #include "device/host_memory.hpp"
-#include "device/native/driver.hpp"
+#include "native/driver.hpp"
 #include "device/bytes_text.hpp"
 
 namespace csgrt {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <mutex>
 
-#include "device/native/driver.hpp"
+#include "native/driver.hpp"
 #include "device/opencl.hpp"
 #include "device/opencl_loader.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/names.hpp"
-#include "scene/validate.hpp"
+#include "scene/faults/validate.hpp"
 
 namespace csgrt {
 

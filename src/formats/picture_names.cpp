@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/json_text.hpp"
+#include "formats/json/text.hpp"
 
 namespace csgrt {
 

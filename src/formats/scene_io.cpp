@@ -9,15 +9,15 @@
 
 #include <unistd.h>
 
-#include "formats/brlcad_asc.hpp"
-#include "formats/brlcad_g.hpp"
-#include "formats/brlcad_g_bytes.hpp"
-#include "formats/json_reader.hpp"
-#include "formats/json_writer.hpp"
+#include "formats/brlcad/asc.hpp"
+#include "formats/brlcad/g/reader.hpp"
+#include "formats/brlcad/g/bytes.hpp"
+#include "formats/json/reader.hpp"
+#include "formats/json/writer.hpp"
 #include "formats/mended.hpp"
-#include "formats/view_script.hpp"
+#include "formats/brlcad/view_script.hpp"
 #include "formats/text_source.hpp"
-#include "new_file.hpp"
+#include "base/new_file.hpp"
 
 namespace csgrt {
 

@@ -6,7 +6,7 @@
 
 #include <csgrt/error.hpp>
 
-#include "scene/finding_list.hpp"
+#include "scene/faults/finding_list.hpp"
 
 namespace csgrt {
 

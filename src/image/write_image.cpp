@@ -9,7 +9,7 @@
 #include <csgrt/image.hpp>
 
 #include "image/encode.hpp"
-#include "new_file.hpp"
+#include "base/new_file.hpp"
 
 namespace csgrt {
 

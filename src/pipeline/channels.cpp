@@ -3,7 +3,7 @@
 
 #include <csgrt/image.hpp>
 
-#include "parallel.hpp"
+#include "base/parallel.hpp"
 
 namespace csgrt {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compile/claims.hpp"
+#include "compile/regions/claims.hpp"
 #include "device/queued.hpp"
 #include "pipeline/cull.hpp"
 

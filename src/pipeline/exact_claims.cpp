@@ -3,13 +3,13 @@
 #include <iterator>
 #include <utility>
 
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 #include "pipeline/exact.hpp"
 
 namespace csgrt {
 namespace kernel {
 #define CSGRT_LARGE_TERMS
-#include "../../kernels/boolean.h"
+#include "../kernels/boolean.h"
 }  // namespace kernel
 
 std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {

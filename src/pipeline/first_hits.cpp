@@ -1,6 +1,6 @@
 #include "pipeline/first_hits.hpp"
 
-#include "kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 
 namespace csgrt {
 namespace {

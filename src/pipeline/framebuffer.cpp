@@ -4,7 +4,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 #include "pipeline/known_picture.hpp"
 
 namespace csgrt {

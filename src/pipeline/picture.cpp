@@ -6,8 +6,8 @@
 #include <xmmintrin.h>
 #endif
 
-#include "kernel_geometry.hpp"
-#include "parallel.hpp"
+#include "kernel_host/geometry.hpp"
+#include "base/parallel.hpp"
 #include "pipeline/block_rows.hpp"
 
 namespace csgrt {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 
 namespace csgrt {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "clock.hpp"
+#include "base/clock.hpp"
 
 namespace csgrt {
 namespace {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <utility>
 
-#include "clock.hpp"
-#include "parallel.hpp"
+#include "base/clock.hpp"
+#include "base/parallel.hpp"
 
 namespace csgrt {
 namespace {

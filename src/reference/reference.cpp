@@ -5,8 +5,8 @@
 #include <mutex>
 #include <thread>
 
-#include "compile/attributes.hpp"
-#include "kernel_geometry.hpp"
+#include "compile/flatten/attributes.hpp"
+#include "kernel_host/geometry.hpp"
 #include "reference/precision/double_fma.hpp"
 
 namespace csgrt {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "compile/claims.hpp"
+#include "compile/regions/claims.hpp"
 #include "compile/frame.hpp"
 #include "reference/reference_kernels.hpp"
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 
 namespace csgrt {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <utility>
 
-#include "fetch.hpp"
-#include "parallel.hpp"
+#include "base/prefetch.hpp"
+#include "base/parallel.hpp"
 #include "scene/arb_form.hpp"
 
 namespace csgrt {

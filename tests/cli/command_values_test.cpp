@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "cli/partition_text.hpp"
+#include "cli/text/partitions.hpp"
 #include "cli/values.hpp"
 
 using namespace csgrt::cli;

@@ -3,7 +3,7 @@
 #include <csgrt/scene_io.hpp>
 
 #include "cli/command.hpp"
-#include "new_file.hpp"
+#include "base/new_file.hpp"
 
 using namespace command_test;
 

@@ -1,4 +1,4 @@
-#include "cli/stats.hpp"
+#include "cli/text/statistics.hpp"
 
 #include "catch.hpp"
 

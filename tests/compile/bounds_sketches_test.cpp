@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
-#include "compile/axis_frame.hpp"
+#include "compile/solids/axis_frame.hpp"
 #include "oracle/profiles.hpp"
 #include "oracle/revolved.hpp"
 #include "scene/sketch_reach.hpp"

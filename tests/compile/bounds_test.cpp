@@ -3,10 +3,10 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
-#include "compile/polyhedron.hpp"
+#include "compile/solids/polyhedron.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/bvh.hpp"
+#include "compile/bvh/build.hpp"
 #include "compile/linear.hpp"
 #include "sanitized.hpp"
 

@@ -4,9 +4,9 @@
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/model.hpp"
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 #include "scene/arb_form.hpp"
-#include "scene/solid_faults.hpp"
+#include "scene/faults/solids.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "sanitized.hpp"
 

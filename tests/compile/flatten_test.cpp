@@ -2,7 +2,7 @@
 #include <map>
 
 #include "catch.hpp"
-#include "compile/flatten.hpp"
+#include "compile/flatten/flatten.hpp"
 #include "compile/model.hpp"
 
 using namespace csgrt;

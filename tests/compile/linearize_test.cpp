@@ -3,7 +3,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/linearize.hpp"
+#include "compile/regions/linearize.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;

@@ -9,7 +9,7 @@
 #include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
-#include "compile/pack_solids.hpp"
+#include "compile/solids/pack.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;

@@ -6,7 +6,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "catch.hpp"
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"

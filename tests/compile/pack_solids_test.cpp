@@ -3,10 +3,10 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
-#include "compile/pack_solids.hpp"
+#include "compile/solids/pack.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

@@ -2,11 +2,11 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/bounds.hpp"
+#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
-#include "compile/planes.hpp"
-#include "compile/polyhedron.hpp"
+#include "compile/solids/planes.hpp"
+#include "compile/solids/polyhedron.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;

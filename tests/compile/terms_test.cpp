@@ -2,8 +2,8 @@
 #include <random>
 
 #include "catch.hpp"
-#include "compile/linearize.hpp"
-#include "compile/terms.hpp"
+#include "compile/regions/linearize.hpp"
+#include "compile/regions/terms.hpp"
 #include "pipeline/host_kernels.hpp"
 
 using namespace csgrt;

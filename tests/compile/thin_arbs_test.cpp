@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "compile/model.hpp"
-#include "compile/polyhedron.hpp"
+#include "compile/solids/polyhedron.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

@@ -12,11 +12,11 @@
 #include <csgrt/scene_io.hpp>
 
 #include "catch.hpp"
-#include "compile/bounds.hpp"
-#include "compile/flatten.hpp"
+#include "compile/bounds/bounds.hpp"
+#include "compile/flatten/flatten.hpp"
 #include "compile/linear.hpp"
-#include "compile/linearize.hpp"
-#include "pipeline/scenes.hpp"
+#include "compile/regions/linearize.hpp"
+#include "integration/scenes.hpp"
 
 using namespace csgrt;
 

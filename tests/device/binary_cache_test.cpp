@@ -16,8 +16,8 @@
 #include "device/binary_cache.hpp"
 #include "device/compiling_device.hpp"
 #include "device/program.hpp"
-#include "pipeline/same_answers.hpp"
-#include "pipeline/scenes.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;

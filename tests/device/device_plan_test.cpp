@@ -10,8 +10,8 @@
 #include "catch.hpp"
 #include "cli/command.hpp"
 #include "device/choice.hpp"
-#include "pipeline/same_answers.hpp"
-#include "pipeline/scenes.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
 
 using namespace csgrt;
 

@@ -6,7 +6,7 @@
 
 #include "device/compiling_device.hpp"
 #include "device/program.hpp"
-#include "kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 
 using namespace csgrt;
 

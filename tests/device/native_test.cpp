@@ -8,8 +8,8 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "device/program.hpp"
-#include "kernel_host.hpp"
-#include "pipeline/same_answers.hpp"
+#include "kernel_host/kernels.hpp"
+#include "integration/same_answers.hpp"
 
 using namespace csgrt;
 

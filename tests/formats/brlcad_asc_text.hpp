@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "formats/brlcad_asc.hpp"
+#include "formats/brlcad/asc.hpp"
 #include "formats/text_source.hpp"
 
 namespace csgrt::asc_test {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "formats/brlcad_asc_text.hpp"
-#include "formats/brlcad_g.hpp"
+#include "formats/brlcad/g/reader.hpp"
 
 using namespace csgrt;
 using asc_test::shape;

@@ -9,9 +9,9 @@
 #include "catch.hpp"
 
 #include "compile/compiled_scene.hpp"
-#include "formats/brlcad_asc.hpp"
-#include "formats/brlcad_g.hpp"
-#include "formats/brlcad_g_bytes.hpp"
+#include "formats/brlcad/asc.hpp"
+#include "formats/brlcad/g/reader.hpp"
+#include "formats/brlcad/g/bytes.hpp"
 #include "formats/brlcad_g_writer.hpp"
 #include "formats/brlcad_models.hpp"
 #include "formats/text_source.hpp"

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "formats/brlcad_g.hpp"
-#include "formats/brlcad_g_bytes.hpp"
+#include "formats/brlcad/g/reader.hpp"
+#include "formats/brlcad/g/bytes.hpp"
 #include "formats/brlcad_g_writer.hpp"
 
 using namespace csgrt;

@@ -1,6 +1,6 @@
 // BRL-CAD's models as binary databases: the same as their text twins.
-#include "formats/brlcad_asc.hpp"
-#include "formats/brlcad_g.hpp"
+#include "formats/brlcad/asc.hpp"
+#include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad_models.hpp"
 #include "formats/brlcad_twins.hpp"
 

@@ -2,8 +2,8 @@
 #include <functional>
 
 #include "formats/brlcad_asc_text.hpp"
-#include "formats/brlcad_g.hpp"
-#include "formats/brlcad_g_bytes.hpp"
+#include "formats/brlcad/g/reader.hpp"
+#include "formats/brlcad/g/bytes.hpp"
 #include "formats/brlcad_g_nmg.hpp"
 #include "formats/brlcad_g_writer.hpp"
 

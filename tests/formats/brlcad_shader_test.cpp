@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "formats/brlcad_shader.hpp"
+#include "formats/brlcad/shader.hpp"
 
 using namespace csgrt;
 

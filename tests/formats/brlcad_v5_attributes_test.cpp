@@ -1,6 +1,6 @@
 // Attributes by themselves: spellings and which of them holds.
 #include "catch.hpp"
-#include "formats/brlcad_v5_attributes.hpp"
+#include "formats/brlcad/v5/attributes.hpp"
 #include "formats/text_source.hpp"
 
 using namespace csgrt;

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "formats/parse_text.hpp"
-#include "formats/json_writer.hpp"
+#include "formats/json/writer.hpp"
 #include "formats/same_scene.hpp"
 #include "sanitized.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/json_forms.hpp"
+#include "formats/json/forms.hpp"
 #include "formats/parse_text.hpp"
 
 using namespace csgrt;

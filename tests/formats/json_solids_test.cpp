@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "formats/json_writer.hpp"
+#include "formats/json/writer.hpp"
 #include "formats/parse_text.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/vector.hpp"

@@ -5,7 +5,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "formats/json_reader.hpp"
+#include "formats/json/reader.hpp"
 #include "formats/text_source.hpp"
 
 namespace csgrt {

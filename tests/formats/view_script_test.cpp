@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "formats/text_source.hpp"
-#include "formats/view_script.hpp"
+#include "formats/brlcad/view_script.hpp"
 
 using namespace csgrt;
 

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "catch.hpp"
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 #include "pipeline/rectangles.hpp"
-#include "pipeline/same_answers.hpp"
+#include "integration/same_answers.hpp"
 
 using namespace csgrt;
 

@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "device/choice.hpp"
 #include "device/program.hpp"
-#include "pipeline/every_type.hpp"
+#include "integration/every_type.hpp"
 #include "pipeline/stages.hpp"
 #include "sanitized.hpp"
 

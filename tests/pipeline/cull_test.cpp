@@ -8,7 +8,7 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
-#include "pipeline/same_answers.hpp"
+#include "integration/same_answers.hpp"
 #include "reference/reference.hpp"
 #include "stress/build.hpp"
 

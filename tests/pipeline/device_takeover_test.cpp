@@ -13,7 +13,7 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "cli/held_renderer.hpp"
-#include "pipeline/same_answers.hpp"
+#include "integration/same_answers.hpp"
 #include "reference/reference_kernels.hpp"
 
 using namespace csgrt;

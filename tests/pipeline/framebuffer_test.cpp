@@ -5,7 +5,7 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
-#include "pipeline/same_answers.hpp"
+#include "integration/same_answers.hpp"
 
 using namespace csgrt;
 

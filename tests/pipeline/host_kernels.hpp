@@ -10,7 +10,7 @@
 
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 #include "pipeline/picture.hpp"
 
 namespace csgrt::kernel {
@@ -28,17 +28,17 @@ using std::size_t;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wzero-as-null-pointer-constant"
-#include "../../kernels/traverse.h"
-#include "../../kernels/0_cull_blocks.cl"
-#include "../../kernels/1_count_hits.cl"
-#include "../../kernels/2_store_segments.cl"
-#include "../../kernels/3_weave.cl"
-#include "../../kernels/4_evaluate.cl"
-#include "../../kernels/5_shade.cl"
+#include "../kernels/traverse.h"
+#include "../kernels/0_cull_blocks.cl"
+#include "../kernels/1_count_hits.cl"
+#include "../kernels/2_store_segments.cl"
+#include "../kernels/3_weave.cl"
+#include "../kernels/4_evaluate.cl"
+#include "../kernels/5_shade.cl"
 #define CSGRT_SOLIDS 0xffffffffu
 inline u32 atomic_inc(u32* place) { return (*place)++; }
-#include "../../kernels/first_hits_ray.h"
-#include "../../kernels/first_hits.cl"
+#include "../kernels/first_hits_ray.h"
+#include "../kernels/first_hits.cl"
 #undef CSGRT_SOLIDS
 #pragma GCC diagnostic pop
 // NOLINTEND

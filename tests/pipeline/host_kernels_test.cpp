@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "pipeline/host_kernels.hpp"
-#include "pipeline/scenes.hpp"
+#include "integration/scenes.hpp"
 #include "reference/reference.hpp"
 
 using namespace csgrt;

@@ -7,8 +7,8 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
-#include "pipeline/same_answers.hpp"
-#include "pipeline/scenes.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
 #include "reference/intersect.hpp"
 #include "sanitized.hpp"
 

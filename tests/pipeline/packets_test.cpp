@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 #include "formats/parse_text.hpp"
-#include "pipeline/same_answers.hpp"
+#include "integration/same_answers.hpp"
 #include "sanitized.hpp"
 #include "stress/build.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "oracle/random.hpp"
 #include "oracle/scene_judge.hpp"
-#include "pipeline/scenes.hpp"
+#include "integration/scenes.hpp"
 
 using namespace csgrt;
 using oracle::quad;

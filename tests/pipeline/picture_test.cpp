@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 
 using namespace csgrt;
 

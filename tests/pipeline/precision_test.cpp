@@ -7,12 +7,12 @@
 #include <csgrt/csgrt.hpp>
 
 #include "compile/frame.hpp"
-#include "geometry/kernel_answer.hpp"
+#include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/random.hpp"
 #include "oracle/rays.hpp"
 #include "oracle/scene_oracle.hpp"
 #include "oracle/solids/all.hpp"
-#include "pipeline/scenes.hpp"
+#include "integration/scenes.hpp"
 #include "reference/reference_kernels.hpp"
 
 using namespace csgrt;

@@ -3,8 +3,8 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
-#include "clock.hpp"
-#include "pipeline/same_answers.hpp"
+#include "base/clock.hpp"
+#include "integration/same_answers.hpp"
 
 using namespace csgrt;
 

@@ -1,5 +1,5 @@
 // The window of a picture: no ray outside of it meets anything, by the reference, which shoots them all; and it spares most of the rest.
-#include "compile/window.hpp"
+#include "compile/screen_bounds.hpp"
 
 #include <random>
 

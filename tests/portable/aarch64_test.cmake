@@ -15,14 +15,14 @@ foreach(tool compiler emulator CLANG)
     endif()
 endforeach()
 
-# The negative of a fma must stay one, for the sign of its zero (src/device/native/builtins.h). None of the scenes below
+# The negative of a fma must stay one, for the sign of its zero (src/native/builtins.h). None of the scenes below
 # shows it.
 execute_process(COMMAND ${CLANG} -print-resource-dir OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
 file(WRITE ${WORK}/zero.cl "double negative(double a, double b, double c) { return -fma(a, b, c); }\n")
 execute_process(
     COMMAND ${CLANG} -x cl -cl-std=CL1.2 -Xclang -cl-ext=+cl_khr_fp64 -cl-no-stdinc -target aarch64-linux-gnu -w -O3
         -ffp-contract=off -include ${resources}/include/opencl-c-base.h "-DCSGRT_LDEXP=\"ldexp\""
-        -include ${ROOT}/src/device/native/builtins.h -S -o - ${WORK}/zero.cl
+        -include ${ROOT}/src/native/builtins.h -S -o - ${WORK}/zero.cl
     OUTPUT_VARIABLE assembly COMMAND_ERROR_IS_FATAL ANY)
 if(NOT assembly MATCHES "fmadd" OR assembly MATCHES "fnmadd")
     message(FATAL_ERROR "-fma(a, b, c) is not the negative of a fma:\n${assembly}")

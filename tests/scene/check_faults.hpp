@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "scene/solid_faults.hpp"
+#include "scene/faults/solids.hpp"
 
 namespace csgrt {
 

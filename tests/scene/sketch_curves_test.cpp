@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "scene/sketch_curves.hpp"
-#include "scene/solid_faults.hpp"
+#include "scene/faults/solids.hpp"
 
 using namespace csgrt;
 

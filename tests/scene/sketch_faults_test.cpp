@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scene/check_faults.hpp"
-#include "scene/sketch_faults.hpp"
+#include "scene/faults/sketches.hpp"
 
 using namespace csgrt;
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "formats/friendly_solids.hpp"
+#include "formats/json/friendly_solids.hpp"
 #include "scene/check_faults.hpp"
 
 using namespace csgrt;

@@ -1,5 +1,5 @@
 // The kernels on the host in double.
-#include "kernel_geometry.hpp"
+#include "kernel_host/geometry.hpp"
 
 #define CSGRT_KERNELS kernel
 #define CSGRT_MAKE_KERNELS make_double_kernels

@@ -3,7 +3,7 @@
 #include "reference/precision/double_fma.hpp"
 
 #ifdef CSGRT_DOUBLE_FMA
-#include "kernel_host.hpp"
+#include "kernel_host/kernels.hpp"
 #include "reference/reference_kernels.hpp"
 
 // The kernels' own functions alone: what they share with other files must run on any processor.

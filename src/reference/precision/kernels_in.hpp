@@ -20,8 +20,8 @@ CSGRT_NUMBERS
 using u32 = std::uint32_t;
 inline const real REAL_INFINITY = static_cast<real>(std::numeric_limits<double>::infinity());
 
-#include "../../../kernels/camera.h"
-#include "../../../kernels/geometry/collect.h"
-#include "../../../kernels/shading.h"
+#include "../kernels/camera.h"
+#include "../kernels/geometry/collect.h"
+#include "../kernels/shading.h"
 
 }  // namespace csgrt::CSGRT_KERNELS

@@ -1,0 +1,49 @@
+#include "commands.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <csgrt/scene_io.hpp>
+
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "scene/faults/finding_list.hpp"
+
+namespace csgrt::cli {
+
+Settings with_progress(const Settings& settings, Progress& progress) {
+    Settings result = settings;
+    result.progress = [&progress](double fraction) {
+        progress.update(fraction);
+        return !interrupted();
+    };
+    return result;
+}
+
+void report(std::vector<Warning> warnings, bool pictures) {
+    constexpr std::size_t most = FindingList::most;
+    if (!pictures) std::erase_if(warnings, [](const Warning& warning) { return warning.appearance; });
+    std::string text;
+    for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i)
+        text += "csgrt: warning: " + format(warnings[i]) + "\n";
+    if (warnings.size() > most)
+        text += "csgrt: " + std::to_string(warnings.size() - most) + " more warnings; 'csgrt info' lists all\n";
+    std::fputs(text.c_str(), stderr);
+}
+
+Scene load(const std::string& path, bool strict) try {
+    Scene scene = load_scene(path, strict);
+    check_interrupt();
+    return scene;
+} catch (const Error&) {
+    check_interrupt();  // a signal may be why it could not be read
+    throw;
+}
+
+Scene load_with_progress(const std::string& path, bool strict) {
+    Progress progress;
+    progress.stage("loading");
+    return load(path, strict);
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,24 @@
+// csgrt convert: any scene that csgrt reads, as its own JSON.
+#include <filesystem>
+
+#include <csgrt/scene_io.hpp>
+
+#include "commands.hpp"
+#include "cli/output.hpp"
+
+namespace csgrt::cli {
+
+Status run(const ConvertArguments& arguments) {
+    if (arguments.output != "-" && std::filesystem::path(arguments.output).extension() != ".json" &&
+        !target_of(arguments.output).direct)
+        throw Error(Status::usage, "OUT: '" + arguments.output + "' must end in .json, the format that is written");
+    check_outputs({{"OUT", arguments.output}}, {{"IN", arguments.input}});
+    Scene scene = load_with_progress(arguments.input, arguments.strict);
+    std::vector<Warning> warnings = scene.warnings;
+    if (scene.lenient) validate(scene, {}, false, &warnings);  // for what is left out: findings are the reader's to show
+    report(warnings);
+    save_scene(scene, arguments.output);
+    return Status::ok;
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,29 @@
+// A scene in words.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+#include <csgrt/scene.hpp>
+
+#include "cli/commands/commands.hpp"
+
+namespace csgrt::cli {
+
+/// "operators.json part-1 part-2": the scene file's name without its folders, and the objects that the user named (none: its
+/// top objects), blanks in names escaped.
+std::string model_text(const SceneArguments& arguments);
+
+/// The box of the bounded regions, six numbers by `number`, with "to" and "mm" between and after them if `in_words`;
+/// "unbounded" or "empty" if there is none.
+std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*number)(double));
+
+/// "3 (arb8 2, tor 1)", the most frequent first.
+std::string count_text(const std::map<std::string, std::size_t>& by_type);
+
+/// The trees of `objects`, a line a member, `depth` levels below each. Every combination is unfolded once.
+std::string tree_text(const Scene& scene, const std::vector<std::string>& objects, int depth);
+
+}  // namespace csgrt::cli

@@ -1,0 +1,52 @@
+#include "compile/bounds/extent.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "compile/linear.hpp"
+#include "scene/range.hpp"
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// Boxes are padded for rounding.
+constexpr double most = Limits::length * (1 + 1e-6);
+
+/// What is wrong; empty: nothing. A comparison with what is not a number is false, and so a fault.
+std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& box) {
+    if (const auto* half = std::get_if<Half>(&shape)) {
+        const double distance = std::abs(transform_plane(matrix, half->plane).distance);
+        if (distance <= most) return {};
+        return "lies " + rounded_text(distance) + " mm from the origin where it stands; " + length_limit();
+    }
+    const bool is_open = std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);  // unless its faces close
+    const double far = std::max(largest(box.low), largest(box.high));
+    if (!(far <= most) && !(is_open && std::isinf(far)))
+        return "reaches to " + rounded_text(far) + " mm from the origin where it stands; " + length_limit();
+    const Vec3 sides = box.high - box.low;
+    const double size = std::hypot(sides.x, sides.y, sides.z);  // the squares of what is too small may be 0
+    if (size >= Limits::least_length) return {};
+    return "is " + rounded_text(size) + " mm large where it stands; the least size is " +
+           number_text(Limits::least_length) + " mm";
+}
+
+}  // namespace
+
+std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat, const Measured& measured) {
+    std::vector<ExtentFault> faults;
+    for (std::size_t i = 0; i < flat.instances.size(); ++i) {
+        const Instance& instance = flat.instances[i];
+        const Box& box = measured.boxes[i];
+        const bool plain = largest(box.low) <= most && largest(box.high) <= most &&
+                           box.high.x - box.low.x >= Limits::least_length;
+        if (plain) continue;
+        std::string fault = extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
+        if (!fault.empty()) faults.push_back({instance.object, std::move(fault)});
+    }
+    return faults;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,244 @@
+// Top down, each range of boxes cut in two (bvh_split.hpp). Ranges of many boxes go to a common queue, the others are done in
+// one piece; which of the two a range is depends on its size alone, so the result does not depend on the number of threads.
+#include "compile/bvh/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+
+#include "compile/bvh/split.hpp"
+#include "compile/linear.hpp"
+#include "base/parallel.hpp"
+
+namespace csgrt {
+namespace {
+
+using namespace bvh;
+
+constexpr std::size_t task_size = 16'384;  // boxes that are done in one piece
+constexpr std::uint32_t none = 0xffffffff;
+constexpr std::uint32_t part_of_number = 1u << 14;
+
+std::uint32_t number_of(const FloatBox& box) {
+    return static_cast<std::uint32_t>(box.low.v[3]) + part_of_number * static_cast<std::uint32_t>(box.high.v[3]);
+}
+
+float below(double value) {
+    const float f = static_cast<float>(std::clamp<double>(value, -largest, largest));
+    return f <= value ? f : std::nextafter(f, -largest);
+}
+float above(double value) {
+    const float f = static_cast<float>(std::clamp<double>(value, -largest, largest));
+    return f >= value ? f : std::nextafter(f, largest);
+}
+
+using BoxOf = std::function<Box(std::size_t)>;
+
+class Builder {
+public:
+    Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,
+            unsigned threads);
+    Hierarchy build();
+
+private:
+    /// A range of many boxes, and what became of it.
+    struct Task {
+        Range range;
+        std::uint32_t place;                      ///< of its first node: as many before it as there can be
+        std::uint32_t left = none, right = none;  ///< tasks; none: it was done in one piece
+        std::uint32_t nodes = 0;                  ///< of one piece; their `skip` counts from the first
+    };
+
+    kernel::BvhNode node(const Range& range) const;
+    void in_one_piece(Task& task, std::vector<std::uint32_t>& right);
+    void work();
+    void join();
+
+    std::vector<FloatBox> boxes_;
+    Range all_{};
+    std::vector<kernel::BvhNode> nodes_;
+    std::uint32_t first_solid_;
+    unsigned threads_;
+    std::deque<Task> tasks_;
+    std::vector<std::uint32_t> waiting_;
+    std::size_t unfinished_ = 0;
+    std::exception_ptr thrown_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+};
+
+Builder::Builder(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius, std::uint32_t first_solid,
+                 unsigned threads)
+    : first_solid_(first_solid), threads_(thread_count(threads)) {
+    resize_cleared(boxes_, count);
+    const double pad = bvh_padding * radius;
+    std::vector<Range> ranges((count + task_size - 1) / task_size);
+    for_chunks(count, task_size, threads_, [&](std::size_t first, std::size_t last, std::size_t chunk) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Box b = box_of(i);
+            boxes_[i].low = {{below(b.low.x - center.x - pad), below(b.low.y - center.y - pad),
+                              below(b.low.z - center.z - pad), static_cast<float>(i % part_of_number)}};
+            boxes_[i].high = {{above(b.high.x - center.x + pad), above(b.high.y - center.y + pad),
+                               above(b.high.z - center.z + pad), static_cast<float>(i / part_of_number)}};
+        }
+        ranges[chunk] = {first, last, {}, {}};
+        measure(boxes_, ranges[chunk]);
+    });
+    all_ = {0, count, nothing, nothing};
+    for (const Range& range : ranges) {
+        unite(all_.box, range.box);
+        unite(all_.middles, range.middles);
+    }
+}
+
+kernel::BvhNode Builder::node(const Range& range) const {
+    kernel::BvhNode result{};
+    for (int axis = 0; axis < 3; ++axis) {
+        result.low[axis] = range.box.low.v[axis];
+        result.high[axis] = range.box.high.v[axis];
+    }
+    return result;
+}
+
+/// Depth-first order: a node comes before its children, the left one right after it. `right`: memory for where the right child
+/// of each node is; none: a leaf.
+void Builder::in_one_piece(Task& task, std::vector<std::uint32_t>& right) {
+    struct Open {
+        Range range;
+        std::uint32_t parent;  // of a right child, which must be told where it begins
+    };
+    kernel::BvhNode* const nodes = nodes_.data() + task.place;
+    right.clear();
+    std::vector<Open> open{{task.range, none}};
+    while (!open.empty()) {
+        const auto [range, parent] = open.back();
+        open.pop_back();
+        const auto number = static_cast<std::uint32_t>(right.size());
+        if (parent != none) right[parent] = number;
+        right.push_back(none);
+        nodes[number] = node(range);
+        Open second{{}, number}, first{{}, none};
+        if (split(boxes_, range, first.range, second.range)) {
+            open.push_back(second);
+            open.push_back(first);
+        } else {
+            nodes[number].leaf = (first_solid_ + static_cast<std::uint32_t>(range.first)) << BVH_LEAF_SHIFT |
+                                 static_cast<std::uint32_t>(range.size());
+        }
+    }
+    task.nodes = static_cast<std::uint32_t>(right.size());
+    nodes[0].skip = task.nodes;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        if (right[i] == none) continue;
+        nodes[i + 1].skip = right[i];
+        nodes[right[i]].skip = nodes[i].skip;
+    }
+}
+
+/// Takes tasks from the queue until there are none and no other thread may bring more.
+void Builder::work() {
+    std::vector<std::uint32_t> memory;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [&] { return !waiting_.empty() || unfinished_ == 0; });
+        if (waiting_.empty()) return;
+        Task& task = tasks_[waiting_.back()];
+        waiting_.pop_back();
+        lock.unlock();
+        Task left, right;
+        const bool large = task.range.size() > task_size;
+        std::exception_ptr thrown;
+        try {
+            if (large) {
+                split(boxes_, task.range, left.range, right.range);
+                left.place = task.place + 1;
+                right.place = task.place + 2 * static_cast<std::uint32_t>(left.range.size());
+            } else {
+                in_one_piece(task, memory);
+            }
+        } catch (...) {
+            thrown = std::current_exception();  // out of memory
+        }
+        lock.lock();
+        if (thrown) {
+            thrown_ = thrown;
+            waiting_.clear();
+        }
+        if (thrown_) {
+            unfinished_ = 0;
+            changed_.notify_all();
+            return;
+        }
+        if (large) {
+            for (Task* child : {&left, &right}) {
+                (child == &left ? task.left : task.right) = static_cast<std::uint32_t>(tasks_.size());
+                waiting_.push_back(static_cast<std::uint32_t>(tasks_.size()));
+                tasks_.push_back(std::move(*child));
+            }
+            unfinished_ += 2;
+        }
+        if (--unfinished_ == 0 || large) changed_.notify_all();
+    }
+}
+
+/// Closes the gaps between the pieces.
+void Builder::join() {
+    struct Open {
+        std::uint32_t task;
+        std::uint32_t close;  // the node whose subtree ends here, if no task
+    };
+    std::vector<Open> open{{0, none}};
+    std::uint32_t first = 0;
+    while (!open.empty()) {
+        const auto [number, close] = open.back();
+        open.pop_back();
+        if (number == none) {
+            nodes_[close].skip = first;
+            continue;
+        }
+        const Task& task = tasks_[number];
+        if (task.left == none) {
+            for (std::uint32_t i = 0; i < task.nodes; ++i) {
+                nodes_[first + i] = nodes_[task.place + i];
+                nodes_[first + i].skip += first;
+            }
+            first += task.nodes;
+            continue;
+        }
+        nodes_[first] = node(task.range);
+        open.push_back({none, first++});
+        open.push_back({task.right, none});
+        open.push_back({task.left, none});
+    }
+    nodes_.resize(first);
+}
+
+Hierarchy Builder::build() {
+    Hierarchy result;
+    if (boxes_.empty()) return result;
+    const std::size_t most = 2 * boxes_.size() - 1;
+    resize_cleared(nodes_, most);
+    tasks_.push_back({all_, 0});
+    waiting_.push_back(0);
+    unfinished_ = 1;
+    on_threads(boxes_.size() > task_size ? threads_ : 1, [this] { work(); });
+    if (thrown_) std::rethrow_exception(thrown_);
+    join();
+    result.nodes = std::move(nodes_);
+    result.order.resize(boxes_.size());
+    for_chunks(boxes_.size(), task_size, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) result.order[i] = number_of(boxes_[i]);
+    });
+    return result;
+}
+
+}  // namespace
+
+Hierarchy build_bvh(std::size_t count, const BoxOf& box_of, const Vec3& center, double radius,
+                    std::uint32_t first_solid, unsigned threads) {
+    return Builder(count, box_of, center, radius, first_solid, threads).build();
+}
+
+}  // namespace csgrt

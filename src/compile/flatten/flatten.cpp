@@ -1,0 +1,291 @@
+#include "compile/flatten/flatten.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "compile/flatten/tree.hpp"
+#include "compile/flatten/instance_table.hpp"
+#include "compile/regions/linearize.hpp"
+#include "compile/regions/regions.hpp"
+#include "base/prefetch.hpp"
+#include "base/parallel.hpp"
+#include "scene/faults/finding_list.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// A name list for a note: all of a few, the first few of many.
+std::string some(const std::vector<std::string>& names) {
+    constexpr std::size_t shown = 5;
+    std::string text;
+    for (std::size_t i = 0; i < names.size() && i < shown; ++i) text += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > shown) text += ", ...";
+    return text;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::vector<std::string> fastgen_regions(const FlatScene& flat) {
+    std::vector<std::string> names;
+    for (const FlatRegion& region : flat.regions)
+        if (region.info.fastgen != Fastgen::none)
+            names.push_back(region.info.path + (region.info.fastgen == Fastgen::plate ? " (plate)" : " (volume)"));
+    return names;
+}
+
+/// Instances that only dropped parts of trees used are dropped, too.
+void drop_unused(FlatScene& flat) {
+    constexpr std::uint32_t unused = 0xffffffff;
+    std::vector<std::uint32_t> number(flat.instances.size(), unused);
+    std::uint32_t used = 0;
+    bool in_order = true;
+    for (const FlatRegion& region : flat.regions)
+        for (const FlatTree::Node& node : region.tree.nodes)
+            if (node.op == Operator::leaf && number[node.solid] == unused) {
+                in_order = in_order && node.solid == used;
+                number[node.solid] = used++;
+            }
+    if (in_order && used == flat.instances.size()) return;
+    std::fill(number.begin(), number.end(), unused);
+    std::vector<Instance> kept;
+    for (FlatRegion& region : flat.regions) {
+        for (FlatTree::Node& node : region.tree.nodes) {
+            if (node.op != Operator::leaf) continue;
+            std::uint32_t& to = number[node.solid];
+            if (to == unused) {
+                to = static_cast<std::uint32_t>(kept.size());
+                kept.push_back(flat.instances[node.solid]);
+            }
+            node.solid = to;
+        }
+    }
+    flat.instances = std::move(kept);
+}
+
+}  // namespace
+
+const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance) {
+    const auto composite = flat.composites.find(instance.object);
+    if (composite != flat.composites.end()) return composite->second.pieces[instance.piece].shape;
+    return std::get<Solid>(scene.objects[instance.object]).shape;
+}
+
+const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance) {
+    static const std::vector<Plane> none;
+    const auto composite = flat.composites.find(instance.object);
+    return composite != flat.composites.end() ? composite->second.pieces[instance.piece].cuts : none;
+}
+
+namespace {
+
+/// A term of the expression above some regions: a region, unless it turns out to be empty.
+struct Term {
+    const RegionForest* forest;
+    std::uint32_t node;
+};
+
+/// Terms as one thread flattens them.
+struct TermsPart {
+    struct Written {
+        FlatRegion region;
+        Flattener::Kind kind;
+        bool contains_space;
+    };
+    std::vector<Written> regions;
+    FlatPart flat;
+};
+
+/// Asks for what the terms after number `i` will read first, most of the time.
+void fetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, std::size_t i) {
+    const auto object_at = [&](std::size_t term) { return terms[term].forest->leftmost_start(terms[term].node).object; };
+    if (i + 2 < terms.size()) fetch_whole(scene.objects[object_at(i + 2)]);
+    if (i + 1 == terms.size() || index.kind(object_at(i + 1)) >= Names::Kind::solid) return;
+    const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[object_at(i + 1)]).tree.nodes;
+    constexpr std::size_t most = 8;
+    for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) fetch_whole(nodes[k]);
+}
+
+TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms) {
+    TermsPart part;
+    part.regions.reserve(terms.size());
+    Flattener flattener(scene, index, part.flat);
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+        fetch_ahead(scene, index, terms, i);
+        const auto& [forest, term] = terms[i];
+        const RegionStart& start = forest->leftmost_start(term);
+        const Object& origin = scene.objects[forest->origin_of(start)];
+        TermsPart::Written& written = part.regions.emplace_back();
+        FlatRegion& region = written.region;
+        written.kind = flattener.write(*forest, term, region.tree);
+        region.info = describe_region(std::get_if<Combination>(&origin), forest->attributes_of(start), scene.region_colors);
+        region.info.path = forest->path(start.path);
+        written.contains_space = written.kind == Flattener::Kind::everything ||
+                                 (written.kind == Flattener::Kind::tree && contains_empty_space(region.tree));
+    }
+    return part;
+}
+
+/// A term that is no region, and why.
+struct NoRegion {
+    std::size_t term;
+    bool contains_space;  ///< else it is empty
+    std::string path;
+    Place place;
+};
+
+/// Parts of a scene, joined in their order.
+class Joiner {
+public:
+    Joiner(const Scene& scene, const std::vector<Term>& terms, FlatScene& result)
+        : scene_(scene), terms_(terms), result_(result), instances_(scene.objects.size()) {}
+
+    void add(TermsPart& part) {
+        numbers_.clear();
+        const std::vector<Matrix>& matrices = result_.matrices.emplace_back(std::move(part.flat.matrices));
+        for (const auto& [object, piece, matrix] : part.flat.leaves)
+            numbers_.push_back(instances_.number({object, piece, &matrices[matrix]}, result_.instances));
+        for (auto& [region, kind, contains_space] : part.regions) {
+            const std::size_t term = next_++;
+            if (kind == Flattener::Kind::nothing || contains_space) {
+                const RegionStart& start = terms_[term].forest->leftmost_start(terms_[term].node);
+                no_regions_.push_back(
+                    {term, contains_space, std::move(region.info.path), place_of(scene_.objects[start.object])});
+                continue;
+            }
+            for (FlatTree::Node& node : region.tree.nodes)
+                if (node.op == Operator::leaf) node.solid = numbers_[node.solid];
+            result_.regions.push_back(std::move(region));
+        }
+        has_unused_ = has_unused_ || part.flat.has_unused;
+        result_.composites.merge(part.flat.composites);
+        check_references(references_ += part.flat.references);
+    }
+
+    const std::vector<NoRegion>& no_regions() const { return no_regions_; }
+    bool has_unused() const { return has_unused_; }
+
+private:
+    const Scene& scene_;
+    const std::vector<Term>& terms_;
+    FlatScene& result_;
+    InstanceTable instances_;
+    std::vector<std::uint32_t> numbers_;  ///< of a part's leaves
+    std::vector<NoRegion> no_regions_;
+    std::size_t next_ = 0;
+    std::uint64_t references_ = 0;
+    bool has_unused_ = false;
+};
+
+}  // namespace
+
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air) {
+    FlatScene result;
+    ObjectIndex index(scene, names);
+
+    // Which regions there are.
+    struct Named {
+        const std::string& name;
+        std::uint32_t object;
+        std::unique_ptr<RegionForest> forest;  ///< none: it was named before
+        std::size_t end;                       ///< of its terms
+        bool has_air;
+    };
+    std::vector<Named> all;
+    std::vector<Term> terms;
+    std::vector<std::string> air_regions;
+    double solids = 0;
+    const auto check = [](const std::string& object, double count) {
+        if (count > static_cast<double>(Limits::instances)) {
+            throw Error(Status::scene, "with object " + object + ", the trees of all regions hold more than " +
+                                           std::to_string(Limits::instances) + " solids together");
+        }
+    };
+    std::unordered_set<std::string> seen;
+    for (const std::string& object : objects) {
+        const ObjectPath path = find_path(scene, names, object);
+        if (path.steps.empty()) throw Error(Status::scene, path.fault);
+        std::string way;
+        for (const ObjectPath::Step& step : path.steps) way += std::to_string(step.object) + "/";
+        if (!seen.insert(std::move(way)).second) {
+            all.push_back({object, path.object(), nullptr, terms.size(), false});
+            continue;
+        }
+        const std::size_t air_before = air_regions.size();
+        check(object, solids + index.solids_below(path.object()));
+        auto forest = std::make_unique<RegionForest>(scene, index, path, air, air_regions);
+        solids += forest->solids_in_terms();
+        check(object, solids);
+        forest->for_each_term([&](std::uint32_t term) { terms.push_back({forest.get(), term}); });
+        all.push_back({object, path.object(), std::move(forest), terms.size(), air_regions.size() > air_before});
+    }
+
+    // Their trees.
+    reserve_cleared(result.instances, std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
+    result.regions.reserve(terms.size());
+    Joiner joiner(scene, terms, result);
+    constexpr std::size_t part_size = 512;
+    for_chunks_in_order(
+        terms.size(), part_size, 0,
+        [&](std::size_t first, std::size_t last) {
+            return flatten_part(scene, index, std::span(terms).subspan(first, last - first));
+        },
+        [&](TermsPart& part) { joiner.add(part); });
+    if (joiner.has_unused()) drop_unused(result);
+    const auto before = [](const FlatRegion& a, const FlatRegion& b) { return rank_of(a.info) < rank_of(b.info); };
+    if (!std::is_sorted(result.regions.begin(), result.regions.end(), before))
+        std::stable_sort(result.regions.begin(), result.regions.end(), before);
+
+    // What there is to tell.
+    std::vector<std::string> empty_regions;
+    FindingList findings;
+    const auto warn = [&](std::string object, const Place& place, std::string reason) {
+        result.warnings.push_back({std::move(object), place, std::move(reason), 1});
+    };
+    const auto contains_space = [&](const char* what, const std::string& name, const Place& place) {
+        if (scene.lenient)
+            return warn(name, place, std::string("left out: the ") + what + " contains the empty space where no solid is");
+        findings.add({place,
+                      std::string(what) + " " + name + " contains the empty space where no solid is",
+                      "intersect the complement with something that bounds it",
+                      {}});
+    };
+    std::size_t term = 0;
+    auto next = joiner.no_regions().begin();
+    for (const auto& [name, object, forest, end, has_air] : all) {
+        if (forest == nullptr) {
+            warn(name, {}, "named twice; it is rendered once");
+            continue;
+        }
+        if (forest->is_everything()) contains_space("object", name, place_of(scene.objects[object]));
+        for (; next != joiner.no_regions().end() && next->term < end; ++next) {
+            if (next->contains_space) {
+                contains_space("region", next->path, next->place);
+            } else {
+                empty_regions.push_back(next->path);
+            }
+        }
+        if (term == end && !has_air && findings.empty() && !forest->is_everything() &&
+            names.kind(object) != Names::Kind::left_out)
+            warn(name, {}, "the object holds no solid");
+        term = end;
+    }
+    if (!findings.empty()) throw Error(Status::scene, findings.take());
+    if (const std::vector<std::string> fastgen = fastgen_regions(result); !fastgen.empty())
+        warn({}, {}, counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
+                         ": plain regions are before plates, plates before volumes, then the first in the model; "
+                         "FASTGEN's rules of thickness along the ray are not followed");
+    if (!air_regions.empty())
+        warn({}, {}, counted(air_regions.size(), "air region", "air regions") + " left out: " + some(air_regions));
+    if (!empty_regions.empty())
+        warn({}, {}, counted(empty_regions.size(), "region without solids", "regions without solids") +
+                         " left out: " + some(empty_regions));
+    return result;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,49 @@
+// Scene -> regions with flat trees over placed solids: combinations, matrices and names are gone.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/flatten/pieces.hpp"
+#include "scene/names.hpp"
+
+namespace csgrt {
+
+/// A solid in its place. Two places of one solid with bit-equal matrices are one instance.
+struct Instance {
+    std::uint32_t object = 0;        ///< into Scene::objects
+    std::uint32_t piece = 0;         ///< of a solid that is made of others
+    const Matrix* matrix = nullptr;  ///< from the root: M_top ... M_leg; those of one region mostly share it
+};
+
+struct FlatRegion {
+    RegionInfo info;  ///< all but the bounds
+    FlatTree tree;    ///< leaves are instances
+    double brightness = 0;  ///< of one that shines; see add_region_lights
+};
+
+struct FlatScene {
+    std::vector<std::vector<Matrix>> matrices;             ///< of the instances
+    std::vector<Instance> instances;                       ///< all that trees use, in the order of first use
+    std::vector<FlatRegion> regions;                       ///< by rank, those of one rank in the order of the walk
+    std::unordered_map<std::uint32_t, Pieces> composites;  ///< by object: the solids that are made of others
+    std::vector<Warning> warnings;
+};
+
+/// The shape of an instance, and what is cut off it.
+const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance);
+const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance);
+
+/// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
+/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient scene such a
+/// region is left out.
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air);
+
+inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
+    return flatten(scene, Names(scene), objects, air);
+}
+
+}  // namespace csgrt

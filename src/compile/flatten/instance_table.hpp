@@ -1,0 +1,62 @@
+// The places of solids, told apart while trees are joined.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "compile/solids/near_lookup.hpp"
+#include "compile/flatten/flatten.hpp"
+
+namespace csgrt {
+
+/// The instances of a scene, each once.
+class InstanceTable {
+public:
+    explicit InstanceTable(std::size_t objects) : first_(objects, none) {}
+
+    /// The number of the instance in `all`, to which it is added if it is new.
+    std::uint32_t number(const Instance& instance, std::vector<Instance>& all) {
+        const auto next = static_cast<std::uint32_t>(all.size());
+        std::uint32_t& first = first_[instance.object];
+        if (first == none) {
+            first = next;
+            others_.push_back(none);
+            all.push_back(instance);
+            return next;
+        }
+        // Not the only place of its object: looked up among those that are not the first ones.
+        if (equal(all[first], instance)) return first;
+        const std::uint64_t hash = hash_of(instance);
+        const std::uint32_t last = cells_.find(hash);
+        for (std::uint32_t i = last; i != none; i = others_[i])
+            if (equal(all[i], instance)) return i;
+        others_.push_back(last);
+        cells_.exchange(hash, next);
+        all.push_back(instance);
+        return next;
+    }
+
+private:
+    static constexpr std::uint32_t none = CellTable::none;
+
+    static bool equal(const Instance& a, const Instance& b) {
+        return a.object == b.object && a.piece == b.piece && (a.matrix == b.matrix || *a.matrix == *b.matrix);
+    }
+    static std::uint64_t hash_of(const Instance& instance) {
+        std::uint64_t hash = (14695981039346656037u ^ instance.object) * 1099511628211u ^ instance.piece;
+        for (const double value : *instance.matrix) {
+            std::uint64_t bits;
+            std::memcpy(&bits, &value, sizeof bits);
+            hash = (hash ^ bits) * 1099511628211u;
+            hash ^= hash >> 29;
+        }
+        return hash;
+    }
+
+    std::vector<std::uint32_t> first_;   ///< one an object: its first instance
+    CellTable cells_;                    ///< of those that are not: the last one of each hash
+    std::vector<std::uint32_t> others_;  ///< one an instance: the one before it of the same hash
+};
+
+}  // namespace csgrt

@@ -1,0 +1,133 @@
+// Which tree belongs to which region, by BRL-CAD's rules.
+//
+// The walk goes down from a named object. A combination flagged as a region, or a solid, ends it: there a region
+// starts. What stands above is an expression over such starts. Unions there only collect regions; where another
+// operator stands above regions, unions are pulled up through it until they alone stand on top:
+//
+//     (A u B) - C  ->  (A - C) u (B - C)
+//     (A u B) + C  ->  (A + C) u (B + C)
+//     C + (A u B)  ->  (C + A) u (C + B)
+//
+// (C - (A u B) stays; xor and complement do not distribute.) Each term is one region: its tree the whole term with the
+// trees of all its starts, everything else that of its leftmost start.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "compile/flatten/attributes.hpp"
+#include "scene/names.hpp"
+#include "scene/object_path.hpp"
+
+namespace csgrt {
+
+/// The objects of a scene by name, and how many solids there are below each.
+class ObjectIndex {
+public:
+    ObjectIndex(const Scene& scene, const Names& names);
+    /// What a leaf names; see Names::child. Throws Error (scene) if there is no such object.
+    std::uint32_t child(std::uint32_t object, std::size_t node) const;
+    /// See Names::children.
+    std::span<const std::uint32_t> children(std::uint32_t object) const { return names_.children(object); }
+    /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
+    double solids_below(std::uint32_t object);
+    Names::Kind kind(std::uint32_t object) const { return names_.kind(object); }
+
+private:
+    const Scene& scene_;
+    const Names& names_;
+    /// Negative: not counted yet.
+    double known_solids(std::uint32_t object) const { return names_.is_solid(object) ? 1 : solids_[object]; }
+
+    std::vector<double> solids_;  ///< of combinations
+};
+
+/// Where a region starts: a combination with the region flag, or a solid outside all regions.
+struct RegionStart {
+    std::uint32_t object;
+    std::uint32_t path;   ///< see RegionForest::path
+    std::uint32_t above;  ///< the combination that uses it, as RegionForest numbers them
+    std::uint32_t node;   ///< of that one's tree
+};
+
+/// The expression over region starts that stands above the regions of one named object.
+class RegionForest {
+public:
+    /// Walks down from where a path leads. The paths of air regions that are left out are appended to `dropped`.
+    /// Throws Error (scene) if there are more references than any model has.
+    RegionForest(const Scene& scene, ObjectIndex& index, const ObjectPath& object, bool air,
+                 std::vector<std::string>& dropped);
+
+    /// How many solids the trees of all terms hold together. Pulling unions up may multiply them.
+    double solids_in_terms() const;
+
+    /// leaf: `left` is a start. Complement: `left` is the operand.
+    struct Node {
+        Operator op = Operator::leaf;
+        std::uint32_t left = 0, right = 0;
+    };
+    /// Calls with the topmost node of each term, in BRL-CAD's order of regions.
+    void for_each_term(const std::function<void(std::uint32_t)>& call);
+    /// The expression is true even where no solid is.
+    bool is_everything() const { return root_ == everything; }
+
+    const Node& node(std::uint32_t number) const { return nodes_[number]; }
+    const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
+    const RegionStart& leftmost_start(std::uint32_t node) const;
+    /// The object whose id, air code and the like a region has: where it starts, or the region that the path to the named
+    /// object leads through.
+    std::uint32_t origin_of(const RegionStart& start) const { return inside_ == nothing ? start.object : inside_; }
+    /// Where it stands, and what it and all above have set. Left to those who need them, since the walk is one thread's.
+    Matrix matrix_of(const RegionStart& start) const;
+    Attributes attributes_of(const RegionStart& start) const;
+    /// "/top/.../name"
+    std::string path(std::uint32_t number) const;
+
+private:
+    // Expressions that are a constant have no node.
+    static constexpr std::uint32_t nothing = 0xffffffff, everything = 0xfffffffe;
+
+    /// A combination above regions, in one of its places.
+    struct Above {
+        std::uint32_t object;
+        Matrix matrix;
+        Attributes attributes;
+    };
+    struct Frame {
+        std::uint32_t above, path;
+        std::uint32_t next;
+        std::size_t first_start;  ///< number of the first start below
+    };
+    struct PathStep {
+        std::uint32_t above, object;
+    };
+
+    /// Where a path leads, with what is above it.
+    RegionStart start_of(const ObjectPath& path);
+    /// `start`: with the path of what is above it.
+    void visit(RegionStart start, std::vector<std::string>& dropped);
+    void operate(Operator op, std::uint32_t arity);
+    std::uint32_t combine(Operator op, std::uint32_t left, std::uint32_t right);
+    std::uint32_t complement(std::uint32_t operand);
+    std::uint32_t add_node(Operator op, std::uint32_t left, std::uint32_t right = 0);
+
+    const Scene& scene_;
+    ObjectIndex& index_;
+    bool air_;
+    std::unordered_map<std::uint32_t, std::uint32_t>
+        hollow_;  ///< combinations without starts, and the constant they are
+    std::vector<Frame> frames_;
+    std::vector<Above> above_;
+    std::vector<std::uint32_t> operands_;
+    std::uint32_t root_ = nothing;
+    std::uint32_t inside_ = nothing;  ///< the region that the named object is a part of, where a path says so
+    std::vector<Node> nodes_;
+    std::vector<RegionStart> starts_;
+    std::vector<PathStep> paths_;
+};
+
+}  // namespace csgrt

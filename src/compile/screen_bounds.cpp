@@ -1,0 +1,88 @@
+#include "compile/screen_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace csgrt {
+namespace {
+
+// Of the hierarchy: more boxes fit closer, and take longer than what they spare.
+constexpr std::size_t most_boxes = 64;
+
+std::vector<kernel::BvhNode> upper_boxes(const std::vector<kernel::BvhNode>& nodes) {
+    std::vector<std::uint32_t> numbers{0};
+    for (bool split = true; split;) {
+        split = false;
+        for (std::size_t i = 0, count = numbers.size(); i < count && numbers.size() < most_boxes; ++i) {
+            if (nodes[numbers[i]].leaf) continue;
+            ++numbers[i];  // the first child, which comes before the second
+            numbers.push_back(nodes[numbers[i]].skip);
+            split = true;
+        }
+    }
+    std::vector<kernel::BvhNode> boxes;
+    for (const std::uint32_t number : numbers) boxes.push_back(nodes[number]);
+    return boxes;
+}
+
+double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Columns and lines, as view_ray() counts them: 0 through the middle of the first pixel.
+struct Extent {
+    double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+};
+
+// Takes in what the box, larger by `more` all around, covers. False: part of it is not before the eye.
+bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Extent& extent) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        double p[3];
+        for (unsigned k = 0; k < 3; ++k)
+            p[k] = f.center[k] - f.eye[k] + (corner >> k & 1 ? box.high[k] + more : box.low[k] - more);
+        double scale = 1;
+        if (f.perspective) {
+            scale = dot(p, f.w) / dot(f.w, f.w);
+            if (!(scale > 1e-6)) return false;
+        }
+        const double x = dot(p, f.u) / (scale * dot(f.u, f.u)), y = dot(p, f.v) / (scale * dot(f.v, f.v));
+        const double column = x + 0.5 * f.width - 0.5, line = 0.5 * f.height - 0.5 - y;
+        if (!std::isfinite(column) || !std::isfinite(line)) return false;
+        extent.left = std::min(extent.left, column);
+        extent.right = std::max(extent.right, column);
+        extent.top = std::min(extent.top, line);
+        extent.bottom = std::max(extent.bottom, line);
+    }
+    return true;
+}
+
+}  // namespace
+
+kernel::Window window_of(const CompiledScene& scene, const kernel::Frame& f) {
+    const kernel::Window all{0, 0, f.width, f.height};
+    if (scene.unbounded_count > 0) return all;
+    if (scene.nodes.empty()) return {};
+    // By as much boxes grow for single rays (kernels/shared/slab.h), and coordinates are rounded. The same for every precision.
+    double to_center = 0, center = 0;
+    for (int k = 0; k < 3; ++k) {
+        to_center = std::hypot(to_center, f.eye[k] - f.center[k]);
+        center = std::hypot(center, f.center[k]);
+    }
+    const double more = (f.radius + to_center + center) * 0x1p-16;
+    Extent extent;
+    for (const kernel::BvhNode& box : upper_boxes(scene.nodes))
+        if (!take_in(f, box, more, extent)) return all;
+
+    constexpr double margin = 2;  // pixels
+    const auto within = [](double at, std::uint32_t size) { return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0 * size)); };
+    kernel::Window window;
+    window.left = within(std::floor(extent.left - margin), f.width) / BLOCK * BLOCK;
+    window.top = within(std::floor(extent.top - margin), f.height) / BLOCK * BLOCK;
+    window.right = within(std::ceil(extent.right + margin + 1), f.width);
+    window.bottom = within(std::ceil(extent.bottom + margin + 1), f.height);
+    window.right = std::min(f.width, (window.right + BLOCK - 1) / BLOCK * BLOCK);
+    window.bottom = std::min(f.height, (window.bottom + BLOCK - 1) / BLOCK * BLOCK);
+    if (window.left >= window.right || window.top >= window.bottom) return {};
+    return window;
+}
+
+}  // namespace csgrt

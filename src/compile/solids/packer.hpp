@@ -1,0 +1,71 @@
+// What all pack_*.cpp share: how one solid is written as geometry/<solid>.h reads it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
+#include "compile/linear.hpp"
+#include "compile/solids/pack.hpp"
+#include "compile/solids/planes.hpp"
+#include "compile/solids/surfaces.hpp"
+
+namespace csgrt {
+
+/// Writes one solid. pack_solids.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
+/// pack_sketches.cpp what outlines make, pack_meshes.cpp what triangles make.
+struct Packer {
+    const Matrix& matrix;
+    CompiledScene& scene;  ///< solids of any size write there; others do not touch it: see is_small
+    SharedParts& shared;
+    std::vector<double>& reals;  ///< where this solid's begin at first_real: the scene's, for solids of any size
+    std::vector<Plane>& planes;  ///< the faces, to be found in the table of planes
+    kernel::SolidRecord record{};
+    WideMatrix axes_in_world{};  ///< of the last frame
+    bool is_polyhedron = false;  ///< faces in one plane are one
+    std::vector<std::string> notes{};  ///< what is worth telling of the solid
+
+    void real(long double value) { reals.push_back(static_cast<double>(value)); }
+    /// center and L, the inverse of the matrix whose columns are the local axes in the world.
+    void frame(const Wide& center, const WideMatrix& axes);
+    void face(const Plane& plane) { planes.push_back(plane); }
+    /// The face through `point` that a and b span, looking away from `inside` (all before the matrix).
+    void face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside);
+    /// Faces of a polyhedron; several in one plane are one.
+    void faces(std::span<const Plane> all);
+
+    void operator()(const Ell& s);
+    void operator()(const Tgc& s);
+    void operator()(const Arb& s);
+    void operator()(const Arbn& s);
+    void operator()(const Half& s);
+    void operator()(const Tor& s);
+    void operator()(const Ehy& s);
+    void operator()(const Part& s);
+    void operator()(const Epa& s);
+    void operator()(const Rpc& s);
+    void operator()(const Rhc& s);
+    void operator()(const Eto& s);
+    void crossed(long double alpha, long double beta, long double gamma, long double determinant, long double reach);
+    void operator()(const Hyp& s);
+    void operator()(const Superell& s);
+    void operator()(const Hrt& s);
+    void operator()(const Metaball& s);
+    void operator()(const Pipe& s);
+    void operator()(const Cline& s);
+    void operator()(const Bot& s);
+    void operator()(const Ars& s);
+    void operator()(const Nmg& s);
+    void operator()(const Ebm& s);
+    void operator()(const Vol& s);
+    void operator()(const Dsp& s);
+    void operator()(const Extrude& s);
+    void operator()(const Revolve& s);
+    void operator()(const Unsupported& s);
+};
+
+}  // namespace csgrt

@@ -1,0 +1,106 @@
+// The one table of planes in the world. Faces, end caps and half-spaces that lie in one plane share its record, so that
+// a ray meets them at the very same distance.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/solids/near_lookup.hpp"
+#include "compile/compiled_scene.hpp"
+#include "compile/linear.hpp"
+#include "compile/shards.hpp"
+
+namespace csgrt {
+
+class PlaneTable {
+public:
+    /// Two planes are one when over the boxes of both their solids they lie no farther apart than this, relative to the
+    /// smaller box's diagonal. Rounding of a model's own numbers and matrices stays below; a modelled gap is far above.
+    /// Far from the origin rounding moves planes by more, coordinate_rounding (linear.hpp): then that is the limit.
+    static constexpr double gap = 1e-10;
+    /// ... and when their unit normals differ by no more than this in any component, which keeps the search local.
+    static constexpr double tilt = 1e-9;
+
+    /// `around`: a sphere around the scene; distances are looked up relative to it.
+    PlaneTable(const Vec3& center, double radius)
+        : center_(center),
+          radius_(radius),
+          rounding_(coordinate_rounding * largest_coordinate(center, radius)),
+          offset_reach_(offset_reach * radius + rounding_),
+          offset_cell_(offset_cell * radius + 4 * rounding_) {}
+
+    /// Where a plane is looked up; depends on nothing else, so several threads may find it ahead.
+    struct Key {
+        Plane one;          ///< the plane, or the one that looks the other way: see facing()
+        double offset = 0;  ///< of `one` from the scene's centre
+        std::uint64_t cell = 0;
+        bool flipped = false;  ///< `one` looks the other way
+        bool alone = false;    ///< no plane that is the same lies in another cell
+        std::uint8_t axis = 0; ///< 1, 2, 3: the normal of `one` is that axis, as far as rounding goes
+    };
+    Key key_of(const Plane& plane) const;
+    static kernel::PlaneRecord record_of(const Key& key);
+    /// Tells a chunk where the plane of a solid in `box` is looked up: planes that may be the same share a shard.
+    /// `planes`: about how many there are in all.
+    void add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const;
+
+    /// The record of a face of the solid in `box`: an earlier one if there is one for that plane, in either direction.
+    kernel::PlaneRef add_keyed(const Key& key, const Box& box);
+    kernel::PlaneRef add(const Plane& plane, const Box& box) { return add_keyed(key_of(plane), box); }
+
+    /// Throws Error (scene) if there are more records than references can tell apart.
+    static void check_count(std::size_t records);
+    std::size_t size() const { return entries_.size(); }
+    /// Room for so many: what grows is copied, and half of its memory cleared in vain.
+    void reserve(std::size_t planes) {
+        entries_.reserve(planes);
+        links_.reserve(planes);
+    }
+    /// Without planes, in the memory that it has.
+    void clear() {
+        entries_.clear();
+        links_.clear();
+        cells_.clear();
+    }
+    std::vector<kernel::PlaneRecord> records() const;
+    /// Asks for the memory that a search for it begins with.
+    void fetch(const Key& key) const { cells_.fetch(key.cell); }
+
+private:
+    /// A record as it is looked up: on one side of space, see facing().
+    struct Entry {
+        Vec3 normal;
+        double distance;  ///< from the origin
+        bool flipped;     ///< against the record
+        Box box;          ///< of the solid that brought the plane
+    };
+    /// What is looked at first, apart: parallel planes crowd in a cell.
+    struct Link {
+        double offset;       ///< from the scene's centre
+        std::uint32_t next;  ///< in the same cell
+        std::uint8_t axis;   ///< as in Key
+    };
+
+    std::uint32_t find(const Key& key, const Box& box) const;
+    std::uint32_t find_in_cell(std::uint64_t cell, const Key& key, const Box& box) const;
+    bool same(const Entry& entry, const Plane& plane, const Box& box) const;
+    double offset(const Plane& plane) const;
+    double limit(const Box& a, const Box& b) const;
+    double parallel_reach(const Key& key, const Box& box) const;
+
+    // Offsets are looked up by cells of this size, in parts of the scene's radius. Both boxes lie in the scene, where a tilt moves
+    // a plane by tilt x radius at most.
+    static constexpr double offset_cell = 1.5e-8, offset_reach = 3 * tilt + gap;
+
+    Vec3 center_;
+    double radius_;
+    double rounding_;  ///< of coordinates in the scene
+    double offset_reach_, offset_cell_;
+    std::vector<Entry> entries_;
+    std::vector<Link> links_;  ///< one an entry
+    CellTable cells_;  ///< the last record of each
+};
+
+}  // namespace csgrt

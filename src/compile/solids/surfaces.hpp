@@ -1,0 +1,72 @@
+// Curved surfaces that several solids share: balls, sides of cylinders and cones, tori. The first solid's numbers stand
+// for all, so that a ray meets them at the very same distance, as planes.hpp does for flat faces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "compile/solids/near_lookup.hpp"
+#include "compile/compiled_scene.hpp"
+#include "compile/linear.hpp"
+#include "compile/shards.hpp"
+
+namespace csgrt {
+
+class SurfaceTable {
+public:
+    /// One surface is another if nowhere on the smaller solid they lie farther apart than this, of its box's diagonal; far
+    /// from the origin, than coordinate_rounding (linear.hpp).
+    static constexpr double gap = 1e-10;
+
+    /// `around`: a sphere around the scene.
+    SurfaceTable(const Vec3& center, double radius)
+        : center_(center), radius_(radius), rounding_(coordinate_rounding * largest_coordinate(center, radius)) {}
+
+    /// A surface as it is looked up; depends on nothing else, so several threads may find it ahead.
+    struct Surface {
+        std::uint32_t type;
+        double at[4];     ///< a point that belongs to it alone, from the scene's centre; the logarithm of its size
+        double limit;     ///< one that lies no farther off is the same
+    };
+    /// None for solids whose surfaces are not shared.
+    std::optional<Surface> surface_of(std::uint32_t type, const double* reals, const WideMatrix& axes,
+                                      const Box& box) const;
+    /// Surfaces that may be the same share a cell.
+    std::array<Shards::Chunk::Dimension, 5> coarse_cells(const Surface& surface) const;
+
+    /// The parameters of a solid, by its number, and its local axes in the world.
+    using RealsOf = std::function<std::span<double>(std::uint32_t)>;
+    using AxesOf = std::function<WideMatrix(std::uint32_t)>;
+    /// The solid whose parameters stand for those of solid `number`: an earlier one with the same surface, or itself.
+    std::uint32_t add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
+
+    /// If the solid whose parameters end `scene.reals` has a surface that is there already, drops them and lets it have
+    /// those.
+    void share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene);
+
+    /// Without surfaces, in the memory that it has.
+    void clear() {
+        entries_.clear();
+        cells_.clear();
+    }
+
+private:
+    struct Entry {
+        std::uint32_t number;
+        std::uint32_t next;  ///< in the same cell
+    };
+
+    Vec3 center_;
+    double radius_;
+    double rounding_;  ///< of coordinates in the scene
+    std::vector<Entry> entries_;
+    CellTable cells_;  ///< the last entry of each
+};
+
+}  // namespace csgrt

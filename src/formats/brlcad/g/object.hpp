@@ -1,0 +1,41 @@
+// One object of a binary database: its frame, its name, and where its attributes and its body stand.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/brlcad/g/bytes.hpp"
+#include "formats/brlcad/v5/attributes.hpp"
+
+namespace csgrt {
+
+/// A part of an object, as it stands in the file.
+struct GBlock {
+    std::string_view bytes;
+    std::size_t offset = 0;
+    bool compressed = false;
+};
+
+struct GObject {
+    enum class Kind { data, header, free, unknown };
+
+    std::size_t offset = 0;
+    std::size_t end = 0;  ///< where the next object starts; 0 if that cannot be told
+    Kind kind = Kind::data;
+    int major = 0, minor = 0;
+    std::string name;  ///< empty if it has none, or that cannot be told
+    GBlock attributes, body;
+};
+
+/// Reads the object at `offset`; its body stays undecoded. Throws Fault; what is known by then is in `object`.
+void read_g_object(const ByteSource& source, std::size_t offset, GObject& object);
+
+/// The attributes of an object. Throws Fault.
+std::vector<Attribute> read_g_attributes(const GBlock& block);
+
+/// The bytes of a block. Throws Fault if they are compressed: csgrt has nothing to expand them with.
+ByteReader read_g_block(const GBlock& block, const char* what);
+
+}  // namespace csgrt

@@ -1,0 +1,32 @@
+// Objects of BRL-CAD's newer text form that are no combinations: put name type key value key value ...
+#pragma once
+
+#include <span>
+
+#include <csgrt/scene.hpp>
+
+#include "formats/brlcad/objects.hpp"
+#include "formats/brlcad/v5/parameters.hpp"
+#include "formats/brlcad/tcl_words.hpp"
+
+namespace csgrt {
+
+/// The object of that type with those keys and values; solids of types that csgrt does not know are Unsupported, their
+/// values unread. Throws Fault for keys that are missing, unknown or given twice, and for values that are no numbers.
+BrlcadItem read_v5_object(const TclWord& type, std::span<const TclWord> keys_and_values, TclStore& store);
+
+// Its parts, by family.
+Shape read_v5_bot(Parameters& p);
+Shape read_v5_ars(Parameters& p);
+Shape read_v5_nmg(Parameters& p);
+Shape read_v5_pipe(Parameters& p);
+Shape read_v5_metaball(Parameters& p);
+BrlcadItem read_v5_ebm(Parameters& p);
+BrlcadItem read_v5_vol(Parameters& p);
+BrlcadItem read_v5_dsp(Parameters& p);
+BrlcadNumbers read_v5_numbers(Parameters& p);
+Sketch read_v5_sketch(Parameters& p);
+Shape read_v5_extrude(Parameters& p);
+Shape read_v5_revolve(Parameters& p);
+
+}  // namespace csgrt

@@ -1,0 +1,68 @@
+#include "formats/json/friendly_solids.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// Which of the given vertices each of an arb's eight is, for 4 to 8 given.
+constexpr std::array<std::array<std::size_t, 8>, 5> arb_orders = {{
+    {0, 1, 2, 0, 3, 3, 3, 3},
+    {0, 1, 2, 3, 4, 4, 4, 4},
+    {0, 1, 2, 3, 4, 4, 5, 5},
+    {0, 1, 2, 3, 4, 5, 6, 4},
+    {0, 1, 2, 3, 4, 5, 6, 7},
+}};
+
+/// The coordinate axis that is nearest to a right angle with `u`.
+Vec3 most_perpendicular(const Vec3& u) {
+    const double x = std::abs(u.x), y = std::abs(u.y), z = std::abs(u.z);
+    if (x <= y && x <= z) return {1, 0, 0};
+    return y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+}
+
+}  // namespace
+
+Ell sphere(const Vec3& center, double radius) { return {center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}; }
+
+Tgc cone(const Vec3& base, const Vec3& height, double radius, double top_radius) {
+    const Vec3 u = unit(height);
+    const Vec3 across = most_perpendicular(u);
+    const Vec3 a = unit(across - dot(across, u) * u);
+    const Vec3 b = cross(u, a);
+    return {base, height, radius * a, radius * b, top_radius * a, top_radius * b};
+}
+
+Arb box(const Vec3& low, const Vec3& high) {
+    return {{{{high.x, low.y, low.z},
+              {high.x, high.y, low.z},
+              {high.x, high.y, high.z},
+              {high.x, low.y, high.z},
+              {low.x, low.y, low.z},
+              {low.x, high.y, low.z},
+              {low.x, high.y, high.z},
+              {low.x, low.y, high.z}}}};
+}
+
+Arb arb(const std::vector<Vec3>& vertices) {
+    Arb solid;
+    const auto& order = arb_orders.at(vertices.size() - 4);
+    for (std::size_t i = 0; i < 8; ++i) solid.vertices[i] = vertices[order[i]];
+    return solid;
+}
+
+std::vector<Vec3> arb_vertices(const Arb& solid) {
+    for (std::size_t count = 4; count < 8; ++count) {
+        std::vector<Vec3> vertices(count);
+        const auto& order = arb_orders[count - 4];
+        for (std::size_t i = 8; i-- > 0;) vertices[order[i]] = solid.vertices[i];
+        if (same_bits(arb(vertices), solid)) return vertices;
+    }
+    return {solid.vertices.begin(), solid.vertices.end()};
+}
+
+}  // namespace csgrt

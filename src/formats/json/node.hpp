@@ -1,0 +1,108 @@
+// Reads typed things out of JSON values. What is wrong becomes a finding at its place, and reading goes on with a
+// neutral value: a scene with findings is never handed out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <csgrt/scene.hpp>
+
+#include "formats/json/forms.hpp"
+#include "formats/json/value.hpp"
+
+namespace csgrt {
+
+/// What all nodes of a file share.
+struct JsonFile {
+    const TextSource& source;
+    Findings& findings;
+    double unit = 1;  ///< millimetres in the file's unit of length
+};
+
+/// A value and the way to it. Absent if the file does not have it: then every reading function returns its neutral
+/// value without a finding.
+class JsonNode {
+public:
+    JsonNode(JsonFile& file, const JsonValue* value, std::string pointer)
+        : file_(&file), value_(value), pointer_(std::move(pointer)) {}
+
+    bool present() const { return value_ != nullptr; }
+    JsonFile& file() const { return *file_; }
+    const JsonValue* value() const { return value_; }
+    const std::string& pointer() const { return pointer_; }
+    Place place() const { return file_->source.place(value_->offset, pointer_); }
+    void fault(std::string message, std::string suggestion = {}) const;
+
+    bool is_null() const { return holds<std::nullptr_t>(); }
+    bool is_string() const { return holds<std::string>(); }
+    bool is_array() const { return holds<JsonArray>(); }
+    bool is_object() const { return holds<JsonMembers>(); }
+    bool is_vector() const;  ///< three numbers
+
+    bool boolean(bool otherwise = false) const;
+    double number(double otherwise = 0) const;
+    double not_negative(double otherwise) const;
+    double positive() const;
+    int integer(int low, int high, int otherwise) const;
+    std::uint32_t count(std::uint32_t otherwise = 0) const;  ///< a whole number from 0 to 2^32 - 1
+    std::string string() const;
+    std::string name() const;  ///< a string that is not empty
+    /// The number of the name that the string is, one of `names`.
+    std::size_t choice(const std::vector<std::string_view>& names, std::size_t otherwise) const;
+    Vec3 vector() const;       ///< three numbers, as they stand
+    Vec3 color() const;        ///< three numbers from 0 to 1
+    /// The same in millimetres.
+    double length() const { return file_->unit * number(); }
+    double positive_length() const { return file_->unit * positive(); }
+    Vec3 lengths() const;
+    /// A vector of any length but 0, made a unit vector; one that is a unit vector already keeps its bits.
+    Vec3 direction() const;
+    /// `count` numbers.
+    std::vector<double> numbers(std::size_t count) const;
+
+    /// The items of an array, the members of an object (each name once), or nothing but a finding.
+    std::vector<JsonNode> items() const;
+    struct Member;
+    std::vector<Member> members() const;
+
+private:
+    template <class T>
+    bool holds() const {
+        return value_ != nullptr && std::holds_alternative<T>(value_->data);
+    }
+    template <class T>
+    const T* expect(const char* what) const;
+
+    JsonFile* file_;
+    const JsonValue* value_;
+    std::string pointer_;
+};
+
+struct JsonNode::Member {
+    std::string name;
+    JsonNode value;
+    Place place;  ///< of the name
+
+    void fault(std::string message, std::string suggestion = {}) const;
+    std::size_t offset = 0;
+};
+
+/// An object of a given form. Making one reports keys that the form does not have, and required ones that are missing.
+class JsonObject {
+public:
+    JsonObject(const JsonNode& node, const JsonForm& form);
+
+    bool has(std::string_view key) const;
+    JsonNode operator[](std::string_view key) const;
+    const JsonNode& node() const { return node_; }
+
+private:
+    JsonNode node_;
+};
+
+/// "a number", "an object", ...: what a value is, for messages.
+const char* kind_of(const JsonValue& value);
+
+}  // namespace csgrt

@@ -1,0 +1,151 @@
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/json/unit.hpp"
+#include "formats/json/write_object.hpp"
+#include "scene/operators.hpp"
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Operators inside operators up to this are written nested, each of them two brackets; the reader allows
+/// Limits::file_nesting brackets in all. Deeper trees are written in postfix form, which does not nest.
+constexpr std::size_t deepest_nested = 100;
+
+ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
+    const Matrix& m = leaf.matrix;
+    Matrix moved = identity;
+    for (const std::size_t i : {3, 7, 11}) moved[i] = m[i];
+    if (same_bits(m, identity)) return leaf.object;
+    if (same_bits(m, moved)) {
+        return {{"object", leaf.object}, {"translate", unit.lengths({m[3], m[7], m[11]})}};
+    }
+    ordered_json matrix = ordered_json::array();
+    for (std::size_t i = 0; i < 16; ++i) {
+        matrix.push_back(i == 3 || i == 7 || i == 11 ? unit.length(m[i]) : unit.number(m[i]));
+    }
+    return {{"object", leaf.object}, {"matrix", std::move(matrix)}};
+}
+
+/// How many operators stand above the deepest leaf; nothing if the nodes are no tree.
+std::optional<std::size_t> depth_of(const Tree& tree) {
+    std::vector<std::size_t> waiting;
+    for (const TreeNode& node : tree.nodes) {
+        if (node.arity > waiting.size() || operator_name(node.op).empty() || !takes(node.op, node.arity))
+            return std::nullopt;
+        std::size_t depth = 0;
+        for (std::uint32_t i = 0; i < node.arity; ++i) {
+            depth = std::max(depth, waiting.back() + 1);
+            waiting.pop_back();
+        }
+        waiting.push_back(depth);
+    }
+    if (waiting.size() != 1) return std::nullopt;
+    return waiting.front();
+}
+
+ordered_json json_of_postfix(const Tree& tree, JsonUnit& unit) {
+    ordered_json list = ordered_json::array();
+    for (const TreeNode& node : tree.nodes) {
+        if (node.op == Operator::leaf) {
+            list.push_back(json_of_leaf(node, unit));
+        } else {
+            list.push_back({{"operator", operator_name(node.op)}, {"operands", node.arity}});
+        }
+    }
+    return {{"postfix", std::move(list)}};
+}
+
+ordered_json json_of_nested(const Tree& tree, JsonUnit& unit) {
+    std::vector<ordered_json> waiting;
+    for (const TreeNode& node : tree.nodes) {
+        if (node.op == Operator::leaf) {
+            waiting.push_back(json_of_leaf(node, unit));
+            continue;
+        }
+        ordered_json operands = ordered_json::array();
+        for (std::size_t i = waiting.size() - node.arity; i < waiting.size(); ++i)
+            operands.push_back(std::move(waiting[i]));
+        waiting.resize(waiting.size() - node.arity);
+        if (node.op == Operator::not_) operands = ordered_json(std::move(operands[0]));
+        ordered_json written;
+        written[std::string(operator_name(node.op))] = std::move(operands);
+        waiting.push_back(std::move(written));
+    }
+    return std::move(waiting.front());
+}
+
+ordered_json json_of(const Tree& tree, JsonUnit& unit, std::string& fault) {
+    if (tree.nodes.empty()) return nullptr;
+    const std::optional<std::size_t> depth = depth_of(tree);
+    if (!depth) {
+        fault = "its tree has operators without their operands, or operands without an operator";
+        return nullptr;
+    }
+    return *depth > deepest_nested ? json_of_postfix(tree, unit) : json_of_nested(tree, unit);
+}
+
+ordered_json json_of_emission(const Emission& light, JsonUnit& unit) {
+    ordered_json out = ordered_json::object();
+    const Emission usual;
+    if (!same_bits(light.intensity, usual.intensity)) out["intensity"] = unit.number(light.intensity);
+    if (!same_bits(light.fraction, usual.fraction)) out["fraction"] = unit.number(light.fraction);
+    if (!same_bits(light.angle, usual.angle)) out["angle"] = unit.number(light.angle);
+    if (light.target) out["target"] = unit.lengths(*light.target);
+    if (light.direction) out["direction"] = unit.vector(*light.direction);
+    if (light.infinite) out["infinite"] = true;
+    if (!light.visible) out["visible"] = false;
+    if (light.shadows != usual.shadows) out["shadows"] = light.shadows;
+    return out;
+}
+
+/// The shader is always written, so that the finish is there again when all else is at its default.
+ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
+    ordered_json material;
+    if (combination.color) material["color"] = unit.vector(*combination.color);
+    if (combination.finish) {
+        const Finish& finish = *combination.finish;
+        const Finish usual;
+        material["shader"] = finish.shader;
+        const auto add = [&](const char* key, double value, double otherwise) {
+            if (!same_bits(value, otherwise)) material[key] = unit.number(value);
+        };
+        add("specular", finish.specular, usual.specular);
+        add("diffuse", finish.diffuse, usual.diffuse);
+        add("ambient", finish.ambient, usual.ambient);
+        if (finish.shine != usual.shine) material["shine"] = finish.shine;
+        add("transmit", finish.transmit, usual.transmit);
+        add("reflect", finish.reflect, usual.reflect);
+        if (finish.light) material["light"] = json_of_emission(*finish.light, unit);
+    }
+    return material;
+}
+
+}  // namespace
+
+ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault) {
+    const Combination usual;
+    ordered_json out;
+    out["tree"] = json_of(combination.tree, unit, fault);
+    if (combination.region) out["region"] = true;
+    const auto add = [&](const char* key, int value, int otherwise) {
+        if (value != otherwise) out[key] = value;
+    };
+    add("id", combination.region_id, usual.region_id);
+    add("air", combination.air, usual.air);
+    if (combination.fastgen != Fastgen::none)
+        out["fastgen"] = combination.fastgen == Fastgen::plate ? "plate" : "volume";
+    add("material_id", combination.material_id, usual.material_id);
+    add("los", combination.los, usual.los);
+    if (combination.color || combination.finish) out["material"] = json_of_material(combination, unit);
+    if (combination.color_inherits) out["inherit"].push_back("color");
+    if (combination.finish_inherits) out["inherit"].push_back("finish");
+    return out;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,181 @@
+#include "formats/json/writer.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/brlcad/values.hpp"
+#include "formats/json/forms.hpp"
+#include "formats/json/reader.hpp"
+#include "formats/json/text.hpp"
+#include "formats/json/unit.hpp"
+#include "formats/json/write_object.hpp"
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What a section holds once it is known that JSON can hold it.
+struct Entry {
+    const std::string* name;
+    ordered_json value;
+};
+
+class SceneWriter {
+public:
+    /// `unit`: millimetres in the file's unit, called `unit_name`.
+    SceneWriter(const Scene& scene, std::string unit_name, double unit)
+        : scene_(scene), unit_name_(std::move(unit_name)), unit_(unit) {}
+
+    std::string text() {
+        const ordered_json settings = json_of_settings();
+        const std::vector<Entry> solids = entries_of<Solid>();
+        const std::vector<Entry> combinations = entries_of<Combination>();
+        if (!faults_.empty()) throw Error(Status::scene, std::move(faults_));
+
+        std::string out = "{";
+        for (const auto& [key, value] : settings.items()) append_key(out, key, value);
+        append_section(out, "solids", solids);
+        append_section(out, "combinations", combinations);
+        if (const ordered_json order = json_of_order(); !order.empty()) append_key(out, "order", order);
+        if (!scene_.top.empty()) append_key(out, "objects", scene_.top);
+        return out + "\n}\n";
+    }
+
+    /// Whether every length of the text reads back to the same bits.
+    bool exact() const { return unit_.exact(); }
+
+private:
+    void fault(const Place& place, std::string message) { faults_.push_back({place, std::move(message), {}, {}}); }
+
+    /// JSON holds UTF-8 only. Reports the object if the value holds anything else, or a number that is not finite.
+    void check(const Place& place, const std::string& what, const ordered_json& value) {
+        if (!unit_.finite()) fault(place, what + " has a number that is not finite, which JSON cannot hold");
+        unit_.forget_infinities();
+        try {
+            (void)value.dump();
+        } catch (const nlohmann::json::type_error&) {
+            fault(place, what + " has a text that is not UTF-8, which JSON cannot hold");
+        }
+    }
+
+    ordered_json json_of_settings() {
+        const Scene usual;
+        ordered_json out = {{"csgrt", json_format_version}};
+        if (!scene_.title.empty()) out["title"] = scene_.title;
+        out["units"] = unit_name_;
+        if (scene_.units != unit_name_ || scene_.unit_length != unit_in_millimetres(unit_name_)) {
+            out["model_units"] = {{"name", scene_.units}, {"millimetres", unit_.number(scene_.unit_length)}};
+        }
+        if (ordered_json camera = json_of_camera(); !camera.empty()) out["camera"] = std::move(camera);
+        for (const Light& light : scene_.lights) {
+            ordered_json& written = out["lights"].emplace_back(ordered_json{{"position", unit_.lengths(light.position)},
+                                                                            {"color", unit_.vector(light.color)},
+                                                                            {"intensity", unit_.number(light.intensity)}});
+            const Light plain;
+            if (light.infinite) written["infinite"] = true;
+            if (!same_bits(light.angle, plain.angle)) written["angle"] = unit_.number(light.angle);
+            if (!same_bits(light.direction, plain.direction)) written["direction"] = unit_.vector(light.direction);
+        }
+        if (!same_bits(scene_.ambient, usual.ambient)) out["ambient"] = unit_.number(scene_.ambient);
+        if (!same_bits(scene_.background, usual.background)) out["background"] = unit_.vector(scene_.background);
+        if (!same_bits(scene_.tolerance, usual.tolerance)) out["tolerance"] = unit_.length(scene_.tolerance);
+        for (const RegionColor& range : scene_.region_colors) {
+            out["region_colors"].push_back(
+                {{"low", range.low}, {"high", range.high}, {"color", unit_.vector(range.color)}});
+        }
+        check({}, "the scene", out);
+        check({}, "the list of objects", scene_.top);
+        return out;
+    }
+
+    ordered_json json_of_camera() {
+        const Camera &camera = scene_.camera, usual;
+        ordered_json out;
+        if (!camera.eye && !same_bits(camera.azimuth, usual.azimuth)) out["azimuth"] = unit_.number(camera.azimuth);
+        if (!camera.eye && !same_bits(camera.elevation, usual.elevation)) out["elevation"] = unit_.number(camera.elevation);
+        if (!same_bits(camera.perspective, usual.perspective)) out["perspective"] = unit_.number(camera.perspective);
+        if (camera.center) out["center"] = unit_.lengths(*camera.center);
+        if (camera.view_size) out["size"] = unit_.length(*camera.view_size);
+        if (camera.eye) out["eye"] = unit_.lengths(*camera.eye);
+        if (camera.look_at) out["look_at"] = unit_.lengths(*camera.look_at);
+        if (camera.up) out["up"] = unit_.vector(*camera.up);
+        return out;
+    }
+
+    template <class Kind>
+    std::vector<Entry> entries_of() {
+        std::vector<Entry> entries;
+        for (const Object& object : scene_.objects) {
+            const Kind* it = std::get_if<Kind>(&object);
+            if (it == nullptr) continue;
+            const std::string what = "'" + it->name + "'";
+            std::string wrong;
+            ordered_json value;
+            if constexpr (std::is_same_v<Kind, Solid>) {
+                value = json_of(it->shape, unit_);
+            } else {
+                value = json_of(*it, unit_, wrong);
+            }
+            if (!wrong.empty()) fault(it->place, what + ": " + wrong);
+            if (it->name.empty()) fault(it->place, "an object has no name");
+            if (!names_.insert(it->name).second) fault(it->place, "there are two objects named " + what);
+            check(it->place, what, ordered_json::array({it->name, value}));
+            entries.push_back({&it->name, std::move(value)});
+        }
+        return entries;
+    }
+
+    /// The names of all objects, if solids and combinations take turns; else nothing: the sections are the order.
+    ordered_json json_of_order() const {
+        const auto is_solid = [](const Object& object) { return std::holds_alternative<Solid>(object); };
+        ordered_json names = ordered_json::array();
+        if (std::is_partitioned(scene_.objects.begin(), scene_.objects.end(), is_solid)) return names;
+        for (const Object& object : scene_.objects) names.push_back(name_of(object));
+        return names;
+    }
+
+    static void append_key(std::string& out, const std::string& key, const ordered_json& value) {
+        const std::string label = "  " + json_string(key) + ": ";
+        out += (out.size() == 1 ? "\n" : ",\n") + label;
+        append_json(out, value, 2, label.size());
+    }
+
+    static void append_section(std::string& out, const std::string& key, const std::vector<Entry>& entries) {
+        if (entries.empty()) return;
+        out += ",\n  \"" + key + "\": {";
+        bool first = true;
+        for (const Entry& entry : entries) {
+            const std::string label = "    " + json_string(*entry.name) + ": ";
+            out += (first ? "\n" : ",\n") + label;
+            first = false;
+            append_json(out, entry.value, 4, label.size());
+        }
+        out += "\n  }";
+    }
+
+    const Scene& scene_;
+    const std::string unit_name_;
+    JsonUnit unit_;
+    std::unordered_set<std::string> names_;
+    std::vector<Diagnostic> faults_;
+};
+
+}  // namespace
+
+std::string json_scene_text(const Scene& scene) {
+    const auto& units = json_units();
+    if (scene.units != "mm" && std::find(units.begin(), units.end(), scene.units) != units.end() &&
+        scene.unit_length == unit_in_millimetres(scene.units)) {
+        SceneWriter writer(scene, scene.units, scene.unit_length);
+        std::string text = writer.text();
+        if (writer.exact()) return text;
+    }
+    return SceneWriter(scene, "mm", 1).text();
+}
+
+}  // namespace csgrt

@@ -1,0 +1,37 @@
+// kernels/ compiled for the host in double: the same source, the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "kernel_host/math.hpp"
+
+namespace csgrt::kernel {
+
+using real = double;
+using wide = double;
+using u32 = std::uint32_t;
+inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
+
+#include "../kernels/shared/base.h"
+#include "../kernels/shared/layout.h"
+
+static_assert(sizeof(SolidRecord) == 44);
+static_assert(sizeof(PlaneRecord) == 32);
+static_assert(sizeof(RegionRecord) == 16);
+static_assert(sizeof(MaterialRecord) == 32);
+static_assert(sizeof(LightRecord) == 80);
+static_assert(sizeof(BvhNode) == 32 && offsetof(BvhNode, high) == 16);
+static_assert(sizeof(End) == 16 && offsetof(End, solid) == 8);
+static_assert(sizeof(PartitionNode) == 16);
+static_assert(sizeof(Candidate) == 16);
+static_assert(sizeof(RayCount) == 8);
+static_assert(sizeof(StartRecord) == 32);
+static_assert(sizeof(RayTally) == sizeof(RayCount));
+static_assert(sizeof(Pixel) == 52);
+static_assert(sizeof(RayRecord) == 48);
+static_assert(sizeof(BlockNode) == 8);
+static_assert(sizeof(PlaneValues) == sizeof(Pixel));
+
+}  // namespace csgrt::kernel

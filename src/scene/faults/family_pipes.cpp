@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scene/faults/families.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// What a length may pass another by that it was computed to equal.
+constexpr double rounding = 1e-9;
+
+/// Directions that differ by less than this sine run straight on, or straight back.
+constexpr double straight = 1e-9;
+
+void check_widths(Faults& faults, const Pipe::Point& p, const std::string& of) {
+    require_positive(faults, "the outer diameter" + of, p.outer);
+    require_not_negative(faults, "the inner diameter" + of, p.inner);
+    if (p.outer > 0 && p.inner >= p.outer) {
+        faults.push_back("the inner diameter" + of + " must be less than the outer one");
+    }
+}
+
+/// How long the straight parts on both sides of a bend are that its arc takes away; 0 where the pipe runs straight on.
+double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
+    const Pipe::Point& p = s.points[i];
+    const Vec3 into = unit(p.position - s.points[i - 1].position), out = unit(s.points[i + 1].position - p.position);
+    const double sine = length(cross(into, out)), cosine = dot(into, out);
+    const std::string at = " at point " + std::to_string(i);
+    if (sine <= straight) {
+        if (cosine < 0) faults.push_back("it turns back on itself" + at);
+        return 0;
+    }
+    if (!(p.bend >= p.outer / 2 * (1 - rounding))) {
+        faults.push_back("the bend" + at + " must have a radius of half the outer diameter or more");
+    }
+    return p.bend * (cosine > -0.5 ? sine / (1 + cosine) : (1 - cosine) / sine);  // as in compile/pieces.cpp
+}
+
+}  // namespace
+
+Faults FaultsOf::operator()(const Pipe& s) const {
+    Faults faults;
+    if (s.points.size() < 2) return {"it has fewer than 2 points"};
+    if (!require_at_most(faults, "points", s.points.size(), Limits::pipe_points)) return faults;
+    for (const Pipe::Point& p : s.points) {
+        if (!all_finite(faults, p.position, p.outer, p.inner, p.bend)) return faults;
+    }
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+        check_widths(faults, s.points[i], " at point " + std::to_string(i));
+        if (i > 0 && length(s.points[i].position - s.points[i - 1].position) == 0) {
+            faults.push_back("points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are one place");
+        }
+    }
+    if (!faults.empty()) return faults;
+    double before = 0;  // what the bend at the last point takes of the part behind it
+    for (std::size_t i = 1; i < s.points.size(); ++i) {
+        const double tangent = i + 1 < s.points.size() ? tangent_at(faults, s, i) : 0;
+        const double apart = length(s.points[i].position - s.points[i - 1].position);
+        if (before + tangent > apart * (1 + rounding)) {
+            faults.push_back("the bends leave no room between points " + std::to_string(i - 1) + " and " +
+                             std::to_string(i));
+        }
+        before = tangent;
+    }
+    return faults;
+}
+
+Faults FaultsOf::operator()(const Cline& s) const {
+    Faults faults;
+    if (!all_finite(faults, s.v, s.h, s.radius, s.thickness)) return faults;
+    require_length(faults, "the height", s.h);
+    require_positive(faults, "the radius", s.radius);
+    require_not_negative(faults, "the thickness", s.thickness);
+    return faults;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <limits>
+
+#include "scene/arb_form.hpp"
+#include "scene/polytope.hpp"
+#include "scene/faults/families.hpp"
+
+namespace csgrt {
+
+namespace {
+
+void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
+    if (length(plane.normal) == 0) {
+        faults.push_back("the normal" + which + " has length 0");
+    } else if (!is_unit(plane.normal)) {
+        faults.push_back("the normal" + which + " is not of length 1");
+    }
+}
+
+/// Three edges that make a volume far above what is flat, as most arbs have them: for a solid of size s and thickness t it
+/// is at most 3 t s^2, and s is at most 4 times the largest coordinate.
+bool plainly_solid(const Arb& s) {
+    double reach = 0;
+    for (const Vec3& v : s.vertices) reach = std::max({reach, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const Vec3& v = s.vertices[0];
+    const double volume = dot(s.vertices[1] - v, cross(s.vertices[3] - v, s.vertices[4] - v));
+    return reach > 1e-90 && std::abs(volume) > 1e-9 * reach * reach * reach;
+}
+
+void check_volume(Faults& faults, const Arb& s) {
+    if (plainly_solid(s)) return;
+    double size = 0, reach = 0;
+    Vec3 normal;
+    for (const Vec3& p : s.vertices) {
+        reach = std::max(reach, length(p));
+        size = std::max(size, length(p - s.vertices[0]));
+        for (const Vec3& q : s.vertices) {
+            const Vec3 candidate = cross(p - s.vertices[0], q - s.vertices[0]);
+            if (length(candidate) > length(normal)) normal = candidate;
+        }
+    }
+    double thickness = 0;
+    for (const Vec3& p : s.vertices) {
+        thickness = std::max(thickness, std::abs(dot(unit(normal), p - s.vertices[0])));
+    }
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach;
+    const bool flat = thickness <= std::max(1e-12 * size, rounding);
+    if (flat || length(normal) <= size * std::max(1e-12 * size, rounding)) {
+        faults.push_back("the vertices lie in one plane: there is no volume");
+    }
+}
+
+}  // namespace
+
+/// Some triangle of vertices has an area, and some vertex lies off its plane; no face of a surface crosses itself.
+Faults FaultsOf::operator()(const Arb& s) const {
+    Faults faults;
+    for (const Vec3& vertex : s.vertices) {
+        if (!all_finite(faults, vertex)) return faults;
+    }
+    check_volume(faults, s);
+    if (!faults.empty()) return faults;
+    if (const std::optional<std::size_t> face = crossing_face(s)) {
+        std::string which;
+        for (const std::uint32_t vertex : arb_face_vertices[*face]) which += " " + std::to_string(vertex);
+        faults.push_back("its face" + which + " crosses itself: its vertices do not follow one another around it");
+    }
+    return faults;
+}
+
+Faults FaultsOf::operator()(const Arbn& s) const {
+    Faults faults;
+    if (s.planes.size() > Limits::faces) {
+        return {"it has " + std::to_string(s.planes.size()) + " planes; at most " + std::to_string(Limits::faces) +
+                " are supported"};
+    }
+    for (std::size_t i = 0; i < s.planes.size(); ++i) {
+        const Plane& plane = s.planes[i];
+        if (!all_finite(faults, plane.normal, plane.distance)) return faults;
+        check_plane(faults, plane, " of plane " + std::to_string(i));
+    }
+    if (!faults.empty()) return faults;
+    switch (intersect_half_spaces(s.planes).kind) {
+        case Polytope::Kind::empty:
+            return {"its half-spaces have no volume in common"};
+        case Polytope::Kind::unbounded:
+            return {"its half-spaces do not bound it on all sides"};
+        case Polytope::Kind::bounded:
+            break;
+    }
+    return faults;
+}
+
+Faults FaultsOf::operator()(const Half& s) const {
+    Faults faults;
+    if (all_finite(faults, s.plane.normal, s.plane.distance)) check_plane(faults, s.plane, "");
+    return faults;
+}
+
+}  // namespace csgrt

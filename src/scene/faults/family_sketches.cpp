@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "scene/sketch_curves.hpp"
+#include "scene/faults/sketches.hpp"
+#include "scene/sketch_reach.hpp"
+#include "scene/faults/families.hpp"
+
+namespace csgrt {
+
+namespace {
+
+/// What a number may pass another by that it was computed to equal.
+constexpr double rounding = 1e-9;
+
+/// Looks for a curve's least u. Only curves that have control points beyond the axis are followed, by a few places in
+/// each span, so what is found is on the curve.
+struct LeastU {
+    const Sketch& sketch;
+
+    double operator()(const Sketch::Line& c) const { return std::min(u_of(c.start), u_of(c.end)); }
+    double operator()(const Sketch::Arc& c) const { return least_u(sketch, c); }
+    double operator()(const Sketch::Bezier& c) const {
+        std::vector<double> knots(2 * c.points.size(), 0.0);
+        std::fill(knots.begin() + static_cast<std::ptrdiff_t>(c.points.size()), knots.end(), 1.0);
+        return (*this)(Sketch::Nurb{static_cast<std::uint32_t>(c.points.size()), std::move(knots), c.points, {}});
+    }
+    double operator()(const Sketch::Nurb& c) const {
+        double found = std::min(u_of(c.points.front()), u_of(c.points.back()));
+        for (std::size_t span = c.order - 1; span < c.points.size(); ++span) {
+            if (least(std::span(c.points).subspan(span + 1 - c.order, c.order)) >= 0) continue;
+            constexpr int steps = 32;
+            for (int i = 0; i <= steps; ++i) {
+                const double t = c.knots[span] + (c.knots[span + 1] - c.knots[span]) * i / steps;
+                found = std::min(found, u_at(c, span, t));
+            }
+        }
+        return found;
+    }
+
+    double u_of(std::uint32_t vertex) const { return sketch.vertices[vertex].u; }
+    double least(std::span<const std::uint32_t> vertices) const {
+        double u = HUGE_VAL;
+        for (const std::uint32_t vertex : vertices) u = std::min(u, u_of(vertex));
+        return u;
+    }
+
+    /// De Boor's algorithm, with weights; t within the span.
+    double u_at(const Sketch::Nurb& c, std::size_t span, double t) const {
+        const std::size_t degree = c.order - 1;
+        std::array<double, Limits::curve_degree + 1> u{}, w{};
+        for (std::size_t j = 0; j <= degree; ++j) {
+            const std::size_t point = span - degree + j;
+            w[j] = c.weights.empty() ? 1 : c.weights[point];
+            u[j] = w[j] * sketch.vertices[c.points[point]].u;
+        }
+        for (std::size_t r = 1; r <= degree; ++r) {
+            for (std::size_t j = degree; j >= r; --j) {
+                const double low = c.knots[span - degree + j], high = c.knots[span + 1 + j - r];
+                const double s = high > low ? (t - low) / (high - low) : 0;
+                u[j] = (1 - s) * u[j - 1] + s * u[j];
+                w[j] = (1 - s) * w[j - 1] + s * w[j];
+            }
+        }
+        return u[degree] / w[degree];
+    }
+};
+
+/// Loose ends are no faults: they are joined to the axis.
+void check_profile(Faults& faults, const Sketch& sketch) {
+    double size = 0;
+    for (const Sketch::Point& p : sketch.vertices) size = std::max({size, std::abs(p.u), std::abs(p.v)});
+    const double slack = rounding * size;
+    for (std::size_t i = 0; i < sketch.curves.size(); ++i) {
+        if (std::visit(LeastU{sketch}, sketch.curves[i]) >= -slack) continue;
+        faults.push_back("curve " + std::to_string(i) + " of its sketch crosses the axis: u must be 0 or more");
+        return;
+    }
+    if (!(reach_of(curve_pieces(sketch), 1, 0).second > 0)) {
+        faults.push_back("its sketch does not reach out from the axis");
+    }
+}
+
+/// Do ends stay loose? Gaps that BRL-CAD does not see are closed, so they are no faults.
+bool is_open(const Sketch& sketch) {
+    if (open_ends(sketch).empty()) return false;
+    std::vector<CurvePiece> pieces = curve_pieces(sketch);
+    return !close_gaps(pieces).empty();
+}
+
+void add(Faults& faults, Faults more) { std::move(more.begin(), more.end(), std::back_inserter(faults)); }
+
+}  // namespace
+
+Faults FaultsOf::operator()(const Extrude& s) const {
+    Faults faults;
+    if (!all_finite(faults, s.v, s.h, s.a, s.b)) return faults;
+    const bool h = require_length(faults, "the height", s.h), a = require_length(faults, "the vector a", s.a),
+               b = require_length(faults, "the vector b", s.b);
+    if (h && a && b && dependent(s.a, s.b, s.h)) faults.push_back("the vectors a and b and the height lie in one plane");
+    const Faults of_sketch = sketch_faults(s.sketch);
+    add(faults, of_sketch);
+    if (!of_sketch.empty() || !is_open(s.sketch)) return faults;
+    faults.push_back("its sketch is open at vertex " + std::to_string(open_ends(s.sketch).front()) +
+                     ": curves must form closed loops");
+    return faults;
+}
+
+Faults FaultsOf::operator()(const Revolve& s) const {
+    Faults faults;
+    if (!all_finite(faults, s.v, s.axis, s.r, s.angle)) return faults;
+    require_length(faults, "the axis", s.axis);
+    require_length(faults, "the direction r", s.r);
+    require_perpendicular(faults, "the direction r", s.r, "the axis", s.axis);
+    if (!(s.angle > 0 && s.angle <= 2 * std::numbers::pi * (1 + rounding))) {
+        faults.push_back("the angle must be greater than 0 and at most a full turn");
+    }
+    const Faults of_sketch = sketch_faults(s.sketch);
+    add(faults, of_sketch);
+    if (of_sketch.empty()) check_profile(faults, s.sketch);
+    return faults;
+}
+
+}  // namespace csgrt

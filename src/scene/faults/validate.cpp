@@ -1,0 +1,354 @@
+// One walk over everything that the rendered objects reach, depth first, each object once. The walk keeps its own
+// stack, and how many solids stand below an object is summed on the way back, so neither depth nor sharing costs.
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "scene/excerpt.hpp"
+#include "scene/faults/finding_list.hpp"
+#include "scene/nearest.hpp"
+#include "scene/faults/objects.hpp"
+#include "scene/object_path.hpp"
+#include "scene/faults/solids.hpp"
+#include "scene/faults/unsupported.hpp"
+#include "scene/faults/validate.hpp"
+
+namespace csgrt {
+
+namespace {
+
+constexpr std::uint64_t far_too_many = UINT64_MAX;
+
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) { return a > far_too_many - b ? far_too_many : a + b; }
+
+std::string count_of_solids(std::uint64_t count) {
+    return count == far_too_many ? "more than 10^19 solids" : std::to_string(count) + " solids";
+}
+
+class Validation {
+public:
+    Validation(const Scene& scene, Names& names, bool skip_unsupported)
+        : scene_(scene), names_(names), skip_unsupported_(skip_unsupported || scene.lenient), objects_(scene.objects.size()) {}
+
+    std::vector<Diagnostic> run(const std::vector<std::string>& named, std::vector<Warning>& warnings) {
+        for (const std::uint32_t object : names_.taken())
+            add(place_of(scene_.objects[object]),
+                "there are two objects named '" + name_of(scene_.objects[object]) + "'", "rename one of them");
+        find_sound();
+        check_settings(scene_, report_);
+        const std::vector<std::uint32_t> roots = find_roots(named);
+        std::uint64_t solids = 0;
+        for (const std::uint32_t root : roots) {
+            walk(root);
+            solids = saturating_sum(solids, objects_[root].solids);
+        }
+        report_unsupported();
+        if (scene_.lenient) report_hollow();
+        if (found_.empty() && solids == 0 && warnings_.empty()) {
+            add(roots.empty() ? Place{} : place_of(scene_.objects[roots.front()]),
+                "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
+        }
+        if (solids > Limits::instances && !too_many_reported_) report_too_many({}, "the scene", solids);
+        take_warnings(warnings);
+        return finish();
+    }
+
+private:
+    enum class State : std::uint8_t { unseen, open, done };
+    struct Reached {
+        std::uint64_t solids = 0;  ///< below, repeats counted
+        std::uint32_t height = 0;  ///< combinations on the longest path downward, this one included
+        std::uint32_t users = 0;   ///< legs that lead here, each counted once
+        std::uint32_t first_user = 0;
+        State state = State::unseen;
+        bool sound = false;  ///< by itself
+    };
+    struct Frame {
+        std::uint32_t object;
+        std::size_t next_node;
+    };
+
+    void add(const Place& place, std::string message, std::string suggestion = {}) {
+        found_.add({place, std::move(message), std::move(suggestion), {}});
+    }
+
+    /// Marks the objects without a fault of their own, so that the walk need not look at them. Nearly all have none.
+    void find_sound() {
+        constexpr std::size_t chunk = 2048;
+        for_chunks(objects_.size(), chunk, 0, [this](std::size_t first, std::size_t last, std::size_t) {
+            bool sound = true;
+            const Report note = [&](const Place&, const std::string&, const std::string&) { sound = false; };
+            for (std::size_t i = first; i < last; ++i) {
+                sound = true;
+                if (const auto* solid = std::get_if<Solid>(&scene_.objects[i])) {
+                    sound = solid_faults(solid->shape).empty();
+                } else {
+                    check_combination(std::get<Combination>(scene_.objects[i]), note);
+                }
+                objects_[i].sound = sound;
+            }
+        });
+    }
+
+    std::vector<std::uint32_t> find_roots(const std::vector<std::string>& named) {
+        std::vector<std::uint32_t> roots;
+        for (const std::string& name : named.empty() ? names_.top_objects() : named) {
+            ObjectPath path = find_path(scene_, names_, name);
+            if (path.steps.empty()) {
+                add({}, std::move(path.fault), std::move(path.suggestion));
+                continue;
+            }
+            roots.push_back(path.object());
+            for (std::size_t i = 1; i < path.steps.size(); ++i) {
+                const Object& above = scene_.objects[path.steps[i - 1].object];
+                check_matrix(std::get<Combination>(above).tree.nodes[path.steps[i].node], report_);
+            }
+        }
+        if (roots.empty() && named.empty() && scene_.top.empty()) {
+            // Every object is used by another: they form a cycle, which a walk from anywhere finds.
+            for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) roots.push_back(i);
+        }
+        return roots;
+    }
+
+    void walk(std::uint32_t root) {
+        enter(root);
+        while (!path_.empty()) {
+            Frame& frame = path_.back();
+            const std::span<const std::uint32_t> children = names_.children(frame.object);
+            if (frame.next_node < children.size()) {
+                const std::size_t number = frame.next_node++;
+                if (children[number] != Names::operation && children[number] != Names::left_out)
+                    follow(frame.object, number, children[number]);
+            } else {
+                leave();
+            }
+        }
+    }
+
+    void enter(std::uint32_t object) {
+        if (objects_[object].state != State::unseen) return;
+        objects_[object].state = State::open;
+        path_.push_back({object, 0});
+        if (objects_[object].sound) return;
+        if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
+            std::string all;
+            for (const std::string& fault : solid_faults(solid->shape)) {
+                if (!scene_.lenient) add(solid->place, "solid '" + solid->name + "': " + fault);
+                all += (all.empty() ? "" : "; ") + fault;
+            }
+            if (scene_.lenient) leave_out(object, solid->place, all);
+        } else if (scene_.lenient) {
+            leave_out_parts(object);
+        } else {
+            check_combination(std::get<Combination>(scene_.objects[object]), report_);
+        }
+    }
+
+    void bear(const std::string& object, const Place& place, std::string reason) {
+        warnings_.push_back({object, place, std::move(reason), 1});
+    }
+
+    /// The legs that use the object are counted when all are known.
+    void leave_out(std::uint32_t object, const Place& place, const std::string& reason) {
+        names_.leave_out(object);
+        counted_.emplace_back(warnings_.size(), object);
+        bear(name_of(scene_.objects[object]), place, "left out: " + reason);
+    }
+
+    /// Of a combination, no more than what is wrong.
+    void leave_out_parts(std::uint32_t object) {
+        const Combination& combination = std::get<Combination>(scene_.objects[object]);
+        check_attributes(combination, [&](const Place& place, const std::string& message, const std::string&) {
+            bear(combination.name, place, message + "; taken as it is");
+        });
+        bool sound = true;
+        check_tree(combination, [&](const Place& place, const std::string& message, const std::string&) {
+            if (sound) leave_out(object, place, message);
+            sound = false;
+        });
+        if (!sound) {
+            path_.back().next_node = names_.children(object).size();
+            return;
+        }
+        for (std::size_t i = 0; i < combination.tree.nodes.size(); ++i) {
+            if (combination.tree.nodes[i].op != Operator::leaf) continue;
+            check_matrix(combination.tree.nodes[i], [&](const Place& place, const std::string& message, const std::string&) {
+                names_.leave_out(object, i);
+                bear(combination.name, place, message + "; the leg is left out");
+            });
+        }
+    }
+
+    /// One warning for all legs that name the same missing object.
+    void leave_out_missing(std::uint32_t parent, std::size_t node, const TreeNode& leg) {
+        names_.leave_out(parent, node);
+        const auto [known, is_new] = missing_.try_emplace(leg.object, warnings_.size());
+        if (!is_new) {
+            ++warnings_[known->second].count;
+            return;
+        }
+        bear(leg.object, leg.place, "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
+    }
+
+    /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
+    void follow(std::uint32_t parent, std::size_t node, std::uint32_t object) {
+        const auto combination = [&]() -> const Combination& { return std::get<Combination>(scene_.objects[parent]); };
+        if (object == Names::none) {
+            const TreeNode& leg = combination().tree.nodes[node];
+            if (scene_.lenient) return leave_out_missing(parent, node, leg);
+            add(leg.place, "'" + combination().name + "' uses '" + leg.object + "', which does not exist",
+                did_you_mean_object(scene_, leg.object));
+            return;
+        }
+        Reached& child = objects_[object];
+        if (child.users++ == 0) child.first_user = parent;
+        if (child.state == State::open) {
+            report_cycle(parent, node, object, combination().tree.nodes[node]);
+        } else if (child.state == State::done) {
+            add_below(parent, child);
+        } else if (child.sound && names_.is_solid(object)) {
+            child.solids = 1;  // what entering and leaving it comes to
+            child.state = State::done;
+            add_below(parent, child);
+        } else {
+            enter(object);
+        }
+    }
+
+    void leave() {
+        const std::uint32_t object = path_.back().object;
+        path_.pop_back();
+        Reached& reached = objects_[object];
+        reached.state = State::done;
+        const auto name = [&] { return "'" + name_of(scene_.objects[object]) + "'"; };
+        const auto place = [&]() -> const Place& { return place_of(scene_.objects[object]); };
+        if (names_.kind(object) == Names::Kind::left_out) {
+            reached.solids = 0;
+        } else if (names_.is_solid(object)) {
+            reached.solids = 1;
+        } else if (++reached.height == Limits::nesting + 1) {
+            add(place(),
+                "below " + name() + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
+                "join some of the combinations on the way");
+        }
+        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place(), name(), reached.solids);
+        if (!path_.empty()) add_below(path_.back().object, reached);
+    }
+
+    void add_below(std::uint32_t parent, const Reached& child) {
+        objects_[parent].solids = saturating_sum(objects_[parent].solids, child.solids);
+        objects_[parent].height = std::max(objects_[parent].height, child.height);
+    }
+
+    void report_too_many(const Place& place, const std::string& what, std::uint64_t solids) {
+        too_many_reported_ = true;
+        add(place,
+            what + " expands to " + count_of_solids(solids) + "; at most " + std::to_string(Limits::instances) +
+                " are possible",
+            "render fewer objects, or use fewer copies");
+    }
+
+    void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object, const TreeNode& leg) {
+        std::string cycle;
+        bool on_cycle = false;
+        for (const Frame& frame : path_) {
+            on_cycle = on_cycle || frame.object == object;
+            if (on_cycle) cycle += name_of(scene_.objects[frame.object]) + "/";
+        }
+        if (scene_.lenient) {
+            names_.leave_out(parent, node);
+            bear(leg.object, leg.place, "contains itself: " + cycle + leg.object + "; that leg is left out");
+            return;
+        }
+        add(leg.place, "'" + leg.object + "' contains itself: " + cycle + leg.object, "take one of these legs out");
+    }
+
+    /// Combinations without a tree, which BRL-CAD's objects without an inside are, too. Regions are told by flattening.
+    void report_hollow() {
+        for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+            if (objects_[i].state == State::unseen || objects_[i].users == 0) continue;
+            if (names_.kind(i) != Names::Kind::combination || !names_.children(i).empty()) continue;
+            leave_out(i, place_of(scene_.objects[i]), "there is nothing in it");
+        }
+    }
+
+    void take_warnings(std::vector<Warning>& to) {
+        for (const auto& [warning, object] : counted_) {
+            warnings_[warning].count = std::max<std::uint64_t>(objects_[object].users, 1);
+            warnings_[warning].reason += first_user(object);
+        }
+        std::stable_sort(warnings_.begin(), warnings_.end(),
+                         [](const Warning& a, const Warning& b) { return comes_before(a.place, b.place); });
+        std::move(warnings_.begin(), warnings_.end(), std::back_inserter(to));
+    }
+
+    void report_unsupported() {
+        for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+            if (names_.kind(i) != Names::Kind::unsupported || objects_[i].state == State::unseen) continue;
+            const auto* solid = std::get_if<Solid>(&scene_.objects[i]);
+            const auto* shape = std::get_if<Unsupported>(&solid->shape);
+            if (skip_unsupported_) {
+                leave_out(i, solid->place, why_left_out(*shape));
+                continue;
+            }
+            std::string message = "'" + solid->name + "' is a solid of type '" + shape->type + "', which ";
+            message += shape->reason.empty() ? "csgrt does not support" : "is not complete: " + shape->reason;
+            message += first_user(i);
+            if (objects_[i].users > 0) {
+                if (const std::uint32_t others = objects_[i].users - 1; others > 0) {
+                    message += " and on " + std::to_string(others) + (others == 1 ? " other leg" : " other legs");
+                }
+            }
+            add(solid->place, std::move(message),
+                std::string(shape->reason.empty() ? "" : "add what it lacks, ") +
+                    "render objects that do not use it, replace it, or leave it out with --skip-unsupported");
+        }
+    }
+
+    std::string first_user(std::uint32_t object) const {
+        if (objects_[object].users == 0) return {};
+        return "; used by '" + name_of(scene_.objects[objects_[object].first_user]) + "'";
+    }
+
+    std::vector<Diagnostic> finish() {
+        found_.sort_by_place();
+        for (Diagnostic& diagnostic : found_.shown()) diagnostic.excerpt = excerpt(diagnostic.place);
+        return found_.take();
+    }
+
+    const Scene& scene_;
+    Names& names_;
+    const bool skip_unsupported_;
+    std::vector<Reached> objects_;
+    std::vector<Frame> path_;
+    FindingList found_;
+    std::vector<Warning> warnings_;
+    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;     ///< warnings, and the objects whose legs they count
+    std::unordered_map<std::string, std::size_t> missing_;           ///< names, and their warnings
+    const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
+        add(place, std::move(message), std::move(suggestion));
+    };
+    bool too_many_reported_ = false;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> validate(const Scene& scene, Names& names, const std::vector<std::string>& objects,
+                                 bool skip_unsupported, std::vector<Warning>& warnings) {
+    return Validation(scene, names, skip_unsupported).run(objects, warnings);
+}
+
+std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported,
+                                 std::vector<Warning>* warnings) {
+    Names names(scene);
+    std::vector<Warning> passed_over;
+    return validate(scene, names, objects, skip_unsupported, warnings != nullptr ? *warnings : passed_over);
+}
+
+}  // namespace csgrt

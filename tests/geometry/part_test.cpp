@@ -1,8 +1,0 @@
-#include "geometry/check_kernels.hpp"
-
-using namespace csgrt;
-
-TEST_CASE("geometry: part agrees with the oracle", "[geometry]") { check_kernels(oracle::Kind::part, short_run, 1); }
-TEST_CASE("geometry: part agrees with the oracle on a million rays", "[.long]") {
-    check_kernels(oracle::Kind::part, long_run, 2);
-}

@@ -1,0 +1,59 @@
+// The device and the reference agree to the last bit: every channel of every pixel, every partition of every ray,
+// whatever the view and however small the tiles.
+#include <csgrt/csgrt.hpp>
+
+#include "bench/stress/families.hpp"
+#include "catch.hpp"
+#include "compile/compiled_scene.hpp"
+#include "integration/every_type.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
+
+using namespace csgrt;
+using test::on_device;
+using test::require_agreement;
+
+namespace {
+
+/// `all`: each with its own program (FewPrograms).
+void require_scenes(bool all) {
+    const auto files = test::scene_files();
+    if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
+    test::FewPrograms programs;
+    for (const std::string& file : files) {
+        INFO(file);
+        std::vector<std::string> objects;
+        Scene scene = load_scene(file);
+        if (!all) scene = programs.of(std::move(scene), objects);
+        require_agreement(scene, objects, 96, 500);
+    }
+    if (!files.empty() && !all) CHECK(programs.own() >= 2);
+}
+
+}  // namespace
+
+TEST_CASE("device and reference agree on our scenes", "[agreement]") { require_scenes(false); }
+
+TEST_CASE("device and reference agree on our scenes, each with its own program", "[.long][agreement]") { require_scenes(true); }
+
+TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a crash", "[agreement]") {
+    const auto files = test::scene_files();
+    if (files.empty()) return;
+    Settings settings = on_device();
+    settings.max_memory = 20'000;
+    try {
+        Renderer renderer(load_scene(files.front()), {}, settings);
+        renderer.render({.width = 64, .height = 64, .camera = {}});
+        SUCCEED("it fits");
+    } catch (const Error& error) {
+        CHECK(error.status() == Status::out_of_memory);
+    }
+}
+
+// Of whose leaves most are solids that are taken away: they start no term, and first hits looked for them among those
+// that do.
+TEST_CASE("device and reference agree on a tree that is walked from covered leaf to covered leaf", "[agreement]") {
+    const stress::StressScene made = stress::make("deep_trees", 1);
+    REQUIRE(compile(made.scene, made.objects).has_large_terms);
+    require_agreement(made.scene, made.objects, 48, 500);
+}

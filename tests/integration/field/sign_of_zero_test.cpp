@@ -1,0 +1,317 @@
+// The signs of zeros: rays along the axes of a solid of every type, in its planes of symmetry and through its centre, where
+// normals have zeros; rays that begin on its surface, where distances are zero; and zeros of both signs in the rays' own
+// numbers. Device and reference give the same bits.
+#include <cmath>
+#include <cstdio>
+
+#include <csgrt/csgrt.hpp>
+
+#include "catch.hpp"
+#include "formats/parse_text.hpp"
+#include "integration/same_answers.hpp"
+#include "bench/stress/build.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+struct Sample {
+    const char *name, *solid;
+};
+
+// Each with its centre, or the middle of its base, at the origin, and numbers that rays on a grid meet exactly.
+const Sample samples[] = {
+    {"ell", R"({"type": "ell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0, 0, 0.5]})"},
+    {"sphere", R"({"type": "sphere", "center": [0, 0, 0], "radius": 1})"},
+    {"cylinder", R"({"type": "cylinder", "base": [0, 0, -1], "height": [0, 0, 2], "radius": 1})"},
+    {"cone", R"({"type": "cone", "base": [0, 0, 0], "height": [0, 0, 2], "radius": 1, "top_radius": 0})"},
+    {"tgc", R"({"type": "tgc", "base": [0, 0, -1], "height": [0, 1, 2], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0.5, 0, 0],
+        "d": [0, 1.5, 0]})"},
+    {"box", R"({"type": "box", "low": [-1, -0.5, -2], "high": [1, 0.5, 2]})"},
+    {"arb6", R"({"type": "arb6", "vertices": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, -1, 1], [0, 1, 1]]})"},
+    {"arbn", R"({"type": "arbn", "planes": [{"normal": [1, 1, 1], "distance": 1}, {"normal": [-1, 1, 1], "distance": 1},
+        {"normal": [1, -1, 1], "distance": 1}, {"normal": [1, 1, -1], "distance": 1}, {"normal": [-1, -1, 1], "distance": 1},
+        {"normal": [-1, 1, -1], "distance": 1}, {"normal": [1, -1, -1], "distance": 1}, {"normal": [-1, -1, -1], "distance": 1}]})"},
+    {"half", R"({"type": "half", "normal": [0, 0, 1], "distance": 0})"},
+    {"tor", R"({"type": "tor", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 1.5, "tube": 0.5})"},
+    {"horn", R"({"type": "tor", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 1, "tube": 1})"},
+    {"ehy", R"({"type": "ehy", "base": [0, 0, 0], "height": [0, 0, 2], "a": [1, 0, 0], "r1": 2, "r2": 1, "c": 0.5})"},
+    {"part", R"({"type": "part", "base": [0, 0, 0], "height": [0, 0, 1], "radius": 1, "top_radius": 0.5})"},
+    {"epa", R"({"type": "epa", "base": [0, 0, 0], "height": [0, 0, 2], "a": [1, 0, 0], "r1": 2, "r2": 1})"},
+    {"hyp", R"({"type": "hyp", "base": [0, 0, -1], "height": [0, 0, 2], "a": [2, 0, 0], "b": 1, "neck": 0.5})"},
+    {"rpc", R"({"type": "rpc", "base": [0, 0, -0.5], "height": [0, 0, 1], "b": [0, 0.5, 0], "half_width": 1})"},
+    {"rhc", R"({"type": "rhc", "base": [0, 0, -0.5], "height": [0, 0, 1], "b": [0, 0.5, 0], "half_width": 0.4, "c": 0.2})"},
+    {"eto", R"({"type": "eto", "center": [0, 0, 0], "axis": [0, 0, 1], "radius": 1.5, "c": [0.25, 0, 0.5], "d": 0.25})"},
+    {"superell", R"({"type": "superell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0, 0, 1], "n": 0.5, "e": 1.5})"},
+    {"hrt", R"({"type": "hrt", "center": [0, 0, 0], "x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]})"},
+    {"metaball", R"({"type": "metaball", "points": [{"position": [0, -0.5, 0], "strength": 0.5},
+        {"position": [0, 0.5, 0], "strength": 0.5}]})"},
+    {"blob", R"({"type": "metaball", "method": "blob", "points": [{"position": [-0.5, 0, 0], "strength": 1, "softness": 2},
+        {"position": [0.5, 0, 0], "strength": 1, "softness": 2}]})"},
+    {"pipe", R"({"type": "pipe", "points": [{"position": [0, 0, 0], "outer": 1, "inner": 0.5, "bend": 1},
+        {"position": [2, 0, 0], "outer": 1, "inner": 0.5, "bend": 1}, {"position": [2, 2, 0], "outer": 1, "inner": 0.5, "bend": 1}]})"},
+    {"cline", R"({"type": "cline", "base": [0, 0, -1], "height": [0, 0, 2], "radius": 1, "thickness": 0.25})"},
+    {"bot", R"({"type": "bot", "vertices": [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]],
+        "faces": [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]})"},
+    {"plates", R"({"type": "bot", "mode": "plate", "vertices": [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]],
+        "faces": [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4]], "thickness": 0.25})"},
+    {"ars", R"({"type": "ars", "curves": [[[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]], [[1, 0, 0.5], [0, 1, 0.5], [-1, 0, 0.5],
+        [0, -1, 0.5]], [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]]})"},
+    {"nmg", R"({"type": "nmg", "vertices": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 1], [1, -1, 1], [1, 1, 1],
+        [-1, 1, 1]], "faces": [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]})"},
+    {"ebm", R"({"type": "ebm", "width": 4, "depth": 4, "height": 1, "cells": ["####", "#..#", "#.##", "####"],
+        "matrix": [1, 0, 0, -2, 0, 1, 0, -2, 0, 0, 1, -0.5, 0, 0, 0, 1]})"},
+    {"vol", R"({"type": "vol", "width": 2, "depth": 2, "height": 2, "cell": [1, 1, 1], "low": 1, "cells": ["##", "#.", ".#", "##"],
+        "matrix": [1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1, -1, 0, 0, 0, 1]})"},
+    {"dsp", R"({"type": "dsp", "width": 3, "depth": 3, "heights": ["1 1 1", "1 2 1", "1 1 1"],
+        "matrix": [1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1, -1, 0, 0, 0, 1]})"},
+    {"extrude", R"({"type": "extrude", "base": [0, 0, -1], "height": [0, 0, 2], "sketch": {"vertices": [[-1, -1], [1, -1], [1, 1],
+        [0, 0.5], [-1, 1], [-1, 0]], "curves": [{"line": [0, 1]}, {"line": [1, 2]}, {"arc": [2, 4], "radius": 2},
+        {"bezier": [4, 5, 0]}]}})"},
+    {"straight", R"({"type": "extrude", "base": [0, 0, -1], "height": [0, 0, 2], "sketch": {"vertices": [[-1, 0], [-0.5, 0], [0.5, 0],
+        [1, 0], [1, 1], [0, 1], [-1, 1]], "curves": [{"bezier": [0, 1, 2, 3]}, {"bezier": [3, 4, 5]}, {"line": [5, 6]},
+        {"line": [6, 0]}]}})"},
+    {"revolve", R"({"type": "revolve", "base": [0, 0, 0], "axis": [0, 0, 1], "r": [1, 0, 0], "sketch": {"vertices": [[0, -1], [1, -1],
+        [2, 0], [1, 1], [0, 1]], "curves": [{"line": [0, 1]}, {"bezier": [1, 2, 3]}, {"line": [3, 4]}]}})"},
+    {"slice", R"({"type": "revolve", "base": [0, 0, 0], "axis": [0, 0, 1], "r": [1, 0, 0], "angle": 90, "sketch": {"vertices": [[0.5, -1],
+        [1, -1], [1, 1], [0.5, 1]], "curves": [{"line": [0, 1]}, {"line": [1, 2]}, {"arc": [2, 3], "radius": 0.25},
+        {"line": [3, 0]}]}})"},
+};
+
+// Quarter turns and mirrors: entry k is a row's only one. Their zeros have both signs, too.
+Matrix quarter_turn(stress::Random& random) {
+    int axes[3] = {0, 1, 2};
+    std::swap(axes[0], axes[random.below(3)]);
+    std::swap(axes[1], axes[1 + random.below(2)]);
+    Matrix m = identity;
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) {
+            const double value = static_cast<int>(column) == axes[row] ? 1 : 0;
+            m[4 * row + column] = random.below(2) ? value : -value;
+        }
+    return m;
+}
+
+double of_either_sign(stress::Random& random, double value) { return random.below(2) ? value : -value; }
+
+class SymmetricRays {
+public:
+    explicit SymmetricRays(stress::Random& random) : random_(random) {}
+
+    Ray make() {
+        double o[3], d[3];
+        const std::size_t axis = random_.below(3), second = (axis + 1) % 3, third = (axis + 2) % 3;
+        o[axis] = on_grid(), o[second] = on_grid(), o[third] = on_grid();
+        d[axis] = d[second] = d[third] = 0;
+        switch (random_.below(6)) {
+            case 0:  // along an axis, through the centre
+                o[second] = o[third] = 0;
+                d[axis] = length();
+                break;
+            case 1:  // along an axis
+                d[axis] = length();
+                break;
+            case 2:  // in a plane of symmetry
+                o[axis] = 0;
+                d[second] = random_.between(-1, 1), d[third] = random_.between(-1, 1);
+                break;
+            case 3:  // in a diagonal one
+                o[second] = o[axis], d[axis] = on_grid(), d[second] = d[axis], d[third] = random_.between(-1, 1);
+                if (random_.below(2)) o[second] = -o[second], d[second] = -d[second];
+                break;
+            case 4:  // through the centre
+                o[axis] = o[second] = o[third] = 0;
+                d[axis] = on_grid(), d[second] = on_grid(), d[third] = random_.between(-1, 1);
+                break;
+            default:  // in a plane across an axis
+                d[second] = on_grid(), d[third] = random_.below(2) ? on_grid() : random_.between(-1, 1);
+                break;
+        }
+        if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[axis] = length();
+        const double back = static_cast<double>(random_.below(3) * random_.below(3));
+        for (std::size_t i = 0; i < 3; ++i) {
+            o[i] = o[i] - back * d[i];
+            if (o[i] == 0) o[i] = of_either_sign(random_, 0);
+            if (d[i] == 0) d[i] = of_either_sign(random_, 0);
+        }
+        return {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}};
+    }
+
+private:
+    double on_grid() {
+        const double values[] = {0, 0, 0.25, 0.5, 0.5, 1, 1, 1.5, 2, random_.between(0, 2)};
+        return of_either_sign(random_, values[random_.below(std::size(values))]);
+    }
+    double length() { return of_either_sign(random_, random_.below(2) ? 1 : random_.between(0.1, 3)); }
+
+    stress::Random& random_;
+};
+
+/// The samples' solids, and one that keeps a half-space to itself where others stand beside it.
+Scene scene_of_samples() {
+    std::string solids;
+    for (const Sample& sample : samples) solids += '"' + std::string(sample.name) + "\": " + sample.solid + ",\n";
+    return scene_of(R"({"csgrt": 1, "solids": {)" + solids + R"("limits": {"type": "box", "low": [-2, -2, -2], "high": [2, 2, 2]}}})");
+}
+
+void add_region(Scene& scene, const std::string& solid, const Matrix& matrix, bool bounded) {
+    Combination region;
+    region.name = "r." + solid;
+    region.region = true;
+    region.tree.nodes.push_back({Operator::leaf, 0, solid, matrix, {}});
+    if (bounded && solid == "half") {
+        region.tree.nodes.push_back({Operator::leaf, 0, "limits", matrix, {}});
+        region.tree.nodes.push_back({Operator::intersection, 2, "", identity, {}});
+    }
+    scene.top.push_back(region.name);
+    scene.objects.push_back(std::move(region));
+}
+
+// All samples in a square across an axis, from -24 to 16.
+constexpr double pitch = 8;
+double at_row(std::size_t row) { return pitch * (static_cast<double>(row) - 3); }
+Vec3 place_in_square(std::size_t sample, std::size_t axis) {
+    double at[3] = {0, 0, 0};
+    at[(axis + 1) % 3] = at_row(sample / 6), at[(axis + 2) % 3] = at_row(sample % 6);
+    return {at[0], at[1], at[2]};
+}
+Scene square_of_samples(std::size_t axis, stress::Random& random) {
+    static_assert(std::size(samples) <= 36);
+    Scene scene = scene_of_samples();
+    for (std::size_t i = 0; i < std::size(samples); ++i) {
+        Matrix m = quarter_turn(random);
+        const Vec3 at = place_in_square(i, axis);
+        m[3] = at.x, m[7] = at.y, m[11] = at.z;
+        add_region(scene, samples[i].name, m, true);
+    }
+    return scene;
+}
+
+// A zero that is added to keeps its sign.
+double sum(double a, double b) { return a == 0 ? b : b == 0 ? a : a + b; }
+Ray moved(const Ray& ray, const Vec3& by) {
+    return {{sum(ray.origin.x, by.x), sum(ray.origin.y, by.y), sum(ray.origin.z, by.z)}, ray.direction};
+}
+
+bool same(const RayPartitions& a, const RayPartitions& b) {
+    if (a.partitions.size() != b.partitions.size()) return false;
+    for (std::size_t k = 0; k < a.partitions.size(); ++k) {
+        const Partition &p = a.partitions[k], &q = b.partitions[k];
+        if (!test::same(p.in, q.in) || !test::same(p.out, q.out) || !test::same(p.in_normal, q.in_normal) ||
+            !test::same(p.out_normal, q.out_normal) || p.in_solid != q.in_solid || p.out_solid != q.out_solid)
+            return false;
+    }
+    return true;
+}
+
+struct Tally {
+    std::size_t rays = 0, met = 0, different = 0;
+    std::string where;  ///< the first rays that differ, one a call
+
+    void add(const std::vector<Ray>& list, const std::vector<RayPartitions>& found, const std::vector<RayPartitions>& expected,
+             const Renderer& renderer) {
+        bool told = false;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            ++rays;
+            met += !expected[i].partitions.empty();
+            if (same(found[i], expected[i])) continue;
+            ++different;
+            if (std::exchange(told, true)) continue;
+            const Vec3 &o = list[i].origin, &d = list[i].direction;
+            char text[200];
+            std::snprintf(text, sizeof text, "%.17g %.17g %.17g  %.17g %.17g %.17g", o.x, o.y, o.z, d.x, d.y, d.z);
+            where += (expected[i].partitions.empty() ? std::string("?") : renderer.solids()[expected[i].partitions[0].in_solid].name) +
+                     ": " + text + "\n";
+        }
+    }
+};
+
+Settings on_reference() {
+    Settings settings;
+    settings.reference = true;
+    return settings;
+}
+
+/// The rays, and then those that begin where they meet something: on, or back, or aside.
+void shoot_both(const Scene& scene, std::vector<Ray> rays, stress::Random& random, Tally& tally) {
+    Renderer reference(scene, {}, on_reference()), device(scene, {}, test::on_device());
+    auto expected = reference.shoot(rays);
+    tally.add(rays, device.shoot(rays), expected, reference);
+    std::vector<Ray> from_surfaces;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (expected[i].partitions.empty()) continue;
+        const Partition& one = expected[i].partitions[random.below(static_cast<std::uint32_t>(expected[i].partitions.size()))];
+        const double t = random.below(2) ? one.in : one.out, way = random.below(2) ? 1 : -1;
+        if (!std::isfinite(t)) continue;
+        const Vec3 &o = rays[i].origin, &d = rays[i].direction;
+        const Vec3 at{sum(o.x, t * d.x), sum(o.y, t * d.y), sum(o.z, t * d.z)};
+        Ray next{at, {way * d.x, way * d.y, way * d.z}};
+        if (random.below(4) == 0) next.direction = SymmetricRays(random).make().direction;
+        from_surfaces.push_back(next);
+    }
+    expected = reference.shoot(from_surfaces);
+    tally.add(from_surfaces, device.shoot(from_surfaces), expected, reference);
+}
+
+}  // namespace
+
+TEST_CASE("rays along axes and in planes of symmetry: the same zeros", "[agreement][field]") {
+    Tally tally;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        stress::Random random(1 + axis);
+        const Scene scene = square_of_samples(axis, random);
+        SymmetricRays maker(random);
+        std::vector<Ray> rays;
+        for (std::size_t i = 0; i < std::size(samples); ++i)
+            for (int k = 0; k < 100; ++k) rays.push_back(moved(maker.make(), place_in_square(i, axis)));
+        shoot_both(scene, std::move(rays), random, tally);
+    }
+    INFO(tally.rays << " rays, " << tally.met << " meet something, " << tally.different << " differ\n" << tally.where);
+    CHECK(tally.different == 0);
+    CHECK(tally.met * 3 > tally.rays);
+}
+
+// Each sample alone, and with its centre at the origin.
+TEST_CASE("a million rays along axes and in planes of symmetry", "[.long]") {
+    const Scene solids = scene_of_samples();
+    Tally tally;
+    std::uint64_t seed = 1000;
+    for (const Sample& sample : samples)
+        for (int turn = 0; turn < 12; ++turn) {
+            stress::Random random(++seed);
+            Scene scene = solids;
+            add_region(scene, sample.name, quarter_turn(random), false);
+            SymmetricRays maker(random);
+            std::vector<Ray> rays;
+            for (int k = 0; k < 2000; ++k) rays.push_back(maker.make());
+            shoot_both(scene, std::move(rays), random, tally);
+        }
+    std::printf("%zu rays, %zu meet something, %zu differ\n", tally.rays, tally.met, tally.different);
+    INFO(tally.where);
+    CHECK(tally.rays > 1'000'000);
+    CHECK(tally.different == 0);
+}
+
+// First hits go by packets on a processor. The middles of pixels lie in the planes of symmetry.
+TEST_CASE("pictures along the axes: the same zeros", "[agreement][field]") {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        stress::Random random(11 + axis);
+        const Scene scene = square_of_samples(axis, random);
+        Renderer reference(scene, {}, on_reference()), device(scene, {}, test::on_device());
+        View view;
+        view.width = view.height = 97;  // a pixel is half a millimetre: `pitch` is a whole number of them
+        view.camera.view_size = 48.5;
+        view.camera.center = Vec3{0, 0, 0};
+        for (const bool from_behind : {false, true}) {
+            view.camera.azimuth = axis == 0 ? (from_behind ? 180 : 0) : axis == 1 ? (from_behind ? 270 : 90) : 0;
+            view.camera.elevation = axis == 2 ? (from_behind ? -90 : 90) : 0;
+            for (const double perspective : {0.0, 60.0})
+                for (const bool every : {false, true}) {
+                    INFO("axis " << axis << ", behind " << from_behind << ", perspective " << perspective << ", every partition " << every);
+                    view.camera.perspective = perspective;
+                    view.every_partition = every;
+                    test::require_same(device.render(view), reference.render(view));
+                }
+        }
+    }
+}

@@ -1,0 +1,121 @@
+// In every precision that a device has, it gives what the reference gives, to the last bit.
+#include "catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <csgrt/csgrt.hpp>
+
+#include "integration/every_type.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scene_of_kinds.hpp"
+#include "integration/scenes.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+std::vector<Settings> in_single() {
+    Settings eye = test::on_device(), world = eye;
+    eye.precision = Precision::single;
+    world.precision = Precision::single_world;
+    return {eye, world};
+}
+
+// By default all in one program for each precision, since what an OpenCL compiler takes for each is most of the time here;
+// every third of our scenes; and of the world's coordinates, which share all but the camera with the eye's, every fourth.
+// `all`: each in its own, in both.
+void require(Scene scene, std::vector<std::string> objects, int size, int rays, std::size_t number, bool all) {
+    if (!all) scene = test::with_every_type(std::move(scene), objects);
+    std::vector<Settings> asked = in_single();
+    if (!all && number % 4 != 0) asked.pop_back();
+    for (const Settings& settings : asked) {
+        INFO(name_of(precision_names, settings.precision));
+        test::require_agreement(scene, objects, size, rays, settings);
+    }
+}
+
+void require_scenes(bool all) {
+    const std::vector<std::string> files = test::scene_files();
+    if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
+    for (std::size_t i = 0; i < files.size(); i += all ? 1 : 3) {
+        INFO(files[i]);
+        require(load_scene(files[i]), {}, 64, 200, i, all);
+    }
+}
+
+void require_models(bool all) {
+    const std::string folder = test::folder("CSGRT_BRLCAD");
+    if (folder.empty()) {
+        WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
+        return;
+    }
+    std::size_t number = 0;
+    for (const test::Model& model : test::models()) {
+        if (!model.main) continue;
+        INFO(model.file);
+        require(load_scene(folder + "/" + model.file), model.objects, 64, 100, number++, all);
+    }
+}
+
+void require_hard_rays() {
+    using oracle::Kind;
+    std::vector<Ray> rays;
+    std::vector<std::string> objects = {"all"};
+    const Scene scene = test::with_every_type(
+        test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays), objects);
+    for (Settings settings : in_single()) {
+        INFO(name_of(precision_names, settings.precision));
+        Renderer device(scene, objects, settings);
+        settings.reference = true;
+        settings.device.clear();
+        Renderer reference(scene, objects, settings);
+        // From afar, coordinates of the world in float put solids outside their boxes: the device's hierarchy does not
+        // see those there.
+        const std::vector<Ray> some = settings.precision == Precision::single ? rays : test::near_only(rays);
+        test::require_same(device.shoot(some), reference.shoot(some));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") { require_scenes(false); }
+
+TEST_CASE("device and reference agree in single precision on BRL-CAD's models", "[agreement]") { require_models(false); }
+
+TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[agreement]") {
+    require_hard_rays();
+}
+
+TEST_CASE("device and reference agree in both single precisions, each scene with its own program", "[.long][agreement]") {
+    require_scenes(true);
+    require_models(true);
+}
+
+TEST_CASE("contraction changes last digits and no region", "[agreement]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    if (folder.empty()) return;
+    const Scene scene = load_scene(folder + "/solids.json");
+    Settings settings = test::on_device();
+    Renderer plain(scene, {}, settings);
+    settings.contraction = true;
+    Renderer contracted(scene, {}, settings);
+    const std::vector<Ray> rays = test::random_rays(plain.bounds(), 2000);
+    const auto a = plain.shoot(rays), b = contracted.shoot(rays);
+    CHECK(contracted.statistics().contraction);
+    std::size_t other_regions = 0;
+    double farthest = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const auto same_region = [](const Partition& p, const Partition& q) { return p.region == q.region; };
+        if (!std::equal(a[i].partitions.begin(), a[i].partitions.end(), b[i].partitions.begin(), b[i].partitions.end(),
+                        same_region)) {
+            ++other_regions;
+            continue;
+        }
+        for (std::size_t k = 0; k < a[i].partitions.size(); ++k)
+            farthest = std::fmax(farthest, std::fabs(a[i].partitions[k].in - b[i].partitions[k].in));
+    }
+    CHECK(other_regions <= 2);
+    CHECK(farthest > 0);  // in millimetres of some hundred: a few units in the last place
+    CHECK(farthest < 1e-6);
+}

@@ -1,0 +1,146 @@
+// Several devices share a frame, or a list of rays: the same bits as from one. In a process of its own, which PoCL shows
+// the processor twice (POCL_DEVICES).
+#include "catch.hpp"
+
+#include <atomic>
+
+#include <csgrt/csgrt.hpp>
+
+#include "bench/parts.hpp"
+#include "device/device_plan.hpp"
+#include "pipeline/pipelines.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
+#include "reference/reference.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+/// The numbers under which PoCL shows the processor.
+std::vector<std::string> pocl_numbers() {
+    std::vector<std::string> numbers;
+    const std::vector<DeviceInfo> found = devices();
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (is_pocl(found[i])) numbers.push_back(std::to_string(i));
+    REQUIRE(numbers.size() == 2);
+    return numbers;
+}
+std::string one_pocl() { return pocl_numbers()[0]; }
+std::string both_pocls() { return pocl_numbers()[0] + "," + pocl_numbers()[1]; }
+
+}  // namespace
+
+TEST_CASE("two devices give what one gives", "[.two_devices]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    REQUIRE(!folder.empty());
+    for (const char* file : {"/operators.json", "/overlap.json"}) {
+        INFO(file);
+        const Scene scene = load_scene(folder + file);
+        Settings settings;
+        settings.device = one_pocl();
+        Renderer one(scene, {}, settings);
+        settings.device = both_pocls();
+        Renderer two(scene, {}, settings);
+        CHECK(two.statistics().device == one.statistics().device + " + " + one.statistics().device);
+        for (const bool every : {false, true}) {
+            View view;
+            view.width = 203;  // blocks at the edges, and parts that begin within a row
+            view.height = 157;
+            view.every_partition = every;
+            test::require_same(one.render(view), two.render(view));
+            CHECK(one.statistics().segments == two.statistics().segments);
+            CHECK(one.statistics().partitions_used == two.statistics().partitions_used);
+            CHECK(two.statistics().tiles > 2);
+        }
+        const std::vector<Ray> rays = test::random_rays(one.bounds(), 3000);
+        test::require_same(one.shoot(rays), two.shoot(rays));
+        CHECK(one.statistics().hits == two.statistics().hits);
+    }
+}
+
+TEST_CASE("a native device shares a frame with another", "[.two_devices]") {
+    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    Settings settings;
+    settings.device = one_pocl();
+    Renderer one(scene, {}, settings);
+    settings.device = "native," + one_pocl();
+    Renderer two(scene, {}, settings);
+    View view;
+    view.width = 203;
+    view.height = 157;
+    test::require_same(one.render(view), two.render(view));
+    CHECK(two.statistics().device.find(" + " + one.statistics().device) != std::string::npos);
+}
+
+TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]") {
+    const std::string folder = test::folder("CSGRT_SCENES");
+    std::atomic<bool> go_on{false};
+    std::atomic<int> told{0};
+    double last = 0;
+    Settings settings;
+    settings.device = both_pocls();
+    settings.progress = [&](double fraction) {
+        ++told;
+        last = std::max(last, fraction);
+        return go_on || told < 3;
+    };
+    Renderer renderer(load_scene(folder + "/operators.json"), {}, settings);
+    View view;
+    view.width = view.height = 128;
+    CHECK_THROWS_AS(renderer.render(view), Error);
+    go_on = true;
+    renderer.render(view);
+    CHECK(last == 1);
+}
+
+TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
+    // Its memory is known to them, or not; to fewer of its planes once every partition of a large scene takes more of theirs.
+    const bool is_known = GENERATE(false, true);
+    const Scene scene = is_known ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    Settings settings;
+    settings.device = one_pocl();
+    Renderer one(scene, {}, settings);
+    settings.device = both_pocls();
+    const CompiledScene compiled = compile(scene, {});
+    const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    Pipelines two(plan_devices(settings).first, compiled, *kernels, settings, Readback::lines);
+    View view;
+    view.width = 301;
+    view.height = 257;
+    view.channels = channel::color | channel::ids;
+    Channels pixels(301 * 257, std::vector<float>(6));
+    std::vector<ChannelPlane> planes;
+    const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);
+    for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 3 ? any.frame.background[p] : 0});
+    std::vector<std::uint8_t> drawn(38 * 33, 1);
+    std::shared_ptr<KnownPicture> known;
+    std::uint64_t known_bytes = 0;
+    for (const bool every : {false, true, false})
+        for (const double azimuth : {35.0, 100.0}) {
+            view.every_partition = every;
+            view.camera.azimuth = azimuth;
+            PipelineCounts counts;
+            if (known) two.keep_small(*known);
+            two.render(prepare_frame(compiled, view, one.statistics().tolerance),
+                       {.planes = planes, .drawn = drawn, .known = known.get()}, nullptr, counts);
+            if (is_known && !known) {
+                const std::uint64_t before = two.device_bytes();
+                known = two.make_known(planes, pixels[0].size());
+                known_bytes = two.device_bytes() - before;
+                CHECK(known_bytes == 2 * 6 * pixels[0].size() * sizeof(float));
+            }
+            CHECK(counts.tiles > 2);
+            const Image image = one.render(view);
+            Image packed = image;
+            packed.channels = pixels;
+            test::require_same(packed, image);
+        }
+    if (!is_known) return;
+    const std::uint64_t before = two.device_bytes();
+    known.reset();
+    two.make_known({}, 0);
+    const std::uint64_t left = before - two.device_bytes();
+    CHECK(left > 0);
+    CHECK(left < known_bytes);
+}
