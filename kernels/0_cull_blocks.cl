@@ -1,6 +1,13 @@
 // Kernel 0: which blocks of a picture can see anything at all; the rays of the others are never made. And which nodes of
-// the hierarchy each of them meets: found once for 64 rays, which are put to little else. (First hits on a GPU: 0_cull_together.cl.)
-#include "tally.h"
+// the hierarchy each of them meets: found once for 64 rays, which are put to little else.
+#include "blocks.h"
+
+// Nothing is counted yet, and no block shows anything.
+static void clear_tally(__global TileTally* tally, u32 blocks, u32 id) {
+    u32 k;
+    for (k = id; k < sizeof(TileTally) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)tally)[k] = 0;
+    if (id < blocks) ((__global unsigned char*)(tally + 1))[id] = 0;
+}
 
 // From the root down, level by level, as long as there is room: a node gives way to those of its two children that the
 // beam meets. The entries are the hierarchy's parameter yet.
@@ -74,16 +81,14 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
     return 0;
 }
 
-// One of `items_a_block` work-items is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. The others
-// do nothing: those that go in lockstep would wait for each other, and a picture has fewer blocks than a GPU has room for.
-// `lists` 0: they are not wanted. `first`: of the launches before this one, how many items.
+// A work-item is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. `lists` 0: they are not wanted.
 __kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global BlockNode* lists, __global TileTally* tally, u32 items_a_block, u32 first) {
-    const u32 item = first + (u32)get_global_id(0), id = item / items_a_block, blocks = frame->ray_count / (BLOCK * BLOCK);
+                          __global BlockNode* lists, __global TileTally* tally) {
+    const u32 id = (u32)get_global_id(0), blocks = frame->ray_count / (BLOCK * BLOCK);
     u32 cost = 0;
     beam b;
-    if (frame->lines) clear_tally(tally, blocks, item);
-    if (id >= blocks || item % items_a_block) return;
+    if (frame->lines) clear_tally(tally, blocks, id);
+    if (id >= blocks) return;
     b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + id);
     if (lists) {
         BlockNode list[LISTED_NODES - 1];

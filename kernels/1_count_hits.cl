@@ -1,5 +1,5 @@
 // Kernel 1: how many segments does each ray have, so that exactly that much memory is allocated, or it is
-// known whether what there is does (room.h). First in float, from box
+// known whether what there is does (capacity.h). First in float, from box
 // to box: which solids may the ray meet. Then a work-item for each such candidate, so that no ray waits for its many solids
 // one after the other.
 //
@@ -9,20 +9,19 @@
 #include "blocks.h"
 #include "camera.h"
 #include "geometry/collect.h"
-#include "room.h"
+#include "capacity.h"
 #include "traverse.h"
 
 // Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
 // in blocks.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
-                              __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates,
-                              RayCount room) {
+                              __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0), number;
     RayCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
     if (candidates) {
-        if (places[id].segments == places[id + 1].segments || !has_room(frame, places, room)) return;
+        if (places[id].segments == places[id + 1].segments || !candidates_of(frame, places)) return;
         candidates += places[id].segments;
     }
     count.segments = count.words = 0;
@@ -58,21 +57,20 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
 __kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                          __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                          __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
-                         RayCount room, __global Candidate* candidates, __global End* found, u32 first) {
-    const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
-    const u32 size = entries_of(frame, places, room);
-    u32 id;
-    FOR_ENTRIES_FROM(first, id, size)
-        count_segments(frame, g, rays, candidates + id, found + 2 * (size_t)id);
+                         __global Candidate* candidates, __global End* found) {
+    const u32 id = (u32)get_global_id(0);
+    if (id < candidates_of(frame, places))
+        count_segments(frame, make_geometry(solids, reals, planes, plane_refs, words, inner_nodes), rays, candidates + id,
+                       found + 2 * (size_t)id);
 }
 
 // Each ray's counts, and each of its candidates' place among the ray's segments.
-__kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, RayCount room, __global Candidate* candidates,
+__kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
                        __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;
     RayCount count;
     if (id >= frame->ray_count) return;
-    if (!has_room(frame, places, room)) {
+    if (places[frame->ray_count].segments > frame->candidate_capacity) {
         counts[id].segments = counts[id].words = COUNT_MAX;
         return;
     }

@@ -2,9 +2,9 @@
 // of solids that packets know, what they meet of them: count_hits (1_count_hits.cl) is left those that one ray alone comes to.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
+#include "capacity.h"
 #include "geometry/collect.h"
 #include "packet.h"
-#include "room.h"
 
 // A packet on its way through the nodes of its block's list.
 typedef struct {
@@ -106,7 +106,7 @@ __kernel void list_packet_candidates(__global const Frame* frame, __global const
                                      __global const u32* words, __global const BvhNode* inner_nodes,
                                      __global const BvhNode* nodes, __global const BlockNode* lists,
                                      __global const RayRecord* rays, __global const RayCount* places,
-                                     __global Candidate* candidates, RayCount room, __global End* found) {
+                                     __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
     packet_world_ray from_eye;
@@ -114,7 +114,7 @@ __kernel void list_packet_candidates(__global const Frame* frame, __global const
     packet_walk w;
     pixel_position first;
     u32 number, within, hit, leaf, k, any = 0;
-    if (id >= frame->ray_count || !has_room(frame, places, room)) return;
+    if (id >= frame->ray_count || !candidates_of(frame, places)) return;
     list.ray = first_of_packet(id);
     for (k = 0; k < PACKET; ++k) {
         const u32 ray = list.ray + ray_of_packet(k);

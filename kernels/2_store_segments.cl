@@ -5,8 +5,8 @@
 //
 // Whose an end is stands in the end's word of `bits` until kernel 3 has read it: the nodes may lie where `found` does.
 #include "camera.h"
+#include "capacity.h"
 #include "geometry/collect.h"
-#include "room.h"
 
 static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, Candidate c, __global const End* found,
                   __global const RayCount* offsets, __global End* ends, __global u32* bits) {
@@ -30,11 +30,10 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
 __kernel void store_segments(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                              __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                              __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
-                             RayCount room_for_candidates, __global const Candidate* candidates, __global const End* found,
-                             __global const RayCount* offsets, RayCount room, __global End* ends, __global u32* bits) {
-    const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
-    const u32 size = has_room(frame, offsets, room) ? entries_of(frame, places, room_for_candidates) : 0;
-    u32 id;
-    FOR_ENTRIES(id, size)
-        store(frame, g, rays, candidates[id], found + 2 * (size_t)id, offsets, ends, bits);
+                             __global const Candidate* candidates, __global const End* found,
+                             __global const RayCount* offsets, __global End* ends, __global u32* bits) {
+    const u32 id = (u32)get_global_id(0);
+    if (segments_fit(frame, offsets) && id < candidates_of(frame, places))
+        store(frame, make_geometry(solids, reals, planes, plane_refs, words, inner_nodes), rays, candidates[id],
+              found + 2 * (size_t)id, offsets, ends, bits);
 }

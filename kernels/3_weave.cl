@@ -13,7 +13,7 @@
 // that of its first end, and a partition's node is in the place of that end, so the list needs no memory but the
 // 2 * segments nodes.
 #include "camera.h"
-#include "room.h"
+#include "capacity.h"
 
 static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
                       __global PartitionNode* all_nodes) {
@@ -30,34 +30,29 @@ static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __globa
 
 // A work-item is an end. `rays`: whose each end is.
 __kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
-                         __global const u32* rays, RayCount room, __global PartitionNode* all_nodes) {
-    const u32 size = 2 * entries_of(frame, offsets, room);
-    u32 id;
-    FOR_ENTRIES(id, size)
-        order_end(id, rays[id], offsets, all_ends, all_nodes);
+                         __global const u32* rays, __global PartitionNode* all_nodes) {
+    const u32 id = (u32)get_global_id(0);
+    if (id < 2 * segments_of(frame, offsets)) order_end(id, rays[id], offsets, all_ends, all_nodes);
 }
 
 static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
 
-__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets, RayCount room,
-                    __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
-                    __global u32* firsts, __global RayTally* tallies) {
-    u32 id = (u32)get_global_id(0), first_node = NONE;
+__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets, __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
+                    __global RayTally* tallies) {
+    const u32 id = (u32)get_global_id(0);
     RayTally tally;
     RayCount offset;
     ray3 r;
     real tolerance, t_e;
     u32 segments, words, at = 0, open, open_bits, last, e, after_e;
-    u32 cover = 0, cover_before;  // those bits if they are one word: most often, and faster than memory
     __global End* ends;
     __global PartitionNode* list;
     __global u32* bits;
-    if (id >= frame->ray_count || !has_room(frame, offsets, room)) return;
+    if (id >= frame->ray_count || !segments_fit(frame, offsets)) return;
     tally.partitions = tally.overlaps = 0;
     offset = offsets[id];
     segments = offsets[id + 1].segments - offset.segments;
     if (segments == 0 || !ray_of(frame, rays, number_of(frame, rays, id), &r)) {
-        firsts[id] = first_node;
         tallies[id] = tally;
         return;
     }
@@ -81,15 +76,9 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         __global u32* now = bits + event * words;
         u32 in_end = NONE, out_end = NONE, w, i, any = 0;
         // All ends of this event change sides at once.
-        cover_before = cover;
-        if (words > 1)
-            for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
+        for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
-            if (words > 1) {
-                now[e >> 6] ^= 1u << (e >> 1 & 31u);
-            } else {
-                cover ^= 1u << (e >> 1);
-            }
+            now[e >> 6] ^= 1u << (e >> 1 & 31u);
             if (++at == 2 * segments) break;
             e = after_e;
             t_e = ends[e].t;
@@ -99,14 +88,8 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         // one that ends, for the partition before.
         for (i = event; i < at; ++i) {
             const u32 ended = i == event ? first : list[i].next, segment = ended >> 1;
-            u32 after, before;
-            if (words > 1) {
-                after = has_bit(now, segment);
-                before = open_bits != NONE && has_bit(bits + open_bits * words, segment);
-            } else {
-                after = cover >> segment & 1u;
-                before = cover_before >> segment & 1u;
-            }
+            const u32 after = has_bit(now, segment);
+            const u32 before = open_bits != NONE && has_bit(bits + open_bits * words, segment);
             if (i != event) ends[ended].t = t;
             if (!(ended & 1u) && after && in_end == NONE) in_end = ended;
             if ((ended & 1u) && !after && before && out_end == NONE) out_end = ended;
@@ -114,18 +97,10 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         for (i = event; i < at; ++i) list[i].in_end = NONE;
         if (in_end == NONE && out_end == NONE) continue;
         if (open != NONE) list[open].out_end = out_end != NONE ? out_end : in_end;
-        if (words > 1) {
-            for (w = 0; w < words; ++w) any |= now[w];
-        } else {
-            any = now[0] = cover;
-        }
+        for (w = 0; w < words; ++w) any |= now[w];
         if (any) {
             list[event].in_end = in_end != NONE ? in_end : out_end;
-            if (last != NONE) {
-                list[last].next = event;
-            } else {
-                first_node = event;
-            }
+            if (last != NONE) list[last].next = event;
             last = open = open_bits = event;
             ++tally.partitions;
         } else {
@@ -133,6 +108,5 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         }
     }
     if (last != NONE) list[last].next = NONE;
-    firsts[id] = first_node;
     tallies[id] = tally;
 }

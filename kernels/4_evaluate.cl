@@ -3,7 +3,7 @@
 // Overlap: the smallest index keeps the partition: solids before FASTGEN's plates, these before its volumes, air last, as in BRL-CAD,
 // and of one rank the first in the model. A rule that looked at the partition before would depend on the direction of the ray.
 #include "boolean.h"
-#include "room.h"
+#include "capacity.h"
 
 // `c` holds the scene.
 static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
@@ -19,7 +19,7 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     list_covered(c, &covered);
     if (covered.count == 1) owner = c.solids[covered.solids[0]].alone;
     if (owner == ALONE_UNKNOWN) {
-        const claim found = find_claim_beside(c, c.bits, &covered, ranks, all_solids());
+        const claim found = find_claim_beside(c, c.bits, &covered, ranks);
         owner = found.least | (found.other != NONE ? OVERLAP : 0u);
     }
     return owner;
@@ -27,14 +27,13 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
 
 __kernel void evaluate(__global const Frame* frame, __global const SolidRecord* solids, __global const StartRecord* starts,
                        __global const u32* leaves, __global const u32* trees, __global const RayCount* offsets,
-                       __global const End* all_ends, __global const u32* all_bits, RayCount room, __global PartitionNode* nodes) {
-    const u32 size = 2 * entries_of(frame, offsets, room);
+                       __global const End* all_ends, __global const u32* all_bits, __global PartitionNode* nodes) {
+    const u32 id = (u32)get_global_id(0);
     cover c;
-    u32 id;
+    if (id >= 2 * segments_of(frame, offsets) || nodes[id].in_end == NONE) return;
     c.solids = solids;
     c.starts = starts;
     c.leaves = leaves;
     c.trees = trees;
-    FOR_ENTRIES(id, size)
-        if (nodes[id].in_end != NONE) nodes[id].owner = owner_of(frame->rank_ends, c, id, nodes[id].owner, offsets, all_ends, all_bits);
+    nodes[id].owner = owner_of(frame->rank_ends, c, id, nodes[id].owner, offsets, all_ends, all_bits);
 }

@@ -1,14 +1,14 @@
 // Kernel 5: the first claimed partition -> a pixel.
-#include "room.h"
+#include "capacity.h"
 #include "shading.h"
 
 __kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                     __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                     __global const BvhNode* inner_nodes,
                     __global const RegionRecord* regions, __global const MaterialRecord* materials,
-                    __global const LightRecord* lights, __global const RayCount* offsets, RayCount room,
+                    __global const LightRecord* lights, __global const RayCount* offsets,
                     __global const End* ends, __global const PartitionNode* nodes,
-                    __global const u32* firsts, __global RayTally* tallies, __global const RayRecord* rays,
+                    __global RayTally* tallies, __global const RayRecord* rays,
                     __global TileTally* tally_of_tile, __global float* picture) {
     u32 id = (u32)get_global_id(0), seen = NONE, number;
     RayTally tally;
@@ -20,7 +20,7 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         tally_of_tile->candidates = tallies[frame->ray_count].partitions;
         tally_of_tile->total = offsets[frame->ray_count];
     }
-    if (!has_room(frame, offsets, room)) return;
+    if (!segments_fit(frame, offsets)) return;
     number = number_of(frame, rays, id);
     at = pixel_of(number, frame->window);
     if (!at.inside) return;
@@ -33,7 +33,7 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         const real t_min = t_min_along(frame, r);
         const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;
-        for (next = firsts[id]; next != NONE; next = nodes[next].next) {
+        for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE; next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += region >> 31;
             if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > t_min) seen = next;

@@ -275,21 +275,14 @@ FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     return value;
 }
 
-FN SolidFilter all_solids(void) {
-    SolidFilter f;
-    f.even = f.odd = 0xffffffffu;
-    return f;
-}
-
 // The regions that claim a partition: the least, and any other of its rank. NONE: there is none.
 typedef struct {
     u32 least, other;
 } claim;
 
 // Looks at the terms that the solids of `starting` start, some of those that c.bits cover. `ranks`: Frame.rank_ends; 0:
-// `other` is not wanted. `changed`: no region claimed before these solids came or went, so one of its terms has one of them.
-FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
-                    SolidFilter changed) {
+// `other` is not wanted.
+FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks) {
     claim found;
     u32 word, words = words_of(c.segments);
     found.least = found.other = NONE;
@@ -303,7 +296,7 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
                 const u32 region = start.region, precedes = region < found.least;
                 const u32 wanted = precedes || (ranks && found.other == NONE && region != found.least &&
                                                 same_rank(ranks, region, found.least));
-                if (wanted && meet(start.solids, changed) && term_holds(c, list, start)) {
+                if (wanted && term_holds(c, list, start)) {
                     const u32 later = precedes ? found.least : region;
                     if (precedes) found.least = region;
                     found.other = ranks && later != NONE && same_rank(ranks, later, found.least) ? later : NONE;
@@ -322,7 +315,7 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
 // Regions overlap if they do so on one side. A ray that runs along an edge of a solid may miss it on both sides: then it is within
 // what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in an edge,
 // of which some part holds either side.
-FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks, SolidFilter changed) {
+FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks) {
     const u32 marked = list->missed;
     claim touched, found;
     u32 step = 0;
@@ -334,7 +327,7 @@ FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* li
             c.missed = step == 1 ? MISSED_ABOVE : MISSED_BELOW;
             list_covered(c, list);
         }
-        side = find_claim(c, starting, list, ranks, changed);
+        side = find_claim(c, starting, list, ranks);
         if (step == 0) {
             touched = side;
         } else {

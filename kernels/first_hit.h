@@ -109,7 +109,7 @@ FN u32 claim_of_one(const front* w, scene_tables s) {
 }
 
 // NONE, too, if no picture shows what claims: all others are before it, so nothing else does.
-FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
+FN u32 first_claim(const front* w, scene_tables s) {
     u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
     alone = any ? claim_of_one(w, s) : NONE;
@@ -127,7 +127,7 @@ FN u32 first_claim(const front* w, scene_tables s, SolidFilter changed) {
         c.leaves = s.leaves;
         c.trees = s.trees;
         list_covered(c, &covered);
-        region = find_claim_beside(c, starting, &covered, 0, changed).least;
+        region = find_claim_beside(c, starting, &covered, 0).least;
     }
 #if SHAPED_LIGHTS
     region = region < s.seen_end ? region : NONE;
@@ -141,7 +141,6 @@ FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid <
 // What happens at an event: the first end, if any, of those where a segment begins to cover, and of those where one ceases to.
 typedef struct {
     End in, out;  // solid NONE: there is none
-    SolidFilter changed;  // the solids that come or go
     u32 begins;  // may it be that a term begins to be true
 } event;
 
@@ -152,7 +151,6 @@ FN event pass_event(front* w, real tolerance) {
     event e;
     e.in.t = e.out.t = w->due = REAL_INFINITY;
     e.in.solid = e.out.solid = NONE;
-    e.changed.even = e.changed.odd = 0;
     e.begins = 0;
     for (word = 0; word < SLOT_WORDS; ++word) {
         u32 bits = w->used[word];
@@ -167,7 +165,6 @@ FN event pass_event(front* w, real tolerance) {
                 if (is_open || is_thin) w->used[word] ^= bit;
                 if (!is_thin) {
                     w->open[word] ^= bit;
-                    e.changed = with(e.changed, filter_of(end.solid));
                     e.begins |= (is_open ? w->exit[word] : w->entry[word]) & bit;
                 }
                 if (is_open && comes_before(end, e.out)) e.out = end;
@@ -190,13 +187,12 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizo
     int found = 0, going = is_complete(w, tolerance, horizon);
     while (going) {
         const real t = w->due;
-        event e = pass_event(w, tolerance);
+        const event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
         // What ends before t_min is not seen.
         found = matters && w->region != NONE && t > t_min;
         if (matters && !found) {
-            if (w->region != NONE) e.changed = all_solids();
-            w->region = first_claim(w, s, e.changed);
+            w->region = first_claim(w, s);
             w->from_within = e.in.solid == NONE;
             w->seen = w->from_within ? e.out : e.in;
             w->seen.t = t;

@@ -2,12 +2,11 @@
 // comes before this: a ray at a time (first_hits_ray.h), or on processors eight (first_hits_packet.h).
 //
 // Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
-// `first`: of the launches before this one, how many items.
 
 // The number that item `id` has by the list of blocks, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
     const u32 entry = entries[id / (BLOCK * BLOCK)], code = entry >> PART_SHIFT, within = id % (BLOCK * BLOCK);
-    const u32 parts = code ? 1u << (31u - clz(code)) : 1u, rays = LOCKSTEP / parts, part = code ? code - parts : 0;
+    const u32 parts = code ? PARTS : 1u, rays = LOCKSTEP / parts, part = code ? code - PARTS : 0;
     if (within % LOCKSTEP >= rays) return COUNT_MAX;
     return (entry & ((1u << PART_SHIFT) - 1u)) * (BLOCK * BLOCK) + part * (BLOCK * BLOCK) / parts + within / LOCKSTEP * rays +
            within % LOCKSTEP;
@@ -20,8 +19,8 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
                          __global const u32* trees, __global const MaterialRecord* materials,
                          __global const LightRecord* lights, __global const BlockNode* block_nodes,
                          __global const RayRecord* rays, __global TileTally* tally, __global u32* overflown,
-                         __global float* picture, u32 first) {
-    const u32 id = (first + (u32)get_global_id(0)) * RAYS_AN_ITEM;
+                         __global float* picture) {
+    const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
     u32 number, lost, sees;
     pixel_position at;
     scene_tables s;

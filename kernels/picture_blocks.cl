@@ -20,18 +20,13 @@ __kernel void count_blocks(__global const unsigned char* costs, u32 count, __glo
 }
 
 // Entries of a block of that class.
-static u32 parts_of(u32 class_number, u32 in_parts) {
-    return !in_parts || class_number < HALVED_CLASS ? 1u : class_number < QUARTERED_CLASS ? 2u : 4u;
-}
+static u32 parts_of(u32 class_number, u32 in_parts) { return in_parts && class_number >= PARTED_CLASS ? PARTS : 1u; }
 
 // Are blocks listed in parts? The list has room for as many entries as there are blocks: those that see nothing make it.
 static u32 are_in_parts(__local const u32* blocks, u32 most_in_parts) {
-    u32 k, in_parts = 0, more = 0;
-    for (k = HALVED_CLASS; k < COST_CLASSES; ++k) {
-        in_parts += blocks[k];
-        more += blocks[k] * (parts_of(k, 1) - 1u);
-    }
-    return in_parts <= most_in_parts && more <= blocks[0];
+    u32 k, in_parts = 0;
+    for (k = PARTED_CLASS; k < COST_CLASSES; ++k) in_parts += blocks[k];
+    return in_parts <= most_in_parts && in_parts * (PARTS - 1u) <= blocks[0];
 }
 
 // The numbers of the tile's blocks that see anything, from `first` on, in `numbers`: those of the same class in any order. A device

@@ -130,7 +130,6 @@ FN SolidFilter with(SolidFilter a, SolidFilter b) {
     return a;
 }
 FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.odd & ~b.odd); }
-FN u32 meet(SolidFilter a, SolidFilter b) { return (a.even & b.even) || (a.odd & b.odd); }
 
 // What a term is, as far as one solid alone says it: X - (A + B + (C - D)) is empty wherever A or B is covered, and needs X;
 // only where C or D is covered have its words to be looked at. The table is open (linear probing): 32 - log2 of its size,
@@ -147,7 +146,6 @@ typedef struct {
     u32 region;
     u32 first_word, end_word;  // of the term, in trees
     SolidFilter needed;        // solids that all cover wherever the term is
-    SolidFilter solids;        // all of the term's
     u32 roles;                 // where its table of roles begins, in trees; NONE: it has none
 } StartRecord;
 #define PLAIN_WORDS 16u      // of a term; a larger one has a table of roles
@@ -220,6 +218,7 @@ typedef struct {
     Window window;         // the picture's pixels that can show anything; none of the others has a ray
     u32 lines;             // that the tile's picture has, see place_of() in camera.h; 0: a float of each ray
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
+    u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see capacity.h
 } Frame;
 
 // A float for each plane of a picture.
@@ -242,7 +241,6 @@ typedef struct {
     float entry;  // no ray of the block comes there before this distance, less that of the scene's center
 } BlockNode;
 #define LISTED_NODES 32u  // entries of a block
-#define CULL_ITEMS 16u    // a GPU's work-items that find them; measured: bench/NOTES.md
 
 // 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.
 typedef struct {
@@ -263,13 +261,15 @@ typedef struct {
     RayCount total;            // the same
 } TileTally;
 
-// An entry of the list: a block's number, and above it 0, or 2 and 3 for its two halves, or 4 to 7 for its quarters. Work-items that
-// go in lockstep wait for each other, the more so the more there is to do: the few blocks that cost most have fewer rays in each
-// group of LOCKSTEP.
-#define PART_SHIFT 26u       // blocks are fewer: their rays have numbers of 32 bits
-#define HALVED_CLASS 40u     // costs from 128 on (class_of in picture_blocks.cl)
-#define QUARTERED_CLASS 44u  // from 192 on
+// An entry of the list: a block's number, and above it 0, or PARTS and more for each of its parts. Work-items that go in lockstep
+// wait for each other, the more so the more there is to do: the few blocks that cost most have fewer rays in each group of LOCKSTEP.
+#define PARTS 4u
+#define PART_SHIFT 26u    // blocks are fewer: their rays have numbers of 32 bits
+#define PARTED_CLASS 40u  // costs from 128 on (class_of in picture_blocks.cl)
 #define LOCKSTEP 32u
+
+FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
+FN u32 partitions_of(u32 segments) { return 2u * segments; }
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
@@ -304,6 +304,12 @@ typedef struct {
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
+// The first partition of a ray, whose nodes stand in the order of its events; NONE: it has none.
+FN u32 first_partition(GLOBAL const PartitionNode* nodes, u32 segments) {
+    u32 k = 0;
+    while (k < partitions_of(segments) && nodes[k].in_end == NONE) ++k;
+    return k < partitions_of(segments) ? k : NONE;
+}
 
 // 3 weave -> shade -> the host, which wants the sums: as RayCount, so that the scan adds them up.
 typedef struct {
@@ -331,7 +337,5 @@ FN u32 width_of(Window w) { return w.right - w.left; }
 FN u32 blocks_across(Window w) { return (width_of(w) + BLOCK - 1u) / BLOCK; }
 FN u32 blocks_down(Window w) { return (w.bottom - w.top + BLOCK - 1u) / BLOCK; }
 
-FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
-FN u32 partitions_of(u32 segments) { return 2u * segments; }
 
 #endif

@@ -158,6 +158,7 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
     frame.every_partition = 1;
     std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
+    frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
 }
 
 }  // namespace

@@ -155,10 +155,6 @@ void Kernel::check_count(std::size_t count) const {
                            std::to_string(count));
 }
 
-bool Kernel::is_compiled_twice() const {
-    return device_->info().type == "cpu" && is_pocl(device_->info());
-}
-
 Event Kernel::queue(std::size_t items, std::size_t group) {
     if (items == 0) return {};
     const std::size_t padded = (items + group - 1) / group * group;

@@ -1,7 +1,6 @@
 // Programs and their kernels. Including this file brings all of src/device that a pipeline needs.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -33,24 +32,6 @@ public:
         return queue(items, group);
     }
 
-    // PoCL compiles a kernel for launches of less than 2^16 - 1 items, and once more for larger ones, up to half a second each. Of kernels
-    // that have now few, now many, one kind does. (Of many: groups of a single item that has nothing to do would cost too much.)
-    /// As launch(), always of few: several launches, of a kernel whose last argument, a cl_uint that is not among these, is how many
-    /// items come before the launch's own.
-    template <class... Arguments>
-    std::vector<Event> launch_in_parts(std::size_t items, std::size_t group, const Arguments&... arguments) {
-        std::vector<Event> events;
-        const std::size_t most = is_compiled_twice() ? many_items - 64 : items;
-        for (std::size_t first = 0; first < items; first += most)
-            events.push_back(launch(std::min(most, items - first), group, arguments..., static_cast<cl_uint>(first)));
-        return events;
-    }
-    /// As launch(), always of many: some have nothing to do.
-    template <class... Arguments>
-    Event launch_as_many(std::size_t items, std::size_t group, const Arguments&... arguments) {
-        return launch(items > 0 && is_compiled_twice() ? std::max(items, many_items) : items, group, arguments...);
-    }
-
     const std::string& name() const noexcept { return name_; }
     std::size_t max_group() const;      ///< most work-items in a group
     std::uint64_t private_bytes() const;  ///< of one work-item, as far as the device says
@@ -69,8 +50,6 @@ private:
     }
     void set_bytes(cl_uint position, const void* value, std::size_t bytes);
     void check_count(std::size_t count) const;
-    static constexpr std::size_t many_items = std::size_t{1} << 16;
-    bool is_compiled_twice() const;
     Event queue(std::size_t items, std::size_t group);
 
     const Device* device_;

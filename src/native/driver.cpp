@@ -265,10 +265,10 @@ bool has(std::string_view options, std::string_view option) {
     return at != options.npos && (end == options.size() || options[end] == ' ');
 }
 
-/// What was compiled ahead is double precision in packets, with the default quartic, for kernels that are queued one by one.
+/// What was compiled ahead is double precision in packets, with the default quartic.
 bool was_compiled(std::string_view options) {
     return has(options, "-DCSGRT_REAL=double") && has(options, "-DCSGRT_QUARTIC=0") && has(options, "-DCSGRT_PACKETS") &&
-           !has(options, "-DCSGRT_AHEAD") && !has(options, "-DCSGRT_CONTRACT") && !has(options, "-DCSGRT_EYE_RELATIVE");
+           !has(options, "-DCSGRT_CONTRACT") && !has(options, "-DCSGRT_EYE_RELATIVE");
 }
 
 cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const char* options, void (*)(cl_program, void*), void*) {

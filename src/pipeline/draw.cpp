@@ -47,9 +47,9 @@ bool Pipeline::draw_in_place(const Drawing& d, const Tile& tile) {
     frame.ray_count = tile.rays;
     make_room(cull_bytes(tile), tile_.costs.size() + tile_.lists.size());
     upload(frame);
-    const std::vector<Event> culled = cull(frame).launch(buffers_, tile_, frame);
+    const Event culled = cull(frame).launch(buffers_, tile_, frame);
     const std::vector<std::uint32_t> seen = Cull::seen(tile, tile_);
-    for (const Event& event : culled) d.counts.cull_blocks += milliseconds(event);
+    d.counts.cull_blocks += milliseconds(culled);
 
     const std::uint64_t pixel_bytes = pixel_bytes_of(d.target);
     const bool sees =

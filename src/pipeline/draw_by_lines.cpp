@@ -14,19 +14,8 @@ kernel::PlaneValues background_of(const RenderTarget& target) {
     return background;
 }
 
-// A tile of so many rays is so small a part of the picture that memory for several is little for each of its pixels.
-bool is_small(const kernel::Frame& frame, std::uint64_t rays) { return std::uint64_t{frame.width} * frame.height >= 8 * rays; }
-
-// How many tiles have memory for their lines at a time: of first hits those that are drawn and those whose pixels are copied, for which
-// kernels wait the less the more there are; of every partition, whose kernels take longer, one that is copied.
-std::size_t lines_in_turn(const kernel::Frame& frame, const Tile& tile, std::uint64_t largest_tile) {
-    const kernel::Window& w = frame.window;
-    const std::uint64_t pixels = std::uint64_t{frame.width} * frame.height;
-    const bool is_all = std::uint64_t{kernel::width_of(w)} * (w.bottom - w.top) <= tile.rays;
-    if (frame.every_partition) return is_small(frame, tile.rays) ? 2 : 1;
-    if (is_small(frame, largest_tile)) return std::clamp<std::uint64_t>(pixels / largest_tile / 4, 3, PictureLines::most_lines);
-    return is_small(frame, tile.rays) ? 3 : is_all ? 1 : 2;
-}
+// Tiles whose lines have memory at a time: those that are drawn, and one that is copied.
+constexpr std::size_t lines_in_turn = Device::lanes + 1;
 
 bool is_of_blocks(const Tile& tile) { return tile.rays % block_rays == 0; }
 
@@ -53,34 +42,21 @@ bool Pipeline::queue(QueuedTile& queued, const Drawing& d, const Tile& tile) {
         const std::uint64_t listed = t.blocks() * sizeof(std::uint32_t) + t.tally_bytes();
         return uploaded.size() + listed + cull_bytes(t) + (every ? 0 : t.rays * FirstHits::ray_bytes);
     };
-    // Of first hits in many tiles, where there is plenty, room for the largest: they differ from frame to frame, and new memory takes
-    // longer than a tile.
-    const Tile largest{0, static_cast<std::uint32_t>(std::max<std::uint64_t>(tile.rays, largest_tile(frame)))};
-    bool is_plenty = false;
     if (!every) {
-        const std::size_t count = lines_in_turn(frame, tile, largest.rays), across = kernel::blocks_across(frame.window);
-        const std::size_t end = std::min<std::size_t>(largest.blocks() + across, across * kernel::blocks_down(frame.window));
-        const std::uint64_t most_lines = lines_of(frame, 0, static_cast<std::uint32_t>(end)).size() * pixel_bytes_of(d.target);
-        const std::uint64_t of_all = count * most_lines + by_lines_->tiles.size() * needed(largest);
-        is_plenty = is_small(frame, largest.rays) && most_lines <= device_.max_buffer() &&
-                    2 * of_all <= device_.available() + by_lines_->held();
-        queued.lines = by_lines_->lines.take(is_plenty ? most_lines : all.size() * pixel_bytes_of(d.target), count);
+        queued.lines = by_lines_->lines.take(all.size() * pixel_bytes_of(d.target), lines_in_turn);
         if (!queued.lines) return false;
     }
     if (needed(tile) > device_.available() + queued.buffers.held()) {
         give_up(queued);
         return false;
     }
-    if (is_plenty && needed(largest) <= device_.available() + queued.buffers.held()) {
-        queued.buffers.reserve(largest, FirstHits::ray_bytes);
-        cull(frame).reserve(queued.buffers, frame, largest.rays);
-    }
 
     // Of every partition kernels of the tile before may run meanwhile.
     const Device::Lane lane(device_, every ? 1 : by_lines_->lane_of(queued));
     queued.is_under_way = true;
     queued.upload.start<std::byte>(queued.buffers.frame, uploaded);
-    queued.culled = cull(frame).launch(buffers_, queued.buffers, frame);
+    queued.culled.clear();
+    queued.culled.push_back(cull(frame).launch(buffers_, queued.buffers, frame));
     const std::uint32_t most_in_parts = every ? 0 : BlockList::most_in_parts(device_);  // its kernels take whole blocks
     for (Event& event : by_lines_->list.list(tile, queued.buffers, most_in_parts)) queued.culled.push_back(std::move(event));
     queued.answer.start(queued.buffers.tally, every ? sizeof(kernel::TileTally) : tile.tally_bytes());
@@ -164,13 +140,12 @@ void Pipeline::first_hits_by_lines(const Drawing& d) {
     draw_exactly(d, std::exchange(by_lines_->overflown, {}));
 }
 
-// Makes a tile's frame one of the rays that its list of blocks holds, once that is known. How many there are.
+// Has a tile's frame be one of the rays that its list of blocks holds, once that is known. How many there are.
 std::uint32_t Pipeline::take_list(QueuedTile& tile) {
     wait_for(tile.culled.back());
     tile.answer.fetch();
     tile.kernels.clear();
     tile.frame.ray_count = tile.tally().entries * block_rays;
-    tile.upload.start<std::byte>(tile.buffers.frame, kernels_.frame(tile.frame));
     return tile.frame.ray_count;
 }
 
@@ -180,6 +155,8 @@ bool Pipeline::weave_alone(QueuedTile& tile, const Drawing& d) {
     if (!tile.lines) return false;
     tile.kernels.clear();
     if (tile.frame.ray_count == 0) return true;
+    tile.frame.candidate_capacity = tile.frame.segment_capacity = tile.frame.word_capacity = COUNT_MAX;
+    tile.upload.start<std::byte>(tile.buffers.frame, kernels_.frame(tile.frame));
     const auto needs = exact().weave(buffers_, tile.buffers, tile.frame.ray_count, Rays::blocks, tile.kernels);
     if (needs) tile.room = *needs;
     return needs.has_value();
@@ -233,7 +210,7 @@ void Pipeline::give_back(QueuedTile& tile, const Drawing& d) {
 // Of every partition.
 PictureLines::Lines* Pipeline::take_lines(const QueuedTile& tile, const Drawing& d) {
     const std::size_t pixels = lines_of(tile.frame, tile.tile.first_block(), tile.tile.end_block()).size();
-    return by_lines_->lines.take(pixels * pixel_bytes_of(d.target), lines_in_turn(tile.frame, tile.tile, 0));
+    return by_lines_->lines.take(pixels * pixel_bytes_of(d.target), lines_in_turn);
 }
 
 // Of every partition of a tile: has all kernels run, its memory counted, when no other is under way. False: the source has it in smaller
@@ -275,7 +252,14 @@ void Pipeline::partitions_by_lines(const Drawing& d) {
         const std::uint32_t rays = take_list(tile);
         if (shaded && is_done(end_of(*shaded)) && !settle_last(&tile)) continue;  // its pixels wait for no kernel any more
         std::optional<Exact::Needs> room;
-        if (rays > 0) room = exact().weave_ahead(buffers_, tile.buffers, rays, tile.kernels);
+        if (rays > 0) room = exact().capacity_for(rays);
+        if (room) {
+            tile.frame.candidate_capacity = room->candidates;
+            tile.frame.segment_capacity = room->total.segments;
+            tile.frame.word_capacity = room->total.words;
+            tile.upload.start<std::byte>(tile.buffers.frame, kernels_.frame(tile.frame));
+            exact().weave_ahead(buffers_, tile.buffers, rays, *room, tile.kernels);
+        }
         if (!settle_last(&tile)) continue;
         if (room) tile.lines = take_lines(tile, d);
         if (room && tile.lines) {

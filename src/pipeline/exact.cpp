@@ -9,7 +9,7 @@ constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl s
 std::uint32_t blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
 
 std::vector<std::string> files_of(bool packets) {
-    std::vector<std::string> files = {Cull::file(false)};
+    std::vector<std::string> files = {Cull::file};
     if (packets) files.push_back("1_packet_candidates.cl");
     files.insert(files.end(),
                  {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
@@ -17,13 +17,13 @@ std::vector<std::string> files_of(bool packets) {
 }
 }  // namespace
 
-Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, bool ahead)
+Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
     : device_(device),
       scene_(scene),
       kernels_(kernels),
-      program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings, ahead),
+      program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings),
                settings.precision != Precision::double_),
-      cull_(device, program_, false),
+      cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
       count_hits_(program_.kernel("count_hits")),
       sum_hits_(program_.kernel("sum_hits")),
@@ -37,7 +37,6 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       shade_(program_.kernel("shade")),
       places_(device, "candidates' places"),
       counts_(device, "counts"),
-      firsts_(device, "first partitions"),
       candidates_(device, "candidates"),
       found_(device, "candidates' segments, then partitions"),
       ends_(device, "segments"),
@@ -52,13 +51,13 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
 
 std::uint64_t Exact::held() const {
     std::uint64_t sum = 0;
-    for (const Buffer* buffer : {&places_, &counts_, &firsts_, &tally_sums_, &candidates_, &found_, &ends_, &bits_})
+    for (const Buffer* buffer : {&places_, &counts_, &tally_sums_, &candidates_, &found_, &ends_, &bits_})
         sum += buffer->size();
     return sum;
 }
 
 void Exact::release() {
-    for (Buffer* buffer : {&places_, &counts_, &firsts_, &tally_sums_}) buffer->release();
+    for (Buffer* buffer : {&places_, &counts_, &tally_sums_}) buffer->release();
     release_counted();
 }
 
@@ -95,7 +94,6 @@ std::vector<std::pair<Buffer*, std::uint64_t>> Exact::bytes_of_rays(std::uint32_
     const std::uint64_t entries = std::uint64_t{rays} + 1;
     return {{&places_, entries * sizeof(kernel::RayCount)},
             {&counts_, entries * sizeof(kernel::RayCount)},
-            {&firsts_, rays * sizeof(cl_uint)},
             {&tally_sums_, blocks_of(rays) * sizeof(kernel::RayTally)}};
 }
 
@@ -165,17 +163,21 @@ std::optional<Exact::Needs> Exact::try_weave(const Run& run) {
     queue_places(run);
     needs.candidates = sum_of(places_, run).segments;
     if (!reserve_candidates(needs.candidates)) return {};
-    queue_counts(run, needs, needs.candidates);
+    queue_counts(run, needs.candidates);
     needs.total = total_ = sum_of(counts_, run);
     if (!reserve_counted(total_)) return {};
-    queue_partitions(run, needs, needs.candidates, 2 * std::size_t{total_.segments});
+    queue_partitions(run, needs.candidates, 2 * std::size_t{total_.segments});
     return needs;
 }
 
-std::optional<Exact::Needs> Exact::weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays,
-                                               TimedKernels& timed) {
-    for (const auto& [buffer, bytes] : bytes_of_rays(rays))
-        if (bytes > buffer->size()) return {};
+bool Exact::hold_rays(std::uint32_t rays) const {
+    for (const auto& [buffer, bytes] : const_cast<Exact*>(this)->bytes_of_rays(rays))
+        if (bytes > buffer->size()) return false;
+    return true;
+}
+
+std::optional<Exact::Needs> Exact::capacity_for(std::uint32_t rays) const {
+    if (!hold_rays(rays)) return {};
     // The more of two: a picture may well have two tiles that differ.
     const auto expected = [&](double RayNeeds::*what) {
         return static_cast<std::uint64_t>(std::max(needed_.*what, needed_before_.*what) * rays);
@@ -186,19 +188,16 @@ std::optional<Exact::Needs> Exact::weave_ahead(const SceneBuffers& scene, const 
     if (there.candidates == 0 || there.total.segments == 0 || candidates / 2 > there.candidates ||
         segments / 2 > there.total.segments || expected(&RayNeeds::words) / 2 > there.total.words)
         return {};
-    // Where there is more than that, work-items take several candidates or ends: as many items as any device has at a time do as well
-    // as more.
-    const auto items = [](std::uint64_t entries, std::uint64_t most) {
-        constexpr std::uint64_t enough = 1 << 18;
-        return std::min(std::max(entries + entries / 8, enough), most);
-    };
-    const Run run{scene, tile, rays, Rays::blocks, timed};
-    const std::size_t listed = items(candidates, there.candidates);
-    queue_places(run);
-    queue_counts(run, there, listed);
-    queue_partitions(run, there, listed, 2 * items(segments, there.total.segments));
-    device_.flush();
     return there;
+}
+
+void Exact::weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, const Needs& capacity,
+                        TimedKernels& timed) {
+    const Run run{scene, tile, rays, Rays::blocks, timed};
+    queue_places(run);
+    queue_counts(run, capacity.candidates);
+    queue_partitions(run, capacity.candidates, 2 * std::size_t{capacity.total.segments});
+    device_.flush();
 }
 
 void Exact::queue_places(const Run& run) {
@@ -206,52 +205,48 @@ void Exact::queue_places(const Run& run) {
     const TileBuffers& tile = run.tile;
     const Buffer none(device_, "nothing");
     const Buffer& lists = run.kind == Rays::blocks ? tile.lists : none;
-    const std::size_t group = uneven_group(device_);
+    constexpr std::size_t group = work_group;
     run.timed.emplace_back(
         &PipelineCounts::count_hits,
         by_packets(run) ? packet_candidates_->count.launch(run.rays / packet_rays, group, tile.frame, s.nodes, lists, tile.rays, places_)
-                        : find_candidates_.launch(run.rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none, kernel::RayCount{}));
+                        : find_candidates_.launch(run.rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
     queue_scan(places_, run.rays, run.timed);
 }
 
-// `candidates`: about so many, of what there is room for at most.
-void Exact::queue_counts(const Run& run, const Needs& room, std::size_t candidates) {
+// `candidates`: as many, or as many as there is room for.
+void Exact::queue_counts(const Run& run, std::size_t candidates) {
     const SceneBuffers& s = run.scene;
     const TileBuffers& tile = run.tile;
     const Buffer none(device_, "nothing");
     const Buffer& lists = run.kind == Rays::blocks ? tile.lists : none;
-    const std::size_t group = uneven_group(device_), listed = candidates ? run.rays : 0;
+    const std::size_t group = work_group, listed = candidates ? run.rays : 0;
     const auto timed = [&](Event event) { run.timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
-    places_room_ = {.segments = room.candidates, .words = 0};
     timed(by_packets(run)
               ? packet_candidates_->list.launch(listed / packet_rays, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                                s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, places_room_, found_)
-              : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_, places_room_));
+                                                s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, found_)
+              : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
     device_.flush();
-    add_events(run.timed, &PipelineCounts::count_hits,
-               count_hits_.launch_in_parts(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
-                                           tile.rays, places_, places_room_, candidates_, found_));
-    timed(sum_hits_.launch(run.rays, work_group, tile.frame, places_, places_room_, candidates_, counts_));
+    timed(count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays,
+                             places_, candidates_, found_));
+    timed(sum_hits_.launch(run.rays, work_group, tile.frame, places_, candidates_, counts_));
     queue_scan(counts_, run.rays, run.timed);
 }
 
-// `candidates`, `nodes`: about so many, of what there is room for at most.
-void Exact::queue_partitions(const Run& run, const Needs& room, std::size_t candidates, std::size_t nodes) {
+// `candidates`, `nodes`: as many, or as many as there is room for.
+void Exact::queue_partitions(const Run& run, std::size_t candidates, std::size_t nodes) {
     const SceneBuffers& s = run.scene;
     const TileBuffers& tile = run.tile;
     const auto timed = [&](double PipelineCounts::*time, Event event) { run.timed.emplace_back(time, std::move(event)); };
-    room_ = room.total;
     timed(&PipelineCounts::store_segments,
-          store_segments_.launch_as_many(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                         s.inner_nodes, tile.rays, places_, places_room_, candidates_, found_, counts_, room_, ends_, bits_));
+          store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                         s.inner_nodes, tile.rays, places_, candidates_, found_, counts_, ends_, bits_));
     device_.flush();
     Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
-    timed(&PipelineCounts::weave, order_ends_.launch_as_many(nodes, work_group, tile.frame, counts_, ends_, bits_, room_, partitions));
-    timed(&PipelineCounts::weave, weave_.launch(run.rays, uneven_group(device_), tile.frame, tile.rays, counts_, room_, ends_, partitions,
-                                                bits_, firsts_, places_));
-    timed(&PipelineCounts::evaluate, evaluate_.launch_as_many(nodes, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees, counts_,
-                                                              ends_, bits_, room_, partitions));
+    timed(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, tile.frame, counts_, ends_, bits_, partitions));
+    timed(&PipelineCounts::weave, weave_.launch(run.rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions, bits_, places_));
+    timed(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees, counts_,
+                                                              ends_, bits_, partitions));
 }
 
 void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& counts) {
@@ -270,7 +265,7 @@ void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& co
 void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed) {
     timed.emplace_back(&PipelineCounts::shade,
                        shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
-                                     s.regions, s.materials, s.lights, counts_, room_, ends_, found_, firsts_, places_, tile.rays,
+                                     s.regions, s.materials, s.lights, counts_, ends_, found_, places_, tile.rays,
                                      tile.tally, picture));
 }
 

@@ -22,8 +22,7 @@ enum class Rays { blocks, picked, listed };
 
 class Exact {
 public:
-    /// `ahead`: weave_ahead() may be called.
-    Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, bool ahead);
+    Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     /// What rays need, or have room for.
     struct Needs {
@@ -38,10 +37,11 @@ public:
     /// Runs the kernels on the tile's rays, but the last one; waits for counts only. None: the rays' segments do not fit the
     /// memory; nothing is lost then, the caller takes a smaller tile.
     std::optional<Needs> weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, TimedKernels& timed);
-    /// The same in the memory that there is, of a picture's blocks; does not wait, not even for what runs. What the rays need, and so
-    /// whether that was enough, stands in the tile's tally once they are shaded. Returns what there is room for; none: by what earlier
-    /// rays needed it would hardly do, and nothing is queued.
-    std::optional<Needs> weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, TimedKernels& timed);
+    /// What there is memory for; none: by what earlier rays needed it would hardly do for so many.
+    std::optional<Needs> capacity_for(std::uint32_t rays) const;
+    /// The same in the memory that there is, of a picture's blocks whose frame says so; does not wait, not even for what runs. What the
+    /// rays need, and so whether that was enough, stands in the tile's tally once they are shaded.
+    void weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, const Needs& capacity, TimedKernels& timed);
     /// Runs the last one on the last run's rays, if they are a picture's. Does not wait.
     void shade(const SceneBuffers& scene, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed);
     /// Has the last run's partitions and overlaps summed, once it is shaded. Does not wait.
@@ -83,14 +83,15 @@ private:
     bool by_packets(const Run& run) const { return run.kind == Rays::blocks && packet_candidates_; }
     std::optional<Needs> try_weave(const Run& run);
     void queue_places(const Run& run);  // where each ray's candidates stand
-    void queue_counts(const Run& run, const Needs& room, std::size_t candidates);
-    void queue_partitions(const Run& run, const Needs& room, std::size_t candidates, std::size_t nodes);
+    void queue_counts(const Run& run, std::size_t candidates);
+    void queue_partitions(const Run& run, std::size_t candidates, std::size_t nodes);
     /// A step of the scan: of each block of entries the sum; the entries become sums within their block.
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which, which need not be set, has a part in none.
     void queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount sum_of(const Buffer& counts, const Run& run);  // the last one of them, once queue_scan() was called; waits
     std::vector<std::pair<Buffer*, std::uint64_t>> bytes_of_rays(std::uint32_t rays);
+    bool hold_rays(std::uint32_t rays) const;
     Needs room() const;  // in what holds candidates, segments and partitions
     void release_counted();  // that
     bool reserve_candidates(std::uint32_t candidates);
@@ -98,7 +99,7 @@ private:
     std::vector<ClaimedPartition> claims_of(const std::vector<kernel::End>& ends,
                                             const std::vector<kernel::PartitionNode>& nodes,
                                             const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
-                                            const kernel::RayCount& end, std::uint32_t first_node) const;
+                                            const kernel::RayCount& end) const;
     std::vector<std::uint32_t> claimants(const kernel::End* ends, std::uint32_t segments,
                                          const std::uint32_t* bits) const;
 
@@ -115,13 +116,12 @@ private:
     Kernel count_hits_, sum_hits_, scan_blocks_, scan_sums_, scan_add_, store_segments_, order_ends_, weave_,
         evaluate_, shade_;
     Buffer places_;            // of the rays' candidates; from weaving on their tallies
-    Buffer counts_, firsts_;   // one entry a ray, too
+    Buffer counts_;            // one entry a ray, too
     Buffer candidates_;        // this and the others: by what was counted
     Buffer found_;             // the candidates' only segments; once they are stored, the partitions
     Buffer ends_, bits_;
     Buffer sums_;              // of the scan's blocks
     kernel::RayCount total_{};                              // of the last run that was counted
-    kernel::RayCount places_room_{}, room_{};               // of the last run
     RayNeeds needed_, needed_before_;                       // by the last rays whose needs are known, and by those before
     Buffer tally_sums_;        // read while the next run's kernels run
     std::size_t tallies_ = 0;  // how many sums

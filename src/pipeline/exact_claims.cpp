@@ -14,13 +14,12 @@ namespace kernel {
 
 std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {
     const auto offsets = counts_.read<kernel::RayCount>(std::size_t{rays} + 1);
-    const auto firsts = firsts_.read<std::uint32_t>(rays);
     const auto ends = kernels_.ends(ends_.read<std::byte>(2 * std::size_t{total_.segments} * kernels_.end_bytes()));
     const auto nodes = found_.read<kernel::PartitionNode>(2 * std::size_t{total_.segments});
     const auto bits = bits_.read<std::uint32_t>(total_.words);
     std::vector<std::vector<ClaimedPartition>> claims(rays);
     for (std::uint32_t i = 0; i < rays; ++i)
-        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1], firsts[i]);
+        claims[i] = claims_of(ends, nodes, bits, offsets[i], offsets[i + 1]);
     return claims;
 }
 
@@ -75,11 +74,11 @@ std::vector<std::uint32_t> Exact::claimants(const kernel::End* ends, std::uint32
 std::vector<ClaimedPartition> Exact::claims_of(const std::vector<kernel::End>& ends,
                                                const std::vector<kernel::PartitionNode>& nodes,
                                                const std::vector<std::uint32_t>& bits, const kernel::RayCount& begin,
-                                               const kernel::RayCount& end, std::uint32_t first_node) const {
+                                               const kernel::RayCount& end) const {
     std::vector<ClaimedPartition> claims;
     const std::uint32_t segments = end.segments - begin.segments;
     const std::size_t base = 2 * std::size_t{begin.segments};
-    for (std::uint32_t node = first_node; node != NONE; node = nodes[base + node].next) {
+    for (std::uint32_t node = kernel::first_partition(nodes.data() + base, segments); node != NONE; node = nodes[base + node].next) {
         const kernel::PartitionNode& partition = nodes[base + node];
         const std::uint32_t region = partition.owner & ~OVERLAP;
         if (region == NONE) continue;

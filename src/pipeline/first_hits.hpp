@@ -7,8 +7,7 @@ namespace csgrt {
 
 class FirstHits {
 public:
-    /// `by_lines`: so pixels come to the host.
-    FirstHits(Device& device, const CompiledScene& scene, const Settings& settings, bool by_lines);
+    FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
 
     /// Draws the tile's rays, whose blocks were culled before, into `picture`. Does not wait.
     TimedKernels launch(const SceneBuffers& scene, TileBuffers& tile, const Buffer& picture, std::uint32_t rays);

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
 
 #include "kernel_host/geometry.hpp"
 #include "base/parallel.hpp"
@@ -16,47 +13,16 @@ namespace {
 // Fewer are copied sooner than a thread starts: pixels of blocks, and floats of long lines.
 constexpr std::size_t pixels_a_thread = 1 << 17, floats_a_thread = 1 << 20;
 
-/// How a part of a plane's line is written.
-struct Cached {
-    static void fill(float* to, std::size_t count, float value) { std::fill_n(to, count, value); }
-    static void copy(float* to, std::size_t count, const float* values) {
-        if (count == BLOCK) {
-            std::array<float, BLOCK> eight;  // of a fixed size: no call
-            std::copy_n(values, BLOCK, eight.begin());
-            std::copy(eight.begin(), eight.end(), to);
-        } else {
-            std::copy_n(values, count, to);
-        }
+/// A part of a plane's line.
+void copy(float* to, std::size_t count, const float* values) {
+    if (count == BLOCK) {
+        std::array<float, BLOCK> eight;  // of a fixed size: no call
+        std::copy_n(values, BLOCK, eight.begin());
+        std::copy(eight.begin(), eight.end(), to);
+    } else {
+        std::copy_n(values, count, to);
     }
-    static void copy_line(float* to, std::size_t count, const float* values) { std::copy_n(values, count, to); }
-    static void end() {}
-};
-
-#ifdef __SSE2__
-/// Past the caches: memory that is overwritten need not be read first, which is half of what it does for a picture that the
-/// caches do not hold. Every count is a multiple of `lanes`, every address one of their size.
-struct Streamed {
-    static constexpr std::size_t lanes = 4;
-    static void fill(float* to, std::size_t count, float value) {
-        const __m128 four = _mm_set1_ps(value);
-        for (std::size_t i = 0; i < count; i += lanes) _mm_stream_ps(to + i, four);
-    }
-    static void copy(float* to, std::size_t count, const float* values) {
-        for (std::size_t i = 0; i < count; i += lanes) _mm_stream_ps(to + i, _mm_loadu_ps(values + i));
-    }
-    static void copy_line(float* to, std::size_t count, const float* values) { copy(to, count, values); }
-    static void end() { _mm_sfence(); }
-
-    static bool fits(const kernel::Frame& frame, std::span<const ChannelPlane> planes) {
-        constexpr std::size_t least_bytes = std::size_t{1} << 28;  // measured: bench/NOTES.md
-        const std::size_t bytes = std::size_t{frame.width} * frame.height * planes.size() * sizeof(float);
-        return bytes >= least_bytes && frame.width % lanes == 0 &&
-               std::all_of(planes.begin(), planes.end(), [](const ChannelPlane& plane) {
-                   return reinterpret_cast<std::uintptr_t>(plane.pixels) % sizeof(__m128) == 0;
-               });
-    }
-};
-#endif
+}
 
 constexpr std::uint32_t none = UINT32_MAX;
 
@@ -78,7 +44,6 @@ public:
         pixels_ = (drawn.size() + held) * BLOCK * BLOCK;
     }
 
-    template <class Line>
     void put() const {
         const std::size_t rows = rows_.count();
         const std::size_t rows_a_chunk = std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
@@ -86,9 +51,8 @@ public:
             std::vector<Run> runs;
             for (; row < last; ++row) {
                 find_runs(row, runs);
-                if (!runs.empty()) put_row<Line>(row, runs);
+                if (!runs.empty()) put_row(row, runs);
             }
-            Line::end();
         });
     }
 
@@ -113,7 +77,6 @@ private:
         }
     }
 
-    template <class Line>
     void put_row(std::size_t row, std::span<const Run> runs) const {
         const std::size_t top = rows_.top(row), lines = rows_.top(row + 1) - top;
         for (std::size_t p = 0; p < target_.planes.size(); ++p) {
@@ -122,10 +85,10 @@ private:
                 float* line = plane.pixels + (top + y) * width_;
                 for (const Run& run : runs) {
                     if (run.place != none)
-                        Line::copy(line + run.begin, run.end - run.begin,
+                        copy(line + run.begin, run.end - run.begin,
                                    values_ + ((p * drawn_ + run.place) * BLOCK + y) * BLOCK);
                     else
-                        Line::fill(line + run.begin, run.end - run.begin, plane.background);
+                        std::fill_n(line + run.begin, run.end - run.begin, plane.background);
                 }
             }
         }
@@ -144,11 +107,7 @@ private:
 
 void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                 const float* values, const RenderTarget& target) {
-    const Blocks blocks(frame, first, end, drawn, values, target);
-#ifdef __SSE2__
-    if (Streamed::fits(frame, target.planes)) return blocks.put<Streamed>();
-#endif
-    blocks.put<Cached>();
+    Blocks(frame, first, end, drawn, values, target).put();
 }
 
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
@@ -165,23 +124,15 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
             parts.push_back({&r, values + r.begin + p * r.size(), target.planes[p].pixels + r.top * frame.width + r.left});
             floats += r.size();
         }
-    const auto put = [&]<class Line>(Line) {
-        const std::size_t threads = 1 + floats / floats_a_thread;
-        const unsigned most = thread_count(target.threads);
-        for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)),
-                   [&](std::size_t i, std::size_t, std::size_t) {
-                       if (arrived) arrived(i);
-                       const PlaneLines& part = parts[i];
-                       const std::size_t columns = part.rectangle->columns();
-                       for (std::size_t line = 0; line < part.rectangle->lines(); ++line)
-                           Line::copy_line(part.pixels + line * frame.width, columns, part.values + line * columns);
-                       Line::end();
-                   });
-    };
-#ifdef __SSE2__
-    if (Streamed::fits(frame, target.planes)) return put(Streamed{});
-#endif
-    put(Cached{});
+    const std::size_t threads = 1 + floats / floats_a_thread;
+    const unsigned most = thread_count(target.threads);
+    for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)), [&](std::size_t i, std::size_t, std::size_t) {
+        if (arrived) arrived(i);
+        const PlaneLines& part = parts[i];
+        const std::size_t columns = part.rectangle->columns();
+        for (std::size_t line = 0; line < part.rectangle->lines(); ++line)
+            std::copy_n(part.values + line * columns, columns, part.pixels + line * frame.width);
+    });
 }
 
 void clear_around(const kernel::Frame& frame, const RenderTarget& target) {

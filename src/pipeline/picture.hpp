@@ -22,7 +22,7 @@ struct RenderTarget {
     std::span<const ChannelPlane> planes;
     std::span<std::uint8_t> drawn;  ///< a block of the picture: 0 if it holds nothing but the background, else 1
     unsigned threads = 0;           ///< that put pixels into it; 0: all
-    const KnownPicture* known = nullptr;  ///< the memory of the first planes, which follow each other, as devices know it
+    const KnownPicture* known = nullptr;  ///< their memory, as devices know it
 };
 
 /// Fills the pixels of the window's blocks from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for

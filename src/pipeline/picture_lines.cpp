@@ -36,41 +36,33 @@ void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<c
     hold_shown(frame, first, end, shown, target);
     if (rectangles.empty()) return;
     const Rectangle all = lines_of(frame, first, end);
-    const std::size_t known = target.known ? std::min(target.known->planes_known_to(device_), target.planes.size()) : 0;
-    RenderTarget others = target;
-    others.planes = target.planes.subspan(known);
-    std::vector<CopyFeed::Copy> known_copies, copies;
+    const bool is_known = target.known && target.known->is_known_to(device_);
+    std::vector<CopyFeed::Copy> copies;
     std::size_t floats = 0;
     for (Rectangle& r : rectangles) {
         r.begin = floats;
-        floats += r.size() * others.planes.size();
-        CopyFeed::Copy copy{.columns = r.columns(), .lines = r.lines(), .begin = (r.top - all.top) * all.columns() + r.left - all.left,
-                            .pitch = all.columns(), .slice = all.size(), .target_pitch = frame.width};
-        for (std::size_t p = 0, piece = 0; p < known; p += copy.planes, ++piece) {
-            copy.planes = std::min(target.known->piece_ends()[piece], known) - p;
-            copy.target = target.planes[p].pixels + r.top * frame.width + r.left;
-            copy.target_slice = std::size_t{frame.width} * frame.height;
-            known_copies.push_back(copy);
-            copy.begin += copy.planes * copy.slice;
-        }
-        copy.planes = others.planes.size();
-        copies.push_back(copy);
+        floats += r.size() * target.planes.size();
+        copies.push_back({.columns = r.columns(), .lines = r.lines(), .planes = target.planes.size(),
+                          .begin = (r.top - all.top) * all.columns() + r.left - all.left, .pitch = all.columns(), .slice = all.size(),
+                          .target = target.planes.front().pixels + r.top * frame.width + r.left, .target_pitch = frame.width,
+                          .target_slice = std::size_t{frame.width} * frame.height});
     }
-    if (others.planes.empty()) {
-        lines.copied = copies_.add(lines.buffer, std::move(known_copies));
+    if (is_known) {
+        lines.copied = copies_.add(lines.buffer, std::move(copies));
         return;
     }
     const std::size_t pixels = std::size_t{frame.width} * frame.height;
     const bool are_many = pixels > 2 * std::size_t{tile.rays};  // tiles: others may have more to copy
-    Slot& slot = free_slot(std::max(floats, are_many ? tile.rays * others.planes.size() : 0) * sizeof(float));
+    Slot& slot = free_slot(std::max(floats, are_many ? tile.rays * target.planes.size() : 0) * sizeof(float));
     for (std::size_t i = 0; i < copies.size(); ++i) {
         copies[i].target = static_cast<float*>(slot.memory->data()) + rectangles[i].begin;
         copies[i].target_pitch = rectangles[i].columns();
         copies[i].target_slice = rectangles[i].size();
     }
-    if (!is_last) copy_by_host(frame, rectangles, copies, others, slot, lines);
-    if (known > 0) lines.copied = copies_.add(lines.buffer, std::move(known_copies));  // when they are made, so are those before
-    if (is_last) copy_while_waiting(frame, rectangles, copies, others, slot, lines.buffer);
+    if (is_last)
+        copy_while_waiting(frame, rectangles, copies, target, slot, lines.buffer);
+    else
+        copy_by_host(frame, std::move(rectangles), std::move(copies), target, slot, lines);
 }
 
 /// Memory that a GPU copies to at full speed takes half a millisecond a megabyte to get.

@@ -32,7 +32,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
 Exact& Pipeline::exact() {
     if (!exact_) {
         const auto start = Clock::now();
-        exact_.emplace(device_, scene_, kernels_, settings_, by_lines_.has_value());
+        exact_.emplace(device_, scene_, kernels_, settings_);
         build_ms_ += milliseconds_since(start);
     }
     return *exact_;
@@ -41,7 +41,7 @@ Exact& Pipeline::exact() {
 FirstHits& Pipeline::first_hits() {
     if (!first_hits_) {
         const auto start = Clock::now();
-        first_hits_.emplace(device_, scene_, settings_, by_lines_.has_value());
+        first_hits_.emplace(device_, scene_, settings_);
         build_ms_ += milliseconds_since(start);
     }
     return *first_hits_;
@@ -64,14 +64,9 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
 
-// Of the frame's tiles. Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it
-// gets half of a picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
+// Of the frame's tiles.
 std::uint64_t Pipeline::largest_tile(const kernel::Frame& frame) const {
-    constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 17;
-    const std::uint64_t row = row_of(frame), rows = kernel::blocks_down(frame.window);
-    const bool are_few = device_.info().type == "cpu" && frame.every_partition;
-    const std::uint64_t most = are_few ? of_processor : frame.every_partition ? std::max(of_gpu, (rows + 1) / 2 * row) : most_rays_;
-    return std::min({most, rows * row, most_rays_});
+    return std::min(row_of(frame) * kernel::blocks_down(frame.window), most_rays_);
 }
 
 // For what a tile's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is

@@ -17,18 +17,6 @@ namespace {
 constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 5;
 
 constexpr const char* known_name = "picture of the host's";
-// Of device memory, the scene's and all else but other pictures; and less of it where not all of a picture becomes known, for tiles
-// grow yet.
-constexpr std::uint64_t most_bytes_a_pixel = 64, bytes_a_pixel = 60;
-
-/// Of a picture's, how many planes a device has room for. `own`: what it holds besides.
-std::size_t planes_fitting(const Device& device, std::uint64_t own, std::size_t planes, std::uint64_t pixels) {
-    const std::uint64_t plane = std::max<std::uint64_t>(1, pixels * sizeof(float));
-    const auto fitting = [&](std::uint64_t all) -> std::uint64_t {
-        return std::min({device.available() / 2, device.max_buffer(), all - std::min(all, own)}) / plane;
-    };
-    return fitting(most_bytes_a_pixel * pixels) >= planes ? planes : std::min<std::uint64_t>(planes, fitting(bytes_a_pixel * pixels));
-}
 
 }  // namespace
 
@@ -112,50 +100,18 @@ void Pipelines::forget() {
 
 std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane> planes, std::size_t pixels) {
     forget();
-    const auto known = std::make_shared<KnownPicture>(planes.empty() ? nullptr : planes.front().pixels, pixels);
-    std::vector<KnownPicture::Wanted> wanted;
+    const std::size_t bytes = planes.size() * pixels * sizeof(float);
+    if (bytes == 0) return nullptr;
+    const auto known = std::make_shared<KnownPicture>(planes.front().pixels, bytes);
     for (std::size_t i = 0; i < devices_.size(); ++i) {
-        const Device& device = *devices_[i];
-        if (pipelines_[i]->copies_beside())
-            wanted.push_back({&device, planes_fitting(device, device.allocated() - claimed_of(device), planes.size(), pixels)});
-    }
-    known->make_known(wanted);
-    for (const auto& device : devices_) {
-        const std::uint64_t bytes = known->planes_known_to(*device) * pixels * sizeof(float);
-        if (bytes == 0) continue;
-        device->claim(known_name, bytes);
-        claims_.push_back({known, device.get(), bytes});
+        Device& device = *devices_[i];
+        if (!pipelines_[i]->copies_beside() || bytes > std::min(device.available() / 2, device.max_buffer())) continue;
+        known->make_known(device);
+        if (!known->is_known_to(device)) continue;
+        device.claim(known_name, bytes);
+        claims_.push_back({known, &device, bytes});
     }
     return known;
-}
-
-/// Bytes that the device's driver holds of pictures.
-std::uint64_t Pipelines::claimed_of(const Device& device) const {
-    std::uint64_t sum = 0;
-    for (const Claim& claim : claims_) sum += claim.device == &device ? claim.bytes : 0;
-    return sum;
-}
-
-void Pipelines::keep_small(KnownPicture& known) {
-    const std::uint64_t plane = known.pixels() * sizeof(float), most = most_bytes_a_pixel * known.pixels();
-    const auto is_its = [&](const Claim& claim) { return claim.picture.lock().get() == &known; };
-    std::vector<KnownPicture::Wanted> wanted;
-    bool are_fewer = false;
-    for (const Claim& claim : claims_) {
-        if (!is_its(claim)) continue;
-        const std::uint64_t held = claim.device->allocated() - (claimed_of(*claim.device) - claim.bytes);
-        const std::uint64_t surplus = held - std::min(held, most);
-        wanted.push_back({claim.device, (claim.bytes - std::min(claim.bytes, surplus)) / plane});
-        are_fewer = are_fewer || wanted.back().planes < known.planes_known_to(*claim.device);
-    }
-    if (!are_fewer) return;
-    known.make_known(wanted);
-    for (Claim& claim : claims_) {
-        if (!is_its(claim)) continue;
-        const std::uint64_t left = known.planes_known_to(*claim.device) * plane;
-        claim.device->release(known_name, claim.bytes - left);
-        claim.bytes = left;
-    }
 }
 
 void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,

@@ -26,11 +26,9 @@ public:
     std::uint64_t number() const noexcept { return number_; }
 
     void prepare(bool every_partition);
-    /// Makes the memory of a picture that will be drawn into again known to its GPUs: `pixels` floats of as many planes, which follow
-    /// each other, as each has room for. It must outlast what is returned, which this need not.
+    /// Makes the memory of a picture that will be drawn into again known to those of its GPUs that have room for it: `pixels` floats of
+    /// each plane, which follow each other. It must outlast what is returned, which this need not.
     std::shared_ptr<KnownPicture> make_known(std::span<const ChannelPlane> planes, std::size_t pixels);
-    /// Before a frame: where devices hold more than they should, of all, fewer of its planes are known to them. That is made known anew.
-    void keep_small(KnownPicture& known);
     /// As Pipeline's. Progress is told by one thread at a time. Throws Error (interrupted) if it says not to go on, too.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
@@ -47,7 +45,6 @@ private:
     void share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work);
 
     void forget();
-    std::uint64_t claimed_of(const Device& device) const;
 
     /// What the drivers hold of a picture's, which counts as the devices' memory as long as there is the picture.
     struct Claim {

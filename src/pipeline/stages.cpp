@@ -42,10 +42,6 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     return *this;
 }
 
-void add_events(TimedKernels& timed, double PipelineCounts::*time, std::vector<Event> events) {
-    for (Event& event : events) timed.emplace_back(time, std::move(event));
-}
-
 void add_times(const TimedKernels& timed, PipelineCounts& counts) {
     for (const auto& [time, kernel] : timed) counts.*time += milliseconds(kernel);
 }
@@ -63,11 +59,10 @@ static bool has_shaped_lights(const CompiledScene& scene) {
            std::any_of(scene.materials.begin(), scene.materials.end(), glows);
 }
 
-std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings, bool ahead) {
+std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> defines = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
                                         "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
     if (settings.precision == Precision::single) defines.push_back("CSGRT_EYE_RELATIVE");
-    if (ahead) defines.push_back("CSGRT_AHEAD");
     if (settings.contraction) defines.push_back("CSGRT_CONTRACT");
     if (in_packets(device, settings)) defines.push_back("CSGRT_PACKETS");
     if (scene.has_large_terms) defines.push_back("CSGRT_LARGE_TERMS");

@@ -77,7 +77,6 @@ struct PipelineCounts {
 
 /// Kernels that run or have run, each with what its time counts as.
 using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
-void add_events(TimedKernels& timed, double PipelineCounts::*time, std::vector<Event> events);
 /// Adds up how long kernels took. Waits.
 void add_times(const TimedKernels& timed, PipelineCounts& counts);
 
@@ -85,7 +84,7 @@ void add_times(const TimedKernels& timed, PipelineCounts& counts);
 bool in_packets(const Device& device, const Settings& settings);
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet.h
 
-/// The options that a program for this scene is compiled with. `ahead`: its kernels may be queued before it is known what they need.
-std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings, bool ahead = false);
+/// The options that a program for this scene is compiled with.
+std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings);
 
 }  // namespace csgrt

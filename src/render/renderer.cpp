@@ -277,8 +277,6 @@ void Renderer::Impl::draw(const PreparedFrame& prepared, Pipelines& pipelines, c
         framebuffer.known_ = nullptr;
     else if (!framebuffer.known_)
         framebuffer.known_ = pipelines.make_known(planes, pixels);
-    else
-        pipelines.keep_small(*framebuffer.known_);
     const double built_ms = pipelines.build_ms();
     PipelineCounts counts;
     try {

@@ -57,7 +57,6 @@ TEST_CASE("a compiled scene: everything is where the records say") {
         if (is_hole) continue;
         const kernel::StartRecord& start = c.starts[c.solids[i].first_start];
         CHECK(kernel::within(kernel::filter_of(i), start.needed));
-        CHECK(kernel::within(kernel::filter_of(i), start.solids));
         CHECK(std::count(c.trees.begin() + start.first_word, c.trees.begin() + start.end_word, OP_LEAF << TREE_SHIFT | i) == 1);
         const auto& nodes = c.flat_trees[start.region].nodes;
         CHECK(std::any_of(nodes.begin(), nodes.end(),

@@ -20,7 +20,7 @@ using namespace csgrt;
     RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     FIELD(RegionRecord, material) RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
-    FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
+    FIELD(StartRecord, needed) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
     FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
     FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) FIELD(MaterialRecord, glow) RECORD(LightRecord) \
     FIELD(LightRecord, x) FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, w) FIELD(LightRecord, bx) FIELD(LightRecord, by) \
@@ -31,7 +31,8 @@ using namespace csgrt;
     FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
-    FIELD(Frame, window) FIELD(Frame, lines) FIELD(Frame, rank_ends) RECORD(Window) FIELD(Window, left) FIELD(Window, top) FIELD(Window, right) FIELD(Window, bottom) \
+    FIELD(Frame, window) FIELD(Frame, lines) FIELD(Frame, rank_ends) \
+    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(Window) FIELD(Window, left) FIELD(Window, top) FIELD(Window, right) FIELD(Window, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
     FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) \

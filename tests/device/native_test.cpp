@@ -72,7 +72,7 @@ TEST_CASE("the native device's sums are those of one entry after the other", "[d
 TEST_CASE("the native device has the kernels of the default method and says so of others", "[device]") {
     if (!have_native()) return;
     Device device("native");
-    for (const char* other : {"CSGRT_AHEAD", "CSGRT_CONTRACT", "CSGRT_EYE_RELATIVE"}) {
+    for (const char* other : {"CSGRT_CONTRACT", "CSGRT_EYE_RELATIVE"}) {
         INFO(other);
         CHECK_THROWS_WITH(Program(device, "", {"CSGRT_QUARTIC=0", "CSGRT_PACKETS", other}),
                           ContainsSubstring("the kernels that were compiled with csgrt, no others"));

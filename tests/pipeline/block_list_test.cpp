@@ -49,11 +49,11 @@ TEST_CASE("a tile's blocks are listed once each, those that cost most first, the
             const std::uint32_t block = (entries[i] & ((1u << PART_SHIFT) - 1)) - 70, part = entries[i] >> PART_SHIFT;
             REQUIRE(block < blocks);
             const int cost = costs[block];
-            const unsigned quarters = part == 0 ? 15 : part < 4 ? 3u << 2 * (part - 2) : 1u << (part - 4);
+            const unsigned quarters = part == 0 ? 15 : 1u << (part - PARTS);
             CHECK((listed[block] & quarters) == 0);
             listed[block] |= quarters;
             any_parts |= part > 0;
-            CHECK((part == 0 || (cost >= 192 ? part >= 4 && part < 8 : cost >= 128 && (part == 2 || part == 3))));
+            CHECK((part == 0 || (cost >= 128 && part >= PARTS && part < 2 * PARTS)));
             ordered &= cost > 0 && (cost <= before || (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
             before = cost;
         }

@@ -41,7 +41,6 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
         std::vector<std::string> exact = {"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl",     "2_store_segments.cl",
                                           "3_weave.cl",       "4_evaluate.cl",   "5_shade.cl"};
         require_own(exact);
-        require_own({"0_cull_together.cl"});
         require_own({"picture_blocks.cl"});
         defines.push_back("CSGRT_PRIVATE_ENDS");
         require_own({"0_cull_blocks.cl", "first_hits_ray.h", "first_hits.cl"});

@@ -39,8 +39,8 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     scene.background = {0.2, 0, 0.4};
     const bool every_partition = GENERATE(false, true);
     const std::uint64_t room = GENERATE(std::uint64_t{0}, std::uint64_t{800'000}, std::uint64_t{5'000});  // beside the scene's
-    const std::size_t known_planes = GENERATE(std::size_t{0}, std::size_t{3}, std::size_t{99});  // of the picture's, to the device
-    INFO("every partition: " << every_partition << ", room " << room << ", known: " << known_planes);
+    const bool is_known = GENERATE(false, true);  // the picture's memory, to the device
+    INFO("every partition: " << every_partition << ", room " << room << ", known: " << is_known);
     const Settings settings = test::on_compiling_device();
     Renderer renderer(scene, {}, settings);
     const CompiledScene compiled = compile(scene, {});
@@ -67,7 +67,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
         std::vector<ChannelPlane> planes;
         if (pixels.empty()) {
             pixels = Channels(77 * 61, std::vector<float>(image.channels.size(), -1));
-            known.emplace(pixels[0].data(), pixels[0].size());
+            known.emplace(pixels[0].data(), pixels.size() * pixels[0].size() * sizeof(float));
             drawn.assign(10 * 8, 1);
             background.assign(image.channels.size(), 0);
             background[0] = 0.2f;
@@ -75,18 +75,10 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
             background[4] = std::numeric_limits<float>::infinity();
         }
         for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), background[p]});
-        if (known_planes > 0 && azimuth == 80) {  // what there is stays there
-            const std::size_t count = std::min(known_planes, planes.size());
-            known->make_known(std::vector<KnownPicture::Wanted>{{&device, count}});
-            REQUIRE(known->planes_known_to(device) == count);
-            REQUIRE(known->planes_known_to(first) == 0);
-            REQUIRE(known->piece_ends().size() == 1);
-        } else if (known_planes > 0 && azimuth == 200) {
-            const std::size_t fewer = known->planes_known_to(device) - 1;
-            known->make_known(std::vector<KnownPicture::Wanted>{{&first, 2}, {&device, fewer}});
-            REQUIRE(known->planes_known_to(device) == fewer);
-            REQUIRE(known->planes_known_to(first) == 2);
-            REQUIRE(known->piece_ends().size() == (fewer == 2 ? 1 : 2));
+        if (is_known && azimuth == 80) {  // what there is stays there
+            known->make_known(device);
+            REQUIRE(known->is_known_to(device));
+            REQUIRE_FALSE(known->is_known_to(first));
         }
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
@@ -332,13 +324,13 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     prepared.frame.ray_count = rays;
     prepared.frame.lines = prepared.frame.window.bottom - prepared.frame.window.top;
     Device device(lined.settings.device);
-    FirstHits first_hits(device, lined.compiled, lined.settings, true);
+    FirstHits first_hits(device, lined.compiled, lined.settings);
     const SceneBuffers scene(device, lined.compiled, lined.kernels->tables());
     TileBuffers tile(device);
     BlockList list(device);
     list.build();
     tile.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
-    for (const Event& event : first_hits.cull().launch(scene, tile, prepared.frame)) wait_for(event);
+    wait_for(first_hits.cull().launch(scene, tile, prepared.frame));
     for (const Event& event : list.list({0, rays}, tile, BlockList::most_in_parts(device))) wait_for(event);
     const auto entries = tile.rays.read<std::uint32_t>(tile.tally.read<kernel::TileTally>(1).front().entries);
     return static_cast<std::size_t>(std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));

@@ -1,14 +1,17 @@
-// What blocks of a picture may see: found by one work-item a block, as on processors, and by several, as on GPUs.
+// What blocks of a picture may see: the device against the same kernel compiled for the host.
 #include "device/compiling_device.hpp"
 #include "pipeline/cull.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include <csgrt/renderer.hpp>
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
+#include "pipeline/host_kernels.hpp"
 #include "reference/reference.hpp"
 #include "stress/build.hpp"
 
@@ -21,45 +24,52 @@ struct Culled {
     std::vector<std::vector<kernel::BlockNode>> lists;
 };
 
-Culled cull(const CompiledScene& compiled, const PreparedFrame& prepared, bool together) {
+Culled lists_of(std::vector<unsigned char> costs, std::span<const kernel::BlockNode> nodes) {
+    Culled culled{std::move(costs), {}};
+    for (std::size_t block = 0; block < culled.costs.size(); ++block) {
+        const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(block * LISTED_NODES);
+        const auto end = std::find_if(begin, begin + LISTED_NODES, [](const kernel::BlockNode& e) { return e.node == NONE; });
+        culled.lists.emplace_back(begin, end);
+    }
+    return culled;
+}
+
+Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame) {
     const Settings settings = test::on_compiling_device();
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
     Device device(settings.device);
     const SceneBuffers scene(device, compiled, kernels->tables());
-    const Program program(device, assemble_program({Cull::file(together)}), defines_of(device, compiled, settings));
-    Cull kernel_0(device, program, together);
+    const Program program(device, assemble_program({Cull::file}), defines_of(device, compiled, settings));
+    Cull kernel_0(device, program);
     TileBuffers tile(device);
-    kernel::Frame frame = prepared.frame;
-    frame.ray_count = static_cast<std::uint32_t>(prepared.rays);
-    frame.lines = together ? frame.window.bottom - frame.window.top : 0;
     tile.frame = Buffer(device, "frame", kernels->frame(frame));
-    for (const Event& event : kernel_0.launch(scene, tile, frame)) wait_for(event);
+    wait_for(kernel_0.launch(scene, tile, frame));
     const std::uint32_t blocks = frame.ray_count / block_rays;
-    Culled culled{tile.costs.read<unsigned char>(blocks), {}};
-    const auto nodes = tile.lists.read<kernel::BlockNode>(blocks * LISTED_NODES);
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-        const auto begin = nodes.begin() + block * LISTED_NODES;
-        const auto end = std::find_if(begin, begin + LISTED_NODES, [](const kernel::BlockNode& e) { return e.node == NONE; });
-        culled.lists.emplace_back(begin, end);
-    }
-    if (together) {
-        const auto tally = tile.tally.read<std::uint8_t>(Tile{0, frame.ray_count}.tally_bytes());
-        CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::TileTally) + blocks, [](std::uint8_t byte) { return byte == 0; }));
-    }
-    return culled;
+    const auto tally = tile.tally.read<std::uint8_t>(Tile{0, frame.ray_count}.tally_bytes());
+    CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::TileTally) + blocks, [](std::uint8_t byte) { return byte == 0; }));
+    return lists_of(tile.costs.read<unsigned char>(blocks), tile.lists.read<kernel::BlockNode>(blocks * LISTED_NODES));
+}
+
+Culled cull_on_host(const CompiledScene& compiled, kernel::Frame frame) {
+    frame.lines = 0;  // no tally to clear
+    test::HostBlocks blocks = test::cull(compiled, frame);
+    return lists_of(std::move(blocks.costs), blocks.lists);
 }
 
 /// The most nodes of a block.
 std::size_t require_same(const CompiledScene& compiled, const View& view) {
     const PreparedFrame prepared = prepare_frame(compiled, view);
-    const Culled alone = cull(compiled, prepared, false), together = cull(compiled, prepared, true);
-    REQUIRE(alone.lists.size() == together.lists.size());
-    CHECK(alone.costs == together.costs);
+    kernel::Frame frame = prepared.frame;
+    frame.ray_count = static_cast<std::uint32_t>(prepared.rays);
+    frame.lines = frame.window.bottom - frame.window.top;
+    const Culled on_host = cull_on_host(compiled, frame), on_device = cull_on_device(compiled, frame);
+    REQUIRE(on_host.lists.size() == on_device.lists.size());
+    CHECK(on_host.costs == on_device.costs);
     std::size_t differing = 0, most = 0;
-    for (std::size_t block = 0; block < alone.lists.size(); ++block) {
+    for (std::size_t block = 0; block < on_host.lists.size(); ++block) {
         const auto same = [](const kernel::BlockNode& a, const kernel::BlockNode& b) { return a.node == b.node && a.entry == b.entry; };
-        differing += !std::ranges::equal(alone.lists[block], together.lists[block], same);
-        most = std::max(most, alone.lists[block].size());
+        differing += !std::ranges::equal(on_host.lists[block], on_device.lists[block], same);
+        most = std::max(most, on_host.lists[block].size());
     }
     CHECK(differing == 0);
     return most;
@@ -67,7 +77,7 @@ std::size_t require_same(const CompiledScene& compiled, const View& view) {
 
 }  // namespace
 
-TEST_CASE("blocks see the same, whether one work-item looks or several") {
+TEST_CASE("blocks see the same on a device and on the host") {
     for (const std::uint32_t parts : {1u, 20u, 3000u}) {
         INFO(parts << " parts");
         const CompiledScene compiled = compile(bench::scene_of_parts(parts), {});

@@ -23,7 +23,6 @@ using std::size_t;
 #define __kernel [[maybe_unused]] static inline
 #define __global
 #define CSGRT_LARGE_TERMS
-#define CSGRT_AHEAD
 // NOLINTBEGIN
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -45,7 +44,6 @@ inline u32 atomic_inc(u32* place) { return (*place)++; }
 #undef __kernel
 #undef __global
 #undef CSGRT_LARGE_TERMS
-#undef CSGRT_AHEAD
 
 }  // namespace csgrt::kernel
 
@@ -58,7 +56,6 @@ struct HostRun {
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
     std::vector<std::uint32_t> bits;
-    std::vector<std::uint32_t> firsts;
     std::vector<kernel::RayTally> tallies;
     std::vector<float> picture;  ///< the frame's channels, plane by plane
 };
@@ -99,7 +96,7 @@ inline HostBlocks cull(const CompiledScene& scene, const kernel::Frame& frame) {
     blocks.costs.resize(frame.ray_count / (BLOCK * BLOCK));
     blocks.lists.resize(blocks.costs.size() * LISTED_NODES);
     for (global_id = 0; global_id < blocks.costs.size(); ++global_id)
-        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr, 1, 0);
+        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr);
     return blocks;
 }
 
@@ -115,9 +112,10 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     const RayRecord* listed = rays.empty() ? reinterpret_cast<const RayRecord*>(numbers.data()) : rays.data();
     const std::size_t count = frame.ray_count;
     HostRun run;
-    const auto each = [&](const auto& work) {
-        for (global_id = 0; global_id < count; ++global_id) work();
+    const auto each_of = [](std::size_t items, const auto& work) {
+        for (global_id = 0; global_id < items; ++global_id) work();
     };
+    const auto each = [&](const auto& work) { each_of(count, work); };
     const auto scan = [](std::vector<RayCount>& counts) {
         RayCount sum{};
         for (RayCount& c : counts) {
@@ -131,50 +129,43 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     const HostBlocks blocks = frame.listed ? HostBlocks{} : cull(scene, frame);
     const BlockNode* lists = frame.listed ? nullptr : blocks.lists.data();
     std::vector<RayCount> places(count + 1);
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr, {}); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
-    const RayCount most{static_cast<u32>(candidates.size()), 0};
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), candidates.data(), most); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), candidates.data()); });
     std::vector<End> found(2 * candidates.size());
-    // A kernel whose items may take several candidates or ends: here one takes all.
-    const auto at_once = [](const auto& work) {
-        global_id = 0;
-        work();
-    };
-    at_once([&] {
+    each_of(candidates.size(), [&] {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(), scene.words.data(),
-                   scene.inner_nodes.data(), listed, places.data(), most, candidates.data(), found.data(), 0);
+                   scene.inner_nodes.data(), listed, places.data(), candidates.data(), found.data());
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
-    each([&] { sum_hits(&frame, places.data(), most, candidates.data(), run.offsets.data()); });
+    each([&] { sum_hits(&frame, places.data(), candidates.data(), run.offsets.data()); });
     const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
     run.bits.resize(sum.words);
-    run.firsts.resize(count);
     run.tallies.resize(count);
     std::vector<float> values(13 * count);
-    at_once([&] {
+    each_of(candidates.size(), [&] {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), listed, places.data(), most, candidates.data(), found.data(),
-                       run.offsets.data(), sum, run.ends.data(), run.bits.data());
+                       scene.words.data(), scene.inner_nodes.data(), listed, places.data(), candidates.data(), found.data(),
+                       run.offsets.data(), run.ends.data(), run.bits.data());
     });
-    at_once([&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), sum, run.nodes.data()); });
+    each_of(run.ends.size(), [&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data()); });
     each([&] {
-        kernel::weave(&frame, listed, run.offsets.data(), sum, run.ends.data(), run.nodes.data(), run.bits.data(),
-                      run.firsts.data(), run.tallies.data());
+        kernel::weave(&frame, listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
+                      run.tallies.data());
     });
-    at_once([&] {
+    each_of(run.ends.size(), [&] {
         evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
-                 run.ends.data(), run.bits.data(), sum, run.nodes.data());
+                 run.ends.data(), run.bits.data(), run.nodes.data());
     });
     if (!frame.listed) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                   scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), sum, run.ends.data(), run.nodes.data(),
-                  run.firsts.data(), run.tallies.data(), listed, nullptr, values.data());
+                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(),
+                  run.tallies.data(), listed, nullptr, values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
     }
@@ -199,7 +190,7 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
                    scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.lists.data(),
-                   reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data(), 0);
+                   reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return tally.overflows;
 }

@@ -24,17 +24,18 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     frame.ray_count = frame.listed = 1;
     const kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
     frame.tolerance = tolerance;
+    frame.segment_capacity = frame.word_capacity = COUNT_MAX;
     const std::vector<kernel::RayCount> offsets = {{0, 0}, {segments, kernel::partitions_of(segments) * words}};
     std::vector<kernel::PartitionNode> nodes(ends.size());
     std::vector<std::uint32_t> bits(offsets[1].words, 0xdeadbeefu);  // memory comes as it was left
     kernel::RayTally tally{};
-    std::uint32_t first = 0;
     const std::vector<std::uint32_t> rays(ends.size());
+    for (kernel::global_id = 0; kernel::global_id < ends.size(); ++kernel::global_id)
+        kernel::order_ends(&frame, offsets.data(), ends.data(), rays.data(), nodes.data());
     kernel::global_id = 0;
-    kernel::order_ends(&frame, offsets.data(), ends.data(), rays.data(), offsets[1], nodes.data());
-    kernel::weave(&frame, &ray, offsets.data(), offsets[1], ends.data(), nodes.data(), bits.data(), &first, &tally);
+    kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &tally);
     Woven woven;
-    for (std::uint32_t n = first; n != NONE; n = nodes[n].next) {
+    for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
         WovenPartition p;
         p.in_end = nodes[n].in_end;
         p.out_end = nodes[n].out_end;

@@ -146,6 +146,9 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.window = {f.window.left, f.window.top, f.window.right, f.window.bottom};
     frame.lines = f.lines;
     std::copy(std::begin(f.rank_ends), std::end(f.rank_ends), std::begin(frame.rank_ends));
+    frame.candidate_capacity = f.candidate_capacity;
+    frame.segment_capacity = f.segment_capacity;
+    frame.word_capacity = f.word_capacity;
     return frame;
 }
 decltype(auto) convert_frame(const kernel::Frame& f) { return convert_frame(f, static_cast<const k::Frame*>(nullptr)); }
