@@ -23,9 +23,10 @@ struct Option {
     std::string help;
     std::string expected;                          ///< "'x' is not ..."
     std::vector<std::string_view> words;           ///< values that it knows by name, to suggest the nearest
-    std::function<bool(const std::string&)> take;  ///< false: the value is not what was expected
+    std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not what was expected
     bool repeatable = false, required = false, given = false;
-    std::string needs, excludes;  ///< names of other options
+    bool for_comparison = false;  ///< the help page of methods has it, not that of the command
+    std::string excludes;         ///< name of another option
 };
 
 /// The options of one command. Targets must outlive it.
@@ -102,7 +103,7 @@ private:
     };
 
     Option& add(std::string name, std::string type, std::string help, std::string expected,
-                std::function<bool(const std::string&)> take);
+                std::function<bool(const std::string&)> accept);
     Option* find(const std::string& word);
     void unknown(const std::string& name);
     void parse_option(const std::vector<std::string>& words, std::size_t& position);
