@@ -26,8 +26,10 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 }
 
 void define_strict(Options& options, bool& strict) {
-    options.flag("--strict", "refuse a .g or .asc in which anything is missing or broken; if not given, that is left out, with a warning",
-                 strict);
+    options.flag(
+        "--strict",
+        "refuse a .g or .asc in which anything is missing or broken; if not given, that is left out, with a warning",
+        strict);
 }
 
 void define_scene(Options& options, SceneArguments& arguments) {
@@ -37,24 +39,26 @@ void define_scene(Options& options, SceneArguments& arguments) {
     options.flag("--air", "keep air regions", arguments.settings.air);
     define_strict(options, arguments.strict);
     options.flag("--skip-unsupported",
-                 "leave out solids of types that csgrt does not know, with a warning; always done for a .g or .asc unless --strict",
+                 "leave out solids of types that csgrt does not know, with a warning; always done for a .g or .asc "
+                 "unless --strict",
                  arguments.settings.skip_unsupported);
 }
 
 void define_settings(Options& options, Settings& settings) {
-    auto& device =
-        options.text("--device", "NAME|cpu|gpu|N|gpus",
-                     "device to use: part of its name, its type, or its number in 'csgrt devices'; several with commas, or "
-                     "all 'gpus', share the work; a GPU if there is one, else this processor, if not given",
-                     settings.device);
+    auto& device = options.text(
+        "--device", "NAME|cpu|gpu|N|gpus",
+        "device to use: part of its name, its type, or its number in 'csgrt devices'; several with commas, or "
+        "all 'gpus', share the work; a GPU if there is one, else this processor, if not given",
+        settings.device);
     device.excludes = "--reference";
     options.flag("--reference", "compute with the CPU reference instead of a device", settings.reference);
     options.count("--threads", "threads of the native device and of the reference; all cores if not given",
                   settings.threads, 1, 4096);
-    options.value("--max-memory", "SIZE",
-                  "device memory to use, in bytes, or such as 512M or 2G (powers of 1024); a frame that needs more is drawn "
-                  "in batches",
-                  settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
+    options.value(
+        "--max-memory", "SIZE",
+        "device memory to use, in bytes, or such as 512M or 2G (powers of 1024); a frame that needs more is drawn "
+        "in batches",
+        settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
     auto parse_tolerance = [&settings](const std::string& text) {
         auto rule = find_name(tolerance_names, text);
         auto length = parse_number(text);
@@ -64,13 +68,13 @@ void define_settings(Options& options, Settings& settings) {
         }
         return rule;
     };
-    auto& tolerance =
-        options.value("--tolerance", "MM|surfaces|relative|none",
-                      "which ends of segments along a ray are one; MM: those closer than that; surfaces: those on one "
-                      "surface; relative: those closer than 1e-9 of the scene's size (1e-6 in single precision); none: only "
-                      "equal ones; the scene's, or surfaces, if not given",
-                      settings.tolerance_rule, parse_tolerance,
-                      "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
+    auto& tolerance = options.value(
+        "--tolerance", "MM|surfaces|relative|none",
+        "which ends of segments along a ray are one; MM: those closer than that; surfaces: those on one "
+        "surface; relative: those closer than 1e-9 of the scene's size (1e-6 in single precision); none: only "
+        "equal ones; the scene's, or surfaces, if not given",
+        settings.tolerance_rule, parse_tolerance,
+        "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
     for (const auto& entry : tolerance_names) tolerance.words.push_back(entry.first);
     auto& precision =
         options.choice("--precision", "numbers of the geometry; single: relative to the eye; double if not given",
@@ -99,14 +103,15 @@ void define(Options& options, RenderArguments& arguments) {
         "picture to write, FILE.exr (every channel) or FILE.png; - is standard output; may be given several times",
         arguments.outputs);
     output.letter = 'o';
-    options.choice("--format", "format on standard output, a device or a pipe; exr if not given", arguments.format, formats);
+    options.choice("--format", "format on standard output, a device or a pipe; exr if not given", arguments.format,
+                   formats);
     auto parse_sides = [&arguments](const std::string& text) {
         auto size = parse_size(text);
         if (size) arguments.height = size->second;
         return size ? std::optional(size->first) : std::nullopt;
     };
-    options.value("--size", "N|WxH", "pixels, one side or width and height; 1024 if not given", arguments.width, parse_sides,
-                  "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
+    options.value("--size", "N|WxH", "pixels, one side or width and height; 1024 if not given", arguments.width,
+                  parse_sides, "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
     options.number("--azimuth", "DEG", "direction of the eye, from +x about z; the scene's, or 35, if not given",
                    arguments.azimuth, -unlimited, unlimited, "an angle in degrees");
     options.number("--elevation", "DEG", "direction of the eye, upward; the scene's, or 25, if not given",
@@ -117,31 +122,36 @@ void define(Options& options, RenderArguments& arguments) {
         options.value(name, "X,Y,Z", help, target, parse_vector,
                       std::string(what) + ": three numbers with commas between them, such as 10,0,-5");
     };
-    vector("--center", "middle of the picture, in millimetres; the scene's, or the middle of the model's box, if not given",
+    vector("--center",
+           "middle of the picture, in millimetres; the scene's, or the middle of the model's box, if not given",
            arguments.center, "a point");
     auto parse_length = [](const std::string& text) {
         auto number = parse_number(text);
         return number && *number > 0 ? number : std::nullopt;
     };
-    options.value("--view-size", "MM",
-                  "height of the view at the middle of the picture; the scene's, or the diagonal of the model's box, if not "
-                  "given. It zooms a parallel view, which shows everything before the viewing plane, lit as in the whole picture",
-                  arguments.view_size, parse_length, "a length in millimetres, greater than 0");
-    vector("--eye",
-           "position of the eye, instead of azimuth and elevation; in a perspective it also gives the size of the view; a "
-           "parallel view has only the direction from it to the middle of the picture",
-           arguments.eye, "a point");
-    vector("--look-at", "point that the eye looks at, the middle of the picture: another name of --center", arguments.look_at,
-           "a point");
+    options.value(
+        "--view-size", "MM",
+        "height of the view at the middle of the picture; the scene's, or the diagonal of the model's box, if not "
+        "given. It zooms a parallel view, which shows everything before the viewing plane, lit as in the whole picture",
+        arguments.view_size, parse_length, "a length in millimetres, greater than 0");
+    vector(
+        "--eye",
+        "position of the eye, instead of azimuth and elevation; in a perspective it also gives the size of the view; a "
+        "parallel view has only the direction from it to the middle of the picture",
+        arguments.eye, "a point");
+    vector("--look-at", "point that the eye looks at, the middle of the picture: another name of --center",
+           arguments.look_at, "a point");
     vector("--up", "direction that points upward in the picture; +z if not given", arguments.up, "a direction");
     options.text("--view", "FILE",
                  "view as MGED's saveview writes it: viewsize, orientation and eye_pt; databases hold no views",
                  arguments.view);
-    options.flag("--first-hit", "draw first hits only, several times faster: without the channels depth, partitions and overlap",
+    options.flag("--first-hit",
+                 "draw first hits only, several times faster: without the channels depth, partitions and overlap",
                  arguments.first_hit);
     define_either(options, arguments.settings);
     options.text("--stats", "FILE",
-                 "write the figures of the frame as JSON, times in milliseconds; - is standard output", arguments.stats);
+                 "write the figures of the frame as JSON, times in milliseconds; - is standard output",
+                 arguments.stats);
     options.count("--repeat",
                   "render N frames; the figures are medians without the first frame (add --wait-for-device for a GPU)",
                   arguments.repeat, 1, 1'000'000);
@@ -149,9 +159,9 @@ void define(Options& options, RenderArguments& arguments) {
 
 void define(Options& options, ShootArguments& arguments) {
     define_scene(options, arguments);
-    auto& rays =
-        options.text("--rays", "FILE", "file of rays, one a line: ox oy oz dx dy dz (# begins a comment); - is standard input",
-                     arguments.rays);
+    auto& rays = options.text("--rays", "FILE",
+                              "file of rays, one a line: ox oy oz dx dy dz (# begins a comment); - is standard input",
+                              arguments.rays);
     rays.required = true;
     auto& output = options.text("--output", "FILE", "where to write the partitions; standard output if not given",
                                 arguments.output);
@@ -163,8 +173,8 @@ void define(Options& options, VerifyArguments& arguments) {
     define_scene(options, arguments);
     auto parse_rays = [&arguments](const std::string& text) {
         auto number = parse_count(text);
-        if (auto value = parse_number(text); !number && value && *value >= 0 && *value <= most_sampled &&
-                                             *value == std::floor(*value))
+        if (auto value = parse_number(text);
+            !number && value && *value >= 0 && *value <= most_sampled && *value == std::floor(*value))
             number = static_cast<std::uint64_t>(*value);  // 1e6
         if (!number) return text.empty() ? std::nullopt : std::optional(text);
         arguments.count = static_cast<std::size_t>(*number);
@@ -244,8 +254,8 @@ constexpr Entry entry(const char* name, const char* usage, const char* purpose, 
 }
 
 constexpr Entry entries[] = {
-    entry<RenderArguments>("render", "csgrt [render] SCENE [OBJECT...] -o FILE", "render a scene, as FILE.exr or FILE.png",
-                           render_notes),
+    entry<RenderArguments>("render", "csgrt [render] SCENE [OBJECT...] -o FILE",
+                           "render a scene, as FILE.exr or FILE.png", render_notes),
     entry<ShootArguments>("shoot", "csgrt shoot SCENE [OBJECT...] --rays FILE", "list the partitions along given rays",
                           shoot_notes),
     entry<VerifyArguments>("verify", "csgrt verify SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones",

@@ -20,8 +20,10 @@ std::string variable(const char* name) {
 /// PoCL's own order: POCL_CACHE_DIR, XDG_CACHE_HOME, HOME.
 fs::path cache_folder() {
     if (const std::string folder = variable("POCL_CACHE_DIR"); !folder.empty()) return folder;
-    if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty()) return fs::path(folder) / "pocl" / "kcache";
-    if (const std::string folder = variable("HOME"); !folder.empty()) return fs::path(folder) / ".cache" / "pocl" / "kcache";
+    if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty())
+        return fs::path(folder) / "pocl" / "kcache";
+    if (const std::string folder = variable("HOME"); !folder.empty())
+        return fs::path(folder) / ".cache" / "pocl" / "kcache";
     return {};
 }
 

@@ -1,6 +1,6 @@
-// The command's write_image and read_image: they load csgrt::image when they are first called. OpenImageIO brings some 260
-// libraries with it, and a command that writes no picture should not wait a fifth of a second for them. One that will write
-// a picture loads them meanwhile.
+// The command's write_image and read_image: they load csgrt::image when they are first called. OpenImageIO brings some
+// 260 libraries with it, and a command that writes no picture should not wait a fifth of a second for them. One that
+// will write a picture loads them meanwhile.
 #include "late_image.hpp"
 
 #include <dlfcn.h>
@@ -24,7 +24,8 @@ std::jthread loading;
 std::string library_path() {
     Dl_info core;
     std::filesystem::path path;
-    if (dladdr(reinterpret_cast<const void*>(&version), &core)) path = std::filesystem::path(core.dli_fname).parent_path();
+    if (dladdr(reinterpret_cast<const void*>(&version), &core))
+        path = std::filesystem::path(core.dli_fname).parent_path();
     return path / CSGRT_IMAGE_LIBRARY;
 }
 
@@ -57,8 +58,8 @@ namespace cli {
 ImageLoading::ImageLoading(const Command& command) {
     const auto* render = std::get_if<RenderArguments>(&command);
     if (!render || render->outputs.empty()) return;
-    // A driver that is named may need other releases of libraries than the pictures' (Intel's needs a newer TBB), and the first
-    // that is loaded stays. A native device needs no driver.
+    // A driver that is named may need other releases of libraries than the pictures' (Intel's needs a newer TBB), and
+    // the first that is loaded stays. A native device needs no driver.
     const std::string& device = render->settings.device;
     if (!device.empty() && !device.starts_with("native")) return;
     try {

@@ -5,9 +5,10 @@
 
 namespace csgrt::cli {
 
-/// From its making on, and if `command` writes pictures and names no OpenCL device, a thread loads the libraries of csgrt::image. A failure shows where
-/// the first picture is written. The end of its life stops the thread and waits for the library at hand, mostly a
-/// millisecond, 40 at most: exit() must not run while constructors of libraries do. One at a time; not to be copied.
+/// From its making on, and if `command` writes pictures and names no OpenCL device, a thread loads the libraries of
+/// csgrt::image. A failure shows where the first picture is written. The end of its life stops the thread and waits for
+/// the library at hand, mostly a millisecond, 40 at most: exit() must not run while constructors of libraries do. One
+/// at a time; not to be copied.
 class ImageLoading {
 public:
     explicit ImageLoading(const Command& command);

@@ -130,7 +130,8 @@ private:
                 load_needed_by(path);
                 break;
             }
-        // NOW: a library that uses what it does not name as a dependency fails here, and is loaded with the others later.
+        // NOW: a library that uses what it does not name as a dependency fails here, and is loaded with the others
+        // later.
         if (!stop_.stop_requested()) dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
     }
 
@@ -141,7 +142,9 @@ private:
 
 }  // namespace
 
-void load_leaves_first(const std::string& file, const std::stop_token& token) { LeavesFirst(token).load_needed_by(file); }
+void load_leaves_first(const std::string& file, const std::stop_token& token) {
+    LeavesFirst(token).load_needed_by(file);
+}
 
 }  // namespace csgrt::cli
 

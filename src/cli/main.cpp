@@ -46,8 +46,8 @@ int fail(const Error& error) {
 
 constexpr const char* more_memory = "not enough memory: try a smaller --size, fewer objects, or --max-memory";
 
-/// Gives each of the three standard files that is closed one that cannot be used either: else the next file that is opened
-/// would have its number, and be read or written in its place.
+/// Gives each of the three standard files that is closed one that cannot be used either: else the next file that is
+/// opened would have its number, and be read or written in its place.
 void hold_standard_files() {
     for (int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)

@@ -21,8 +21,8 @@ struct Option {
     char letter = 0;
     std::string value;  ///< how help calls its value; empty: a flag, without one
     std::string help;
-    std::string expected;                          ///< "'x' is not ..."
-    std::vector<std::string_view> words;           ///< values that it knows by name, to suggest the nearest
+    std::string expected;                            ///< "'x' is not ..."
+    std::vector<std::string_view> words;             ///< values that it knows by name, to suggest the nearest
     std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not what was expected
     bool repeatable = false, required = false, given = false;
     bool for_comparison = false;  ///< the help page of methods has it, not that of the command

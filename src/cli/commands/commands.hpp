@@ -69,7 +69,8 @@ struct TextArguments {
 using Command = std::variant<RenderArguments, ShootArguments, VerifyArguments, CompareArguments, DevicesArguments,
                              InfoArguments, ConvertArguments, TextArguments>;
 
-// Each returns Status::ok, or Status::differs where it compares or judges; everything else that goes wrong is thrown as Error.
+// Each returns Status::ok, or Status::differs where it compares or judges; everything else that goes wrong is thrown as
+// Error.
 Status run(const RenderArguments& arguments);
 Status run(const ShootArguments& arguments);
 Status run(const VerifyArguments& arguments);
@@ -82,8 +83,8 @@ Status run(const TextArguments& arguments);
 /// The settings of a command with its progress and the user's Ctrl-C tied in. `progress` must outlive the result's use.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Says warnings on standard error, a line each; of very many, the first and how many more. `pictures`: those, too, that tell what
-/// pictures lack.
+/// Says warnings on standard error, a line each; of very many, the first and how many more. `pictures`: those, too,
+/// that tell what pictures lack.
 void report(std::vector<Warning> warnings, bool pictures = true);
 
 /// load_scene, as one that can be interrupted.

@@ -15,7 +15,8 @@ Status run(const ConvertArguments& arguments) {
     check_outputs({{"OUT", arguments.output}}, {{"IN", arguments.input}});
     Scene scene = load_with_progress(arguments.input, arguments.strict);
     std::vector<Warning> warnings = scene.warnings;
-    if (scene.lenient) validate(scene, {}, false, &warnings);  // for what is left out: findings are the reader's to show
+    if (scene.lenient)
+        validate(scene, {}, false, &warnings);  // for what is left out: findings are the reader's to show
     report(warnings);
     save_scene(scene, arguments.output);
     return Status::ok;

@@ -65,7 +65,8 @@ Status run(const InfoArguments& arguments) {
     } catch (const Error& error) {
         // What is left out is told even if nothing remains; an object that is not there has been named by mistake.
         std::vector<Warning> warnings = scene.warnings;
-        if (error.status() != Status::scene || !scene.lenient || !validate(scene, arguments.objects, false, &warnings).empty())
+        if (error.status() != Status::scene || !scene.lenient ||
+            !validate(scene, arguments.objects, false, &warnings).empty())
             throw;
         text = "\n" + row("compiled", "no: " + error.diagnostics().front().message);
         for (const Warning& warning : warnings) text += row("warning", format(warning));

@@ -45,11 +45,13 @@ bool has_no_format(const std::string& path) { return path == "-" || (!names_form
 
 /// Options that say the same thing twice, or two things.
 void check_view(const RenderArguments& arguments) {
-    const std::pair<const char*, bool> given[] = {
-        {"--azimuth", arguments.azimuth.has_value()},     {"--elevation", arguments.elevation.has_value()},
-        {"--center", arguments.center.has_value()},       {"--look-at", arguments.look_at.has_value()},
-        {"--view-size", arguments.view_size.has_value()}, {"--eye", arguments.eye.has_value()},
-        {"--up", arguments.up.has_value()}};
+    const std::pair<const char*, bool> given[] = {{"--azimuth", arguments.azimuth.has_value()},
+                                                  {"--elevation", arguments.elevation.has_value()},
+                                                  {"--center", arguments.center.has_value()},
+                                                  {"--look-at", arguments.look_at.has_value()},
+                                                  {"--view-size", arguments.view_size.has_value()},
+                                                  {"--eye", arguments.eye.has_value()},
+                                                  {"--up", arguments.up.has_value()}};
     for (const auto& [option, is_given] : given)
         if (is_given && !arguments.view.empty())
             refuse(option, "cannot be combined with --view", "the saved view says where the eye is, and what it sees");
@@ -116,8 +118,7 @@ Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
 
 #ifdef CSGRT_HAVE_IMAGE
 /// The command that makes this picture: only what decides its pixels, so that it is the same wherever it was made.
-std::string canonical_command(const RenderArguments& arguments, const Camera& camera,
-                              double tolerance) {
+std::string canonical_command(const RenderArguments& arguments, const Camera& camera, double tolerance) {
     std::string text = "csgrt " + model_text(arguments) + " --size " + std::to_string(arguments.width) + "x" +
                        std::to_string(arguments.height);
     auto option = [&text](const char* name, double value) {

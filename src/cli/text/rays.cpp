@@ -39,7 +39,8 @@ bool RayReader::parse(std::string_view line, Ray& ray) {
         }
         auto number = parse_number(words_[i].text);
         if (!number) {
-            findings_.add(lines_.finding(words_[i].column, std::string(names[i]) + ": " + number_fault(words_[i].text), form));
+            findings_.add(
+                lines_.finding(words_[i].column, std::string(names[i]) + ": " + number_fault(words_[i].text), form));
             return false;
         }
         *numbers[i] = *number;
