@@ -1,4 +1,4 @@
-// Where PoCL keeps compiled kernels. A program's business, not the library's: it changes the environment.
+// The folder of PoCL's kernel cache. The program sets it, not the library, because it changes the environment.
 #pragma once
 
 namespace csgrt::cli {

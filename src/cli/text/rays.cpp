@@ -23,7 +23,7 @@ bool RayReader::next(std::vector<Ray>& rays, std::size_t limit) {
     return !rays.empty();
 }
 
-/// False for a line without a ray: blank, a comment, or wrong; what is wrong becomes a finding.
+/// False for a line without a ray: a blank line, a comment, or a wrong line, which becomes a finding.
 bool RayReader::parse(std::string_view line, Ray& ray) {
     split(line.substr(0, line.find('#')), words_);
     if (words_.empty()) return false;

@@ -1,4 +1,4 @@
-// A scene in words.
+// Descriptions of a scene.
 #pragma once
 
 #include <map>
@@ -23,7 +23,7 @@ std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*n
 /// "3 (arb8 2, tor 1)", the most frequent first.
 std::string count_text(const std::map<std::string, std::size_t>& by_type);
 
-/// The trees of `objects`, a line a member, `depth` levels below each. Every combination is unfolded once.
+/// The trees of `objects`, one line a member, `depth` levels deep. The members of a combination are listed once.
 std::string tree_text(const Scene& scene, const std::vector<std::string>& objects, int depth);
 
 }  // namespace csgrt::cli
