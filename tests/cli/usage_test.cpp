@@ -53,9 +53,11 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{scene, "--quartic", "ferari", "--stats", "-"}, "did you mean 'ferrari'?"},
         {{scene, "-o", "-", "--format", "epng"}, "did you mean 'png'?"},
         {{scene, "--tolerance", "some", "--stats", "-"}, "--tolerance: 'some' is not a length in millimetres"},
-        {{scene, "--precision", "quad", "--stats", "-"}, "--precision: 'quad' is not one of double|single|single-world"},
+        {{scene, "--precision", "quad", "--stats", "-"},
+         "--precision: 'quad' is not one of double|single|single-world"},
         {{scene, "--contraction", "maybe", "--stats", "-"}, "--contraction: 'maybe' is not one of on|off"},
-        {{scene, "--contraction", "on", "--reference", "--stats", "-"}, "--contraction: cannot be combined with --reference"},
+        {{scene, "--contraction", "on", "--reference", "--stats", "-"},
+         "--contraction: cannot be combined with --reference"},
         {{scene, "--quartic", "cardano", "--stats", "-"}, "--quartic: 'cardano' is not one of bracketed|"},
         {{scene, "--repeat", "0", "--stats", "-"}, "--repeat: '0'"},
         {{scene, "--threads", "0", "--stats", "-"}, "--threads: '0'"},
@@ -129,20 +131,40 @@ TEST_CASE("help lists every option, and every option listed is understood") {
     };
     const Table tables[] = {
         {"render",
-         {"-o, --output FILE", "--format exr|png", "--size N|WxH", "--azimuth DEG", "--elevation DEG",
-          "--perspective DEG", "--center X,Y,Z", "--view-size MM", "--eye X,Y,Z", "--look-at X,Y,Z", "--up X,Y,Z", "--view FILE",
-          "--device NAME|cpu|gpu|N", "--reference", "--stats FILE", "--repeat N",
-          "--max-memory SIZE", "--tolerance MM|surfaces|relative|none", "--precision double|single",
-          "--wait-for-device", "--air", "--strict", "--skip-unsupported", "--threads N", "--first-hit", "-h, --help"}},
+         {"-o, --output FILE",
+          "--format exr|png",
+          "--size N|WxH",
+          "--azimuth DEG",
+          "--elevation DEG",
+          "--perspective DEG",
+          "--center X,Y,Z",
+          "--view-size MM",
+          "--eye X,Y,Z",
+          "--look-at X,Y,Z",
+          "--up X,Y,Z",
+          "--view FILE",
+          "--device NAME|cpu|gpu|N",
+          "--reference",
+          "--stats FILE",
+          "--repeat N",
+          "--max-memory SIZE",
+          "--tolerance MM|surfaces|relative|none",
+          "--precision double|single",
+          "--wait-for-device",
+          "--air",
+          "--strict",
+          "--skip-unsupported",
+          "--threads N",
+          "--first-hit",
+          "-h, --help"}},
         {"shoot",
          {"--rays FILE", "-o, --output FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM|surfaces|relative|none", "--precision double|single",
-          "--wait-for-device", "--air", "--strict", "--skip-unsupported", "--threads N", "-h, --help"}},
+          "--tolerance MM|surfaces|relative|none", "--precision double|single", "--wait-for-device", "--air",
+          "--strict", "--skip-unsupported", "--threads N", "-h, --help"}},
         {"verify",
          {"--rays N|FILE", "--seed N", "--json FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM|surfaces|relative|none", "--precision double|single",
-          "--air", "--strict", "--skip-unsupported", "--threads N",
-          "-h, --help"}},
+          "--tolerance MM|surfaces|relative|none", "--precision double|single", "--air", "--strict",
+          "--skip-unsupported", "--threads N", "-h, --help"}},
         {"compare", {"--tolerance X", "-h, --help"}},
         {"devices", {"-h, --help"}},
         {"info", {"--air", "--strict", "--skip-unsupported", "--depth N", "-h, --help"}},
@@ -178,7 +200,8 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(all.out.ends_with(page.substr(page.find('\n'))));
     CHECK(run({"-h"}).out == all.out);
     CHECK(run({"help"}).out == all.out);
-    for (const char* command : {"render", "shoot", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
+    for (const char* command :
+         {"render", "shoot", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
         CAPTURE(command);
         CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
     }
@@ -186,7 +209,7 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(contains(refusal({"render", "--stats", "-"}), "SCENE: missing"));
 }
 
-TEST_CASE("methods that are kept for comparison are listed by 'csgrt methods' and not by the commands that take them") {
+TEST_CASE("csgrt methods lists the methods that are kept for comparison; help pages of commands do not") {
     NEEDS_COMMAND();
     const Result methods = run({"methods"});
     CHECK(methods.status == 0);
