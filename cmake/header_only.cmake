@@ -1,10 +1,13 @@
-# find_header_only(NAME HEADER): the interface target csgrt_NAME for a library that is headers alone.
-# Looks in NAME_ROOT, CMAKE_PREFIX_PATH and the system; the headers of others raise no warnings here.
-function(find_header_only name header)
+# find_header_only(NAME HEADER PACKAGE): the interface target csgrt_NAME for a library that is headers alone.
+# Looks in NAME_ROOT, CMAKE_INCLUDE_PATH, CMAKE_PREFIX_PATH and the system; the headers of others raise no warnings here.
+# Package files (find_package(NAME CONFIG)) do not do: a folder with nothing but the headers has none, and those of Debian
+# and Ubuntu name /usr/include, which a cross compiler must not see.
+function(find_header_only name header package)
     find_path(${name}_INCLUDE_DIR ${header} HINTS ${${name}_ROOT} PATH_SUFFIXES include
               DOC "Folder that holds ${header}")
     if(NOT ${name}_INCLUDE_DIR)
-        message(FATAL_ERROR "${header} was not found: install ${name}, or give -D${name}_ROOT=FOLDER")
+        message(FATAL_ERROR
+            "${header} was not found: install ${package} (Debian, Ubuntu), or give -D${name}_ROOT=FOLDER")
     endif()
     set(folder ${${name}_INCLUDE_DIR})
     if(CMAKE_CROSSCOMPILING)  # the host's /usr/include has its C library, too: a link to these headers alone

@@ -20,12 +20,14 @@ std::string variable(const char* name) {
 /// PoCL's own order: POCL_CACHE_DIR, XDG_CACHE_HOME, HOME.
 fs::path cache_folder() {
     if (const std::string folder = variable("POCL_CACHE_DIR"); !folder.empty()) return folder;
-    if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty()) return fs::path(folder) / "pocl" / "kcache";
-    if (const std::string folder = variable("HOME"); !folder.empty()) return fs::path(folder) / ".cache" / "pocl" / "kcache";
+    if (const std::string folder = variable("XDG_CACHE_HOME"); !folder.empty())
+        return fs::path(folder) / "pocl" / "kcache";
+    if (const std::string folder = variable("HOME"); !folder.empty())
+        return fs::path(folder) / ".cache" / "pocl" / "kcache";
     return {};
 }
 
-/// Tried, not asked: permissions do not tell of full or read-only file systems.
+/// Writes a file to find out: permissions do not show full or read-only file systems.
 bool can_write(const fs::path& folder) {
     if (folder.empty()) return false;
     std::error_code error;
@@ -55,7 +57,7 @@ void ensure_cache_folder() {
     std::error_code error;
     const fs::path parent = fs::temp_directory_path(error);
     std::string made = ((error ? fs::path("/tmp") : parent) / "csgrt-pocl-XXXXXX").string();
-    if (!mkdtemp(made.data())) return;  // nowhere to write at all: a GPU's driver may still do
+    if (!mkdtemp(made.data())) return;  // no folder can be written: a GPU's driver may work without one
     temporary_folder() = made;
     setenv("POCL_CACHE_DIR", made.c_str(), 1);
     // Registered before the driver is loaded, so it runs after whatever the driver does at exit.

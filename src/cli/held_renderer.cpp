@@ -11,26 +11,26 @@ namespace {
 
 bool is_busy(const Renderer& renderer) { return !renderer.statistics().awaited_device.empty(); }
 
-/// Empty, or not destroyed: end_process() sees to it.
-std::vector<Renderer> left_busy;
+/// Renderers that were not destroyed. end_process() empties it or exits, so no static destructor destroys them.
+std::vector<Renderer> kept;
 
 }  // namespace
 
 HeldRenderer::~HeldRenderer() {
     if (!is_busy(renderer_)) return;
     try {
-        left_busy.push_back(std::move(renderer_));
-    } catch (const std::bad_alloc&) {  // then it is waited for
+        kept.push_back(std::move(renderer_));
+    } catch (const std::bad_alloc&) {  // no memory: the destructor waits for the driver
     }
 }
 
 int end_process(int status) {
-    while (!left_busy.empty()) {
-        if (is_busy(left_busy.back())) {
+    while (!kept.empty()) {
+        if (is_busy(kept.back())) {
             std::fflush(nullptr);
             std::quick_exit(status);
         }
-        left_busy.pop_back();
+        kept.pop_back();
     }
     return status;
 }

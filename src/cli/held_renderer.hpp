@@ -1,4 +1,4 @@
-// A command's Renderer, which nobody waits for at the end of the process.
+// A command's Renderer, which does not delay the end of the process.
 #pragma once
 
 #include <utility>
@@ -7,8 +7,8 @@
 
 namespace csgrt::cli {
 
-/// Where a driver is compiling kernels yet when this goes, the Renderer is left as it is: nothing can stop the driver,
-/// and nobody wants its kernels any more. Else the Renderer goes, too.
+/// Owns a Renderer. If a driver is still compiling kernels for it, the destructor does not destroy the Renderer: that
+/// would wait for the driver, which nothing can stop, and the kernels are no longer needed.
 class HeldRenderer {
 public:
     explicit HeldRenderer(Renderer renderer) : renderer_(std::move(renderer)) {}
@@ -23,8 +23,8 @@ private:
     Renderer renderer_;
 };
 
-/// The end of main(): returns `status`; where a driver is compiling yet for a Renderer that was left, the process ends
-/// here with it, all that was printed being out, and no destructor runs beside the driver.
+/// The end of main(): returns `status`. If a driver is still compiling for a Renderer that was not destroyed, the
+/// output is flushed and the process exits here with `status`, so that no destructor runs while the driver works.
 int end_process(int status);
 
 }  // namespace csgrt::cli

@@ -1,6 +1,6 @@
-// The command's write_image and read_image: they load csgrt::image when they are first called. OpenImageIO brings some 260
-// libraries with it, and a command that writes no picture should not wait a fifth of a second for them. One that will write
-// a picture loads them meanwhile.
+// The command's write_image and read_image. They load csgrt::image when they are first called: OpenImageIO needs some
+// 260 libraries, which take a fifth of a second to load, and a command that writes no picture should not wait for them.
+// A command that will write a picture loads them on a thread.
 #include "late_image.hpp"
 
 #include <dlfcn.h>
@@ -20,11 +20,12 @@ namespace {
 
 std::jthread loading;
 
-/// Beside the library that is here already: a sanitizer's dlopen knows nothing of this program's search path.
+/// In the folder of libcsgrt, which is loaded already: a sanitizer's dlopen does not use this program's search path.
 std::string library_path() {
     Dl_info core;
     std::filesystem::path path;
-    if (dladdr(reinterpret_cast<const void*>(&version), &core)) path = std::filesystem::path(core.dli_fname).parent_path();
+    if (dladdr(reinterpret_cast<const void*>(&version), &core))
+        path = std::filesystem::path(core.dli_fname).parent_path();
     return path / CSGRT_IMAGE_LIBRARY;
 }
 
@@ -57,18 +58,18 @@ namespace cli {
 ImageLoading::ImageLoading(const Command& command) {
     const auto* render = std::get_if<RenderArguments>(&command);
     if (!render || render->outputs.empty()) return;
-    // A driver that is named may need other releases of libraries than the pictures' (Intel's needs a newer TBB), and the first
-    // that is loaded stays. A native device needs no driver.
+    // The driver of a named device may need other releases of libraries than the pictures do (Intel's needs a newer
+    // TBB), and the release that is loaded first is the one that both get. A native device needs no driver.
     const std::string& device = render->settings.device;
     if (!device.empty() && !device.starts_with("native")) return;
     try {
         loading = std::jthread([](std::stop_token stop) {
             try {
                 load_leaves_first(library_path(), stop);
-            } catch (const std::exception&) {  // no memory: functions() says so, if there is none then either
+            } catch (const std::exception&) {  // no memory: functions() tries again, and reports it
             }
         });
-    } catch (const std::system_error&) {  // no thread to be had: they are loaded when they are needed
+    } catch (const std::system_error&) {  // no thread: functions() loads them
     }
 }
 

@@ -1,13 +1,14 @@
-// The library for pictures, loaded while the scene is loaded and drawn.
+// Loads the library for pictures while the scene is loaded and drawn.
 #pragma once
 
 #include "cli/commands/commands.hpp"
 
 namespace csgrt::cli {
 
-/// From its making on, and if `command` writes pictures and names no OpenCL device, a thread loads the libraries of csgrt::image. A failure shows where
-/// the first picture is written. The end of its life stops the thread and waits for the library at hand, mostly a
-/// millisecond, 40 at most: exit() must not run while constructors of libraries do. One at a time; not to be copied.
+/// If `command` writes pictures and names no OpenCL device, the constructor starts a thread that loads the libraries of
+/// csgrt::image. A failure is reported when the first picture is written. The destructor stops the thread and waits
+/// until it has loaded the present library (about a millisecond, 40 at most): exit() must not run while constructors of
+/// libraries do. At most one object at a time.
 class ImageLoading {
 public:
     explicit ImageLoading(const Command& command);

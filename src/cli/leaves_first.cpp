@@ -19,17 +19,17 @@ namespace csgrt::cli {
 
 namespace {
 
-/// A file that is read piece by piece: of a library of 30 MiB, some hundred bytes are wanted.
-class Pieces {
+/// A file of which parts are read: some hundred bytes of a library of 30 MiB.
+class PartialFile {
 public:
-    explicit Pieces(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-    ~Pieces() {
+    explicit PartialFile(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+    ~PartialFile() {
         if (file_ >= 0) close(file_);
     }
-    Pieces(const Pieces&) = delete;
-    Pieces& operator=(const Pieces&) = delete;
+    PartialFile(const PartialFile&) = delete;
+    PartialFile& operator=(const PartialFile&) = delete;
 
-    /// `count` of T from byte `at` on; fewer where the file ends.
+    /// `count` values from byte `at` on; fewer at the end of the file.
     template <class T>
     std::vector<T> read(std::uint64_t at, std::size_t count) const {
         std::vector<T> values(count);
@@ -52,7 +52,7 @@ bool is_of_this_machine(const ElfHeader& header) {
            header.e_phentsize == sizeof(ElfSegment);
 }
 
-/// Where in the file the byte stands that is loaded to `address`.
+/// The position in the file of the byte that is loaded to `address`.
 std::optional<std::uint64_t> place_of(std::uint64_t address, const std::vector<ElfSegment>& segments) {
     for (const ElfSegment& segment : segments)
         if (segment.p_type == PT_LOAD && address >= segment.p_vaddr && address - segment.p_vaddr < segment.p_filesz)
@@ -60,9 +60,9 @@ std::optional<std::uint64_t> place_of(std::uint64_t address, const std::vector<E
     return {};
 }
 
-/// The libraries that one names as its dependencies; none if `path` is no library that can be read.
+/// The names of the dependencies of a library; empty if `path` is not a readable library.
 std::vector<std::string> needed_by(const std::string& path) {
-    const Pieces file(path);
+    const PartialFile file(path);
     const std::vector<ElfHeader> header = file.read<ElfHeader>(0, 1);
     if (header.empty() || !is_of_this_machine(header[0])) return {};
     const std::vector<ElfSegment> segments = file.read<ElfSegment>(header[0].e_phoff, header[0].e_phnum);
@@ -130,7 +130,8 @@ private:
                 load_needed_by(path);
                 break;
             }
-        // NOW: a library that uses what it does not name as a dependency fails here, and is loaded with the others later.
+        // NOW: a library that uses symbols of others than its dependencies fails here. The dlopen of everything loads
+        // it later.
         if (!stop_.stop_requested()) dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
     }
 
@@ -141,7 +142,9 @@ private:
 
 }  // namespace
 
-void load_leaves_first(const std::string& file, const std::stop_token& token) { LeavesFirst(token).load_needed_by(file); }
+void load_leaves_first(const std::string& file, const std::stop_token& token) {
+    LeavesFirst(token).load_needed_by(file);
+}
 
 }  // namespace csgrt::cli
 

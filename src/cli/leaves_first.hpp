@@ -6,13 +6,13 @@
 
 namespace csgrt::cli {
 
-/// Loads the libraries that `file` needs, each after those that it needs itself, none into the global scope. `file` itself is
-/// left to the caller's dlopen, which then finds them all. A dlopen searches all libraries that it loads for each of their
-/// symbols, one after the other, so that its time grows faster than their number. Loaded one by one, the symbols of each are
-/// searched for in its own dependencies alone.
+/// Loads the libraries that `file` needs, each one after its own dependencies, and none into the global scope. The
+/// caller's dlopen of `file` then finds all of them loaded. One dlopen of everything looks up each symbol in all
+/// libraries that it loads, so its time grows faster than their number. If they are loaded one by one, the symbols of
+/// each are looked up in its own dependencies only.
 ///
-/// What is not found or cannot be loaded is left out, for the caller's dlopen to report. Returns early after a request to
-/// stop, at the next library. Safe from any thread. Does nothing where the C library is not glibc.
+/// A library that is not found or cannot be loaded is skipped; the caller's dlopen reports it. Returns at the next
+/// library after a request to stop. Safe from any thread. Does nothing if the C library is not glibc.
 void load_leaves_first(const std::string& file, const std::stop_token& token = {});
 
 }  // namespace csgrt::cli

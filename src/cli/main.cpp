@@ -1,4 +1,4 @@
-// csgrt: the command. What goes wrong becomes a message and an exit status here.
+// csgrt: the command. Exceptions become a message and an exit status here.
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -26,7 +26,7 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr int defect = 1;  ///< exit status of what should not happen
+constexpr int defect = 1;  ///< exit status of an exception that is not an Error
 
 void print_error(const std::string& text) {
     const char* plain = std::getenv("NO_COLOR");
@@ -46,8 +46,8 @@ int fail(const Error& error) {
 
 constexpr const char* more_memory = "not enough memory: try a smaller --size, fewer objects, or --max-memory";
 
-/// Gives each of the three standard files that is closed one that cannot be used either: else the next file that is opened
-/// would have its number, and be read or written in its place.
+/// Opens /dev/null, in the wrong direction, for each of the three standard files that is closed. Otherwise the next
+/// file that is opened would get its number, and would be read or written instead of it.
 void hold_standard_files() {
     for (int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(file, F_GETFD) < 0 && errno == EBADF)

@@ -36,13 +36,13 @@ std::string head(const Option& option) {
 }  // namespace
 
 Option& Options::add(std::string name, std::string type, std::string help, std::string expected,
-                     std::function<bool(const std::string&)> take) {
+                     std::function<bool(const std::string&)> accept) {
     Option& option = options_.emplace_back();
     option.name = std::move(name);
     option.value = std::move(type);
     option.help = std::move(help);
     option.expected = std::move(expected);
-    option.take = std::move(take);
+    option.accept = std::move(accept);
     return option;
 }
 
@@ -58,11 +58,11 @@ Option& Options::text(std::string name, std::string type, std::string help, std:
 }
 
 Option& Options::list(std::string name, std::string type, std::string help, std::vector<std::string>& target) {
-    auto take = [&target](const std::string& text) {
+    auto accept = [&target](const std::string& text) {
         target.push_back(text);
         return !text.empty();
     };
-    Option& option = add(std::move(name), std::move(type), std::move(help), "a name", take);
+    Option& option = add(std::move(name), std::move(type), std::move(help), "a name", accept);
     option.repeatable = true;
     return option;
 }
@@ -128,7 +128,7 @@ void Options::parse_option(const std::vector<std::string>& words, std::size_t& p
             return found(option->name, "a value is missing: " + option->value);
         value = words[++position];
     }
-    if (!option->take(value.value_or("")))
+    if (!option->accept(value.value_or("")))
         found(option->name, "'" + *value + "' is not " + option->expected, suggestion(*value, option->words));
 }
 
@@ -151,8 +151,6 @@ void Options::check_presence() {
     for (const Option& option : options_) {
         if (option.required && !option.given) found(option.name, "missing: " + option.help);
         if (!option.given) continue;
-        if (!option.needs.empty() && !find(option.needs)->given)
-            found(option.name, "has a meaning only with " + option.needs);
         if (!option.excludes.empty() && find(option.excludes)->given)
             found(option.name, "cannot be combined with " + option.excludes);
     }
@@ -180,7 +178,8 @@ std::string Options::help() const {
     for (const Argument& argument : arguments_) text += help_row(argument.name, argument.help);
     if (rest_) text += help_row(rest_name_ + "...", rest_help_);
     if (!text.empty()) text += "\n";
-    for (const Option& option : options_) text += help_row(head(option), option.help);
+    for (const Option& option : options_)
+        if (!option.for_comparison) text += help_row(head(option), option.help);
     return text + help_row("-h, --help", "print this");
 }
 

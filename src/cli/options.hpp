@@ -1,4 +1,4 @@
-// A table of options and arguments: reads a command line into variables, and prints itself as help.
+// The options and arguments of a command: sets variables from a command line, and prints the help.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,14 @@ namespace csgrt::cli {
 struct Option {
     std::string name;
     char letter = 0;
-    std::string value;  ///< how help calls its value; empty: a flag, without one
+    std::string value;  ///< name of its value in the help; empty for a flag
     std::string help;
-    std::string expected;                          ///< "'x' is not ..."
-    std::vector<std::string_view> words;           ///< values that it knows by name, to suggest the nearest
-    std::function<bool(const std::string&)> take;  ///< false: the value is not what was expected
+    std::string expected;                            ///< "'x' is not ..."
+    std::vector<std::string_view> words;             ///< values that are names; the nearest is suggested
+    std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not what was expected
     bool repeatable = false, required = false, given = false;
-    std::string needs, excludes;  ///< names of other options
+    bool for_comparison = false;  ///< the help page of methods has it, not that of the command
+    std::string excludes;         ///< name of another option
 };
 
 /// The options of one command. Targets must outlive it.
@@ -84,9 +85,9 @@ public:
     /// May be given several times; each value is appended.
     Option& list(std::string name, std::string type, std::string help, std::vector<std::string>& target);
 
-    /// An argument without a name, which must be there. In the order of the calls.
+    /// A required argument. Arguments have the order of these calls.
     void argument(std::string name, std::string help, std::string& target);
-    /// Takes all arguments that are left.
+    /// All arguments after those.
     void arguments(std::string name, std::string help, std::vector<std::string>& target);
 
     /// Returns every finding; empty means that all targets are set. Words after "--" are arguments, however they begin.
@@ -102,7 +103,7 @@ private:
     };
 
     Option& add(std::string name, std::string type, std::string help, std::string expected,
-                std::function<bool(const std::string&)> take);
+                std::function<bool(const std::string&)> accept);
     Option* find(const std::string& word);
     void unknown(const std::string& name);
     void parse_option(const std::vector<std::string>& words, std::size_t& position);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file itself where the name leads over links.
+/// The path of the file itself, after all links.
 fs::path behind_links(const std::string& name) {
     std::error_code error;
     const fs::path path = fs::absolute(target_of(name).path, error), real = fs::weakly_canonical(path, error);

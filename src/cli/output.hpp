@@ -1,4 +1,4 @@
-// Files that a command writes: looked at before the work begins, and there whole or not at all.
+// Files that a command writes. They are checked before the work begins, and are written whole or not at all.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,10 @@ struct NamedFile {
 };
 
 /// Throws Error with every finding: usage, if an output is also an input or another output, or if standard output or
-/// standard input is asked for twice; file, if an output cannot be written where it is wanted. "-" is standard output.
+/// standard input is named twice; file, if an output cannot be written at its place. "-" is standard output.
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
-/// Text on its way into a file, which is there whole or not at all (NewFile). "-" is standard output.
+/// A text file that is written whole or not at all (NewFile). "-" is standard output.
 class OutputFile {
 public:
     /// Throws Error (file), like the other functions.

@@ -12,7 +12,7 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr auto patience = std::chrono::seconds(1);  ///< nothing is shown for what takes less
+constexpr auto patience = std::chrono::seconds(1);  ///< a shorter stage is not shown
 constexpr auto interval = std::chrono::milliseconds(200);
 constexpr const char* wipe = "\r\033[K";
 

@@ -1,4 +1,4 @@
-// What goes on, on a terminal: one line on standard error that is wiped away when the work is done.
+// Progress on a terminal: one line on standard error, which is erased when the work is done.
 #pragma once
 
 #include <chrono>
@@ -9,11 +9,12 @@
 
 namespace csgrt::cli {
 
-/// Shows the present stage with its done fraction and the time left, once it has lasted a second. Silent where standard
-/// error is no terminal. A thread of its own redraws, so that a stage which never reports still shows its elapsed time.
+/// Shows the present stage, the fraction that is done and the time left, if the stage lasts longer than a second.
+/// Silent if standard error is no terminal. A thread redraws, so that a stage that never reports still shows its
+/// elapsed time.
 class Progress {
 public:
-    /// `wanted` false: silent on a terminal too, for commands that print there themselves.
+    /// `wanted` false: silent on a terminal, too, for commands that print there themselves.
     explicit Progress(bool wanted = true);
     ~Progress();
     Progress(const Progress&) = delete;
@@ -21,7 +22,7 @@ public:
 
     /// Begins a stage, e.g. "rendering"; its fraction is unknown until the first update. Safe from any thread.
     void stage(std::string name);
-    /// What the next updates are of the stage: from `begin` to `end`, both 0..1. A new stage is 0 to 1.
+    /// The part of the stage that the next updates cover: from `begin` to `end`, both 0..1. A new stage covers 0 to 1.
     void range(double begin, double end);
     /// Sets the done fraction of the range, 0..1. Safe from any thread.
     void update(double fraction);

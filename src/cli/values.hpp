@@ -12,12 +12,13 @@
 
 namespace csgrt::cli {
 
-inline constexpr int max_side = 32'768;  ///< pixels; more than a billion rays are a mistake rather than a wish
+inline constexpr int max_side =
+    32'768;  ///< pixels; a larger picture has more than a billion rays and is taken for a mistake
 
 /// A finite number, the whole of `text`; a leading plus is fine. See decimal.hpp.
 std::optional<double> parse_number(std::string_view text);
 
-/// What keeps `text` from being such a number.
+/// Why `text` is not such a number.
 std::string number_fault(std::string_view text);
 
 /// "X,Y,Z": three finite numbers.

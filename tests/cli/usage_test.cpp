@@ -1,4 +1,9 @@
 // Every message about the command line itself: exit status 2, the option named, the nearest one suggested.
+#include <set>
+#include <sstream>
+
+#include <csgrt/method.hpp>
+
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 
@@ -48,15 +53,18 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{scene, "--quartic", "ferari", "--stats", "-"}, "did you mean 'ferrari'?"},
         {{scene, "-o", "-", "--format", "epng"}, "did you mean 'png'?"},
         {{scene, "--tolerance", "some", "--stats", "-"}, "--tolerance: 'some' is not a length in millimetres"},
-        {{scene, "--precision", "quad", "--stats", "-"}, "--precision: 'quad' is not one of double|single|single-world"},
+        {{scene, "--precision", "quad", "--stats", "-"},
+         "--precision: 'quad' is not one of double|single|single-world"},
         {{scene, "--contraction", "maybe", "--stats", "-"}, "--contraction: 'maybe' is not one of on|off"},
-        {{scene, "--contraction", "on", "--reference", "--stats", "-"}, "--contraction: cannot be combined with --reference"},
+        {{scene, "--contraction", "on", "--reference", "--stats", "-"},
+         "--contraction: cannot be combined with --reference"},
         {{scene, "--quartic", "cardano", "--stats", "-"}, "--quartic: 'cardano' is not one of bracketed|"},
         {{scene, "--repeat", "0", "--stats", "-"}, "--repeat: '0'"},
         {{scene, "--threads", "0", "--stats", "-"}, "--threads: '0'"},
         {{scene, "--device", "cpu", "--reference", "--stats", "-"}, "--device: cannot be combined with --reference"},
         {{scene, "--air=yes", "--stats", "-"}, "--air: takes no value"},
         {{scene, "--siez", "4", "--stats", "-"}, "--siez: no such option\n  did you mean '--size'?"},
+        {{"render", scene, "--quartik", "ferrari"}, "--quartik: no such option\n  did you mean '--quartic'?"},
         {{scene, "-azimuth", "4", "--stats", "-"}, "did you mean '--azimuth'?"},
         {{scene, "--persp", "4", "--stats", "-"}, "did you mean '--perspective'?"},
         {{scene, "--azimuth", "1e400", "--stats", "-"}, "--azimuth: '1e400' is not an angle"},
@@ -90,7 +98,7 @@ TEST_CASE("a wrong command line exits with 2, and nothing is on standard output"
     const Folder folder;
     const std::string scene = folder.write("balls.asc", two_balls);
     const Mistake mistakes[] = {
-        {{}, "csgrt SCENE [OBJECT...] -o FILE.exr"},
+        {{}, "csgrt [render] SCENE [OBJECT...] -o FILE"},
         {{scene}, "nothing to write\n  name a picture with -o FILE.exr"},
         {{scene, "--size", "0", "--stats", "-"}, "--size: '0' is not a size"},
         {{scene, "--siez", "4", "--stats", "-"}, "--siez: no such option\n  did you mean '--size'?"},
@@ -122,23 +130,41 @@ TEST_CASE("help lists every option, and every option listed is understood") {
         std::vector<std::string> options;
     };
     const Table tables[] = {
-        {"",
-         {"-o, --output FILE", "--format exr|png", "--size N|WxH", "--azimuth DEG", "--elevation DEG",
-          "--perspective DEG", "--center X,Y,Z", "--view-size MM", "--eye X,Y,Z", "--look-at X,Y,Z", "--up X,Y,Z", "--view FILE",
-          "--device NAME|cpu|gpu|N", "--reference", "--stats FILE", "--repeat N",
-          "--max-memory SIZE", "--tolerance MM|surfaces|relative|none", "--precision double|single|single-world",
-          "--quartic bracketed|bracketed-unshifted|ferrari|yuksel", "--contraction on|off",
-          "--wait-for-device", "--air", "--strict", "--skip-unsupported", "--threads N", "--first-hit", "-h, --help"}},
+        {"render",
+         {"-o, --output FILE",
+          "--format exr|png",
+          "--size N|WxH",
+          "--azimuth DEG",
+          "--elevation DEG",
+          "--perspective DEG",
+          "--center X,Y,Z",
+          "--view-size MM",
+          "--eye X,Y,Z",
+          "--look-at X,Y,Z",
+          "--up X,Y,Z",
+          "--view FILE",
+          "--device NAME|cpu|gpu|N",
+          "--reference",
+          "--stats FILE",
+          "--repeat N",
+          "--max-memory SIZE",
+          "--tolerance MM|surfaces|relative|none",
+          "--precision double|single",
+          "--wait-for-device",
+          "--air",
+          "--strict",
+          "--skip-unsupported",
+          "--threads N",
+          "--first-hit",
+          "-h, --help"}},
         {"shoot",
          {"--rays FILE", "-o, --output FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM|surfaces|relative|none", "--precision double|single|single-world",
-          "--quartic bracketed|bracketed-unshifted|ferrari|yuksel", "--contraction on|off",
-          "--wait-for-device", "--air", "--strict", "--skip-unsupported", "--threads N", "-h, --help"}},
+          "--tolerance MM|surfaces|relative|none", "--precision double|single", "--wait-for-device", "--air",
+          "--strict", "--skip-unsupported", "--threads N", "-h, --help"}},
         {"verify",
          {"--rays N|FILE", "--seed N", "--json FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM|surfaces|relative|none", "--precision double|single|single-world",
-          "--quartic bracketed|bracketed-unshifted|ferrari|yuksel", "--air", "--strict", "--skip-unsupported", "--threads N",
-          "-h, --help"}},
+          "--tolerance MM|surfaces|relative|none", "--precision double|single", "--air", "--strict",
+          "--skip-unsupported", "--threads N", "-h, --help"}},
         {"compare", {"--tolerance X", "-h, --help"}},
         {"devices", {"-h, --help"}},
         {"info", {"--air", "--strict", "--skip-unsupported", "--depth N", "-h, --help"}},
@@ -146,7 +172,7 @@ TEST_CASE("help lists every option, and every option listed is understood") {
     };
     for (const Table& table : tables) {
         const std::string name = table.command;
-        const Result help = name.empty() ? run({"--help"}) : run({"help", name});
+        const Result help = run({"help", name});
         CAPTURE(name);
         REQUIRE(help.status == 0);
         CHECK(help.err.empty());
@@ -158,13 +184,59 @@ TEST_CASE("help lists every option, and every option listed is understood") {
             CHECK(contains(help.out, "\n  " + option));
             const std::string word =
                 option.substr(option.find("--"), option.find(' ', option.find("--")) - option.find("--"));
-            std::vector<std::string> words = {word};
-            if (!name.empty()) words.insert(words.begin(), name);
-            CHECK(!contains(refusal(words), "no such option"));
+            CHECK(!contains(refusal({name, word}), "no such option"));
         }
-        const Result inside = name.empty() ? run({"scene.json", "-h"}) : run({name, "--help"});
+        const Result inside = run({name, "--help"});
         CHECK(inside.status == 0);
         CHECK(inside.out == help.out);
+    }
+}
+
+TEST_CASE("the name of the command render may be left out") {
+    NEEDS_COMMAND();
+    const std::string page = run({"help", "render"}).out;
+    CHECK(run({"scene.json", "-h"}).out == page);
+    const Result all = run({"--help"});
+    CHECK(all.out.ends_with(page.substr(page.find('\n'))));
+    CHECK(run({"-h"}).out == all.out);
+    CHECK(run({"help"}).out == all.out);
+    for (const char* command :
+         {"render", "shoot", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
+        CAPTURE(command);
+        CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
+    }
+    CHECK(refusal({"render", "scene.json", "--stats", "-"}).empty());
+    CHECK(contains(refusal({"render", "--stats", "-"}), "SCENE: missing"));
+}
+
+TEST_CASE("csgrt methods lists the methods that are kept for comparison; help pages of commands do not") {
+    NEEDS_COMMAND();
+    const Result methods = run({"methods"});
+    CHECK(methods.status == 0);
+    std::set<std::string> expected = {"--contraction on", "--contraction off"}, listed;
+    for (const auto& entry : csgrt::precision_names) expected.insert("--precision " + std::string(entry.first));
+    for (const auto& entry : csgrt::quartic_names) expected.insert("--quartic " + std::string(entry.first));
+    std::istringstream lines(methods.out);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string option, value;
+        if (words >> option >> value && option.starts_with("--")) listed.insert(option + " " + value);
+    }
+    CHECK(listed == expected);
+    for (const std::string& method : expected) {
+        const std::size_t blank = method.find(' ');
+        CAPTURE(method);
+        CHECK(refusal({"scene.json", method.substr(0, blank), method.substr(blank + 1)}).empty());
+    }
+    CHECK(contains(run({"help", "methods"}).out, methods.out));
+    for (const char* command : {"render", "shoot", "verify"}) {
+        const std::string page = run({"help", command}).out;
+        CAPTURE(command);
+        CHECK(contains(page, "'csgrt help methods'"));
+        for (const char* word : {"--quartic", "--contraction", "single-world", "ferrari"}) {
+            CAPTURE(word);
+            CHECK(!contains(page, word));
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-// The commands of csgrt: what each one is told, and the functions that carry them out.
+// The arguments of each command of csgrt, and the functions that run the commands.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace csgrt::cli {
 
 class Progress;
 
-/// A scene file, the objects of it (none: its top objects), and how to compute.
+/// A scene file, objects of it (none: its top objects), and how to compute.
 struct SceneArguments {
     std::string scene;  ///< file or "-"
     std::vector<std::string> objects;
-    bool strict = false;  ///< what is missing or broken in a database is refused
+    bool strict = false;  ///< refuse a database in which anything is missing or broken
     Settings settings;
 };
 
@@ -61,7 +61,7 @@ struct ConvertArguments {
     bool strict = false;
 };
 
-/// --help and --version.
+/// --help, --version and methods: a text that is printed.
 struct TextArguments {
     std::string text;
 };
@@ -69,7 +69,7 @@ struct TextArguments {
 using Command = std::variant<RenderArguments, ShootArguments, VerifyArguments, CompareArguments, DevicesArguments,
                              InfoArguments, ConvertArguments, TextArguments>;
 
-// Each returns Status::ok, or Status::differs where it compares or judges; everything else that goes wrong is thrown as Error.
+// Each returns Status::ok, or Status::differs if it compares or judges. Every other failure is thrown as an Error.
 Status run(const RenderArguments& arguments);
 Status run(const ShootArguments& arguments);
 Status run(const VerifyArguments& arguments);
@@ -79,17 +79,18 @@ Status run(const InfoArguments& arguments);
 Status run(const ConvertArguments& arguments);
 Status run(const TextArguments& arguments);
 
-/// The settings of a command with its progress and the user's Ctrl-C tied in. `progress` must outlive the result's use.
+/// Settings whose progress function updates `progress` and stops the work after an interrupt. `progress` must outlive
+/// the use of the result.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Says warnings on standard error, a line each; of very many, the first and how many more. `pictures`: those, too, that tell what
-/// pictures lack.
+/// Prints warnings on standard error, one a line; of more than FindingList::most the first and the number of the others.
+/// `pictures`: also warnings about the appearance of pictures.
 void report(std::vector<Warning> warnings, bool pictures = true);
 
-/// load_scene, as one that can be interrupted.
+/// Loads a scene. Throws Error (interrupted) after an interrupt.
 Scene load(const std::string& path, bool strict);
 
-/// load() with a progress of its own.
+/// load() that shows its own progress.
 Scene load_with_progress(const std::string& path, bool strict);
 
 }  // namespace csgrt::cli

@@ -1,4 +1,4 @@
-// csgrt compare: two pictures or two files of partitions, told apart by their first bytes.
+// csgrt compare: two pictures or two files of partitions. Their first bytes tell which.
 #include "compare.hpp"
 
 #include <cerrno>
@@ -16,7 +16,8 @@ enum class Kind { picture, text };
 Kind kind_of(const std::string& path) {
     std::error_code ignored;
     auto type = std::filesystem::status(path, ignored).type();
-    if (type == std::filesystem::file_type::fifo) return Kind::text;  // what is read from a pipe is gone
+    if (type == std::filesystem::file_type::fifo)
+        return Kind::text;  // bytes that are read from a pipe cannot be read again
     constexpr std::string_view exr = "\x76\x2f\x31\x01", gzip = "\x1f\x8b", png = "\x89PNG";
     std::FILE* file = std::fopen(path.c_str(), "rb");
     char bytes[4] = {};

@@ -1,4 +1,4 @@
-// What two files of one kind differ in. Both functions print a report and return Status::ok or Status::differs.
+// Differences between two files of one kind. Both functions print a report and return Status::ok or Status::differs.
 #pragma once
 
 #include "commands.hpp"

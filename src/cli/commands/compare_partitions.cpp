@@ -12,12 +12,12 @@ namespace csgrt::cli {
 
 namespace {
 
-/// Rays that differ in one respect: how many, and where it is worst.
+/// The rays that differ in one respect: their number, and the worst of them.
 struct Tally {
     std::uint64_t rays = 0, worst_ray = 0;
     double worst = -1;
 
-    /// `apart` is the ray's largest difference; 0 or less: it has none.
+    /// `apart` is the ray's largest difference; 0 or less if it has none.
     void add(std::uint64_t ray, double apart) {
         if (!(apart > 0)) return;
         ++rays;

@@ -1,4 +1,4 @@
-// csgrt convert: any scene that csgrt reads, as its own JSON.
+// csgrt convert: writes any scene that csgrt reads as csgrt's JSON.
 #include <filesystem>
 
 #include <csgrt/scene_io.hpp>
@@ -15,7 +15,9 @@ Status run(const ConvertArguments& arguments) {
     check_outputs({{"OUT", arguments.output}}, {{"IN", arguments.input}});
     Scene scene = load_with_progress(arguments.input, arguments.strict);
     std::vector<Warning> warnings = scene.warnings;
-    if (scene.lenient) validate(scene, {}, false, &warnings);  // for what is left out: findings are the reader's to show
+    if (scene.lenient)
+        validate(scene, {}, false,
+                 &warnings);  // adds warnings about parts that are left out; the reader has reported its own
     report(warnings);
     save_scene(scene, arguments.output);
     return Status::ok;

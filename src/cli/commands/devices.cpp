@@ -1,4 +1,4 @@
-// csgrt devices: what --device can choose from.
+// csgrt devices: the devices that --device can choose.
 #include <cstdio>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// csgrt info: what a scene holds, and what compiling makes of it.
+// csgrt info: the contents of a scene, and of the compiled scene.
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -43,7 +43,7 @@ Renderer compile_with_progress(const Scene& scene, const InfoArguments& argument
     settings.reference = true;  // needs no device
     Renderer renderer(scene, arguments.objects, settings);
     check_interrupt();
-    return renderer;  // asked for what it holds, never to draw: its progress is over
+    return renderer;  // it never draws, so it does not use `progress` again
 }
 
 }  // namespace
@@ -63,9 +63,11 @@ Status run(const InfoArguments& arguments) {
     try {
         compiled.emplace(compile_with_progress(scene, arguments));
     } catch (const Error& error) {
-        // What is left out is told even if nothing remains; an object that is not there has been named by mistake.
+        // If nothing is left to render, the parts that were left out are listed. An object that does not exist is an
+        // error.
         std::vector<Warning> warnings = scene.warnings;
-        if (error.status() != Status::scene || !scene.lenient || !validate(scene, arguments.objects, false, &warnings).empty())
+        if (error.status() != Status::scene || !scene.lenient ||
+            !validate(scene, arguments.objects, false, &warnings).empty())
             throw;
         text = "\n" + row("compiled", "no: " + error.diagnostics().front().message);
         for (const Warning& warning : warnings) text += row("warning", format(warning));

@@ -39,20 +39,22 @@ std::string extension_of(const std::string& path) {
 
 bool names_format(const std::string& path) { return extension_of(path) == ".exr" || extension_of(path) == ".png"; }
 
-/// Standard output, a device or a pipe, whose name does not say which picture is meant.
+/// Standard output, a device or a pipe: the name does not give the format.
 bool has_no_format(const std::string& path) { return path == "-" || (!names_format(path) && target_of(path).direct); }
 #endif
 
-/// Options that say the same thing twice, or two things.
+/// Refuses options that set one thing twice.
 void check_view(const RenderArguments& arguments) {
-    const std::pair<const char*, bool> given[] = {
-        {"--azimuth", arguments.azimuth.has_value()},     {"--elevation", arguments.elevation.has_value()},
-        {"--center", arguments.center.has_value()},       {"--look-at", arguments.look_at.has_value()},
-        {"--view-size", arguments.view_size.has_value()}, {"--eye", arguments.eye.has_value()},
-        {"--up", arguments.up.has_value()}};
+    const std::pair<const char*, bool> given[] = {{"--azimuth", arguments.azimuth.has_value()},
+                                                  {"--elevation", arguments.elevation.has_value()},
+                                                  {"--center", arguments.center.has_value()},
+                                                  {"--look-at", arguments.look_at.has_value()},
+                                                  {"--view-size", arguments.view_size.has_value()},
+                                                  {"--eye", arguments.eye.has_value()},
+                                                  {"--up", arguments.up.has_value()}};
     for (const auto& [option, is_given] : given)
         if (is_given && !arguments.view.empty())
-            refuse(option, "cannot be combined with --view", "the saved view says where the eye is, and what it sees");
+            refuse(option, "cannot be combined with --view", "the saved view has the eye and what it sees");
     if (arguments.eye && (arguments.azimuth || arguments.elevation))
         refuse("--eye", std::string("cannot be combined with ") + (arguments.azimuth ? "--azimuth" : "--elevation"),
                "the eye and what it looks at give the direction");
@@ -62,7 +64,7 @@ void check_view(const RenderArguments& arguments) {
         refuse("--view-size", "cannot be combined with --eye and --perspective", "these two give the size of the view");
 }
 
-/// Everything that can be known to go wrong before the work begins.
+/// Finds all mistakes that can be found before the work begins.
 void check(const RenderArguments& arguments) {
     if (arguments.outputs.empty() && arguments.stats.empty())
         refuse("", "nothing to write",
@@ -115,9 +117,8 @@ Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
 }
 
 #ifdef CSGRT_HAVE_IMAGE
-/// The command that makes this picture: only what decides its pixels, so that it is the same wherever it was made.
-std::string canonical_command(const RenderArguments& arguments, const Camera& camera,
-                              double tolerance) {
+/// The command that draws this picture, with the options that its pixels depend on. It is the same on every machine.
+std::string canonical_command(const RenderArguments& arguments, const Camera& camera, double tolerance) {
     std::string text = "csgrt " + model_text(arguments) + " --size " + std::to_string(arguments.width) + "x" +
                        std::to_string(arguments.height);
     auto option = [&text](const char* name, double value) {
@@ -155,7 +156,7 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
 }
 #endif
 
-/// The pictures hold colours only, and nobody asked for figures: nothing behind the first hits is looked at.
+/// Whether the outputs are pictures with colours only, without figures: then first hits are enough.
 bool only_colors(const RenderArguments& arguments) {
 #ifdef CSGRT_HAVE_IMAGE
     return !arguments.outputs.empty() && arguments.stats.empty() &&
@@ -168,7 +169,7 @@ bool only_colors(const RenderArguments& arguments) {
 #endif
 }
 
-/// Leaves the last frame in `image`.
+/// Returns the statistics; `image` is the last frame.
 Statistics render_frames(const Scene& scene, const RenderArguments& arguments, const View& view, Image& image) {
     Framebuffer framebuffer;
     Progress progress;

@@ -1,4 +1,4 @@
-// csgrt shoot: the partitions along given rays, a chunk at a time, so that any number of rays fits the memory.
+// csgrt shoot: the partitions along given rays, in chunks, so that any number of rays fits into memory.
 #include <unistd.h>
 
 #include "commands.hpp"

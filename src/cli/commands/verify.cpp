@@ -1,4 +1,4 @@
-// csgrt verify: a sample of rays judged by 113-bit answers, some thousand at a time.
+// csgrt verify: judges a sample of rays by 113-bit answers, some thousand at a time.
 #include <algorithm>
 
 #include "commands.hpp"

@@ -18,7 +18,7 @@ namespace csgrt::cli {
 namespace {
 
 constexpr std::size_t first_buffer = std::size_t{1} << 16;
-constexpr std::size_t longest_line = std::size_t{1} << 24;  ///< beyond this it is no text
+constexpr std::size_t longest_line = std::size_t{1} << 24;  ///< a longer line means that the file is no text
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// A text file read line by line, and how to speak of places in it.
+// Reads a text file line by line, with findings that name a place in it.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,13 @@ struct Word {
     int column = 1;  ///< in bytes, from 1
 };
 
-/// Reads a file of any size in pieces. Comes back with Error (interrupted) when the user asks to stop.
+/// Reads a file of any size through a buffer. Throws Error (interrupted) after an interrupt.
 class LineReader {
 public:
     enum class Passes { one, several };
 
-    /// "-" is standard input. With Passes::several, what cannot be rewound is first copied to a temporary file without
-    /// a name.
-    /// Throws Error (file).
+    /// "-" is standard input. With Passes::several, a file that cannot be rewound is first copied to a temporary file
+    /// without a name. Throws Error (file).
     LineReader(const std::string& path, Passes passes);
 
     /// The next line without its line break; false at the end. The view is valid until the next call.
@@ -35,7 +34,7 @@ public:
     const std::string& name() const { return name_; }
     int line_number() const { return line_number_; }
 
-    /// A finding in the present line, with the line as its excerpt; the column counts bytes from 1.
+    /// A finding at a column of the present line, in bytes from 1, with the line as its excerpt.
     Diagnostic finding(int column, std::string message, std::string suggestion = {}) const;
 
 private:
@@ -56,7 +55,7 @@ private:
     int line_number_ = 0;
 };
 
-/// The words of a line, apart by blanks; `words` is overwritten, so that it can be kept from line to line.
+/// Splits a line at blanks. Overwrites `words`, whose memory can be reused from line to line.
 void split(std::string_view line, std::vector<Word>& words);
 
 }  // namespace csgrt::cli

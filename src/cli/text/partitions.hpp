@@ -37,7 +37,7 @@ void append_shortest(std::string& out, double value);
 /// Appends a name, its blanks escaped.
 void append_name(std::string& out, std::string_view name);
 
-/// What a file says of one ray.
+/// One ray of a file.
 struct TextRay {
     struct Partition {
         std::string region;
@@ -56,7 +56,7 @@ struct TextRay {
 
 class PartitionReader {
 public:
-    /// Throws Error (file), as next() does for whatever is no such file.
+    /// Throws Error (file), as next() does if the file has another form.
     explicit PartitionReader(const std::string& path) : lines_(path, LineReader::Passes::one) {}
 
     /// Replaces `ray` by the next one; false at the end of the file.

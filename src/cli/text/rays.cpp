@@ -23,7 +23,7 @@ bool RayReader::next(std::vector<Ray>& rays, std::size_t limit) {
     return !rays.empty();
 }
 
-/// False for a line without a ray: blank, a comment, or wrong; what is wrong becomes a finding.
+/// False for a line without a ray: a blank line, a comment, or a wrong line, which becomes a finding.
 bool RayReader::parse(std::string_view line, Ray& ray) {
     split(line.substr(0, line.find('#')), words_);
     if (words_.empty()) return false;
@@ -39,7 +39,8 @@ bool RayReader::parse(std::string_view line, Ray& ray) {
         }
         auto number = parse_number(words_[i].text);
         if (!number) {
-            findings_.add(lines_.finding(words_[i].column, std::string(names[i]) + ": " + number_fault(words_[i].text), form));
+            findings_.add(
+                lines_.finding(words_[i].column, std::string(names[i]) + ": " + number_fault(words_[i].text), form));
             return false;
         }
         *numbers[i] = *number;

@@ -15,7 +15,7 @@ namespace csgrt::cli {
 class RayReader {
 public:
     /// Reads all rays once, to count and check them. "-" is standard input.
-    /// Throws Error (file) if it cannot be read, or with the wrong lines, and how many more there are.
+    /// Throws Error (file) if it cannot be read, or with the first wrong lines and the number of the others.
     explicit RayReader(const std::string& path);
 
     std::uint64_t count() const { return count_; }

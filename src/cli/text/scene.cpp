@@ -13,7 +13,7 @@ namespace csgrt::cli {
 
 namespace {
 
-/// A leaf as it stands in its tree: "- (" before it and ")" behind it.
+/// A leaf of a tree, with the operators and brackets before and behind it: "- (" and ")".
 struct Member {
     const TreeNode* leaf = nullptr;
     std::string before, behind;
@@ -29,7 +29,7 @@ int strength(Operator op) {
 }
 
 /// The leaves in order, with the operators between them. As in BRL-CAD, "-" and "+" bind stronger than "u"; brackets
-/// stand where that does not say it.
+/// are added where the order of evaluation differs.
 std::vector<Member> members_of(const Tree& tree) {
     struct Part {
         std::size_t first;  ///< leaf
@@ -43,7 +43,7 @@ std::vector<Member> members_of(const Tree& tree) {
             members.push_back({&node, "", ""});
             continue;
         }
-        if (node.arity == 0 || node.arity > stack.size()) return {};  // unsound: compiling will say so
+        if (node.arity == 0 || node.arity > stack.size()) return {};  // a broken tree: compiling reports it
         std::size_t base = stack.size() - node.arity;
         for (std::size_t i = base; i < stack.size(); ++i) {
             Member& first = members[stack[i].first];
@@ -72,7 +72,7 @@ public:
         for (const Object& object : scene.objects) objects_.emplace(name_of(object), &object);
     }
 
-    /// The tree of an object of the command line: a name, or a path.
+    /// Prints the tree of an object that the user named or gave a path to.
     void print(const std::string& name, int depth) {
         const Object* object = object_at(scene_, name);
         print(object == nullptr ? name : name_of(*object), name, "", depth, 0);
@@ -81,7 +81,7 @@ public:
     std::string text;
 
 private:
-    /// `shown`: the name, with what stands before it.
+    /// `shown`: the name with the operators and brackets before it.
     void print(const std::string& name, const std::string& shown, const std::string& behind, int depth, int level) {
         auto found = objects_.find(name);
         text += std::string(4 * static_cast<std::size_t>(level), ' ') + shown + behind;

@@ -1,4 +1,4 @@
-// A scene in words.
+// Descriptions of a scene.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace csgrt::cli {
 
-/// "operators.json part-1 part-2": the scene file's name without its folders, and the objects that the user named (none: its
-/// top objects), blanks in names escaped.
+/// "operators.json part-1 part-2": the scene file's name without its folders, and the objects that the user named
+/// (none: its top objects), blanks in names escaped.
 std::string model_text(const SceneArguments& arguments);
 
 /// The box of the bounded regions, six numbers by `number`, with "to" and "mm" between and after them if `in_words`;
@@ -23,7 +23,7 @@ std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*n
 /// "3 (arb8 2, tor 1)", the most frequent first.
 std::string count_text(const std::map<std::string, std::size_t>& by_type);
 
-/// The trees of `objects`, a line a member, `depth` levels below each. Every combination is unfolded once.
+/// The trees of `objects`, one line a member, `depth` levels deep. The members of a combination are listed once.
 std::string tree_text(const Scene& scene, const std::vector<std::string>& objects, int depth);
 
 }  // namespace csgrt::cli

@@ -67,7 +67,7 @@ std::string error_row(const char* name, const EndError& error, const Renderer& j
     if (!(error.millimetres > 0)) return figure_row(name, "0");
     std::string text =
         figure_row(name, brief(error.millimetres) + " mm, " + brief(error.ulps) + " ulp, " + brief(error.distance) +
-                      " mm along ray " + std::to_string(error.index) + " at " + path(judged, error.region));
+                             " mm along ray " + std::to_string(error.index) + " at " + path(judged, error.region));
     return text + line_of(error);
 }
 
@@ -115,11 +115,13 @@ std::string json_error(const char* name, const EndError& error, const Renderer& 
 std::string to_text(const Verification& result, const Renderer& judged) {
     const bool alone = result.device.empty();
     std::string text =
-        figure_row("device", alone ? "none, the reference alone" : result.device) + figure_row("rays", std::to_string(result.rays)) +
-        figure_row("hits", std::to_string(result.hits)) + figure_row("decided", std::to_string(result.decided)) +
-        figure_row("ties", std::to_string(result.ties)) + figure_row("wrong regions", std::to_string(result.wrong)) +
+        figure_row("device", alone ? "none, the reference alone" : result.device) +
+        figure_row("rays", std::to_string(result.rays)) + figure_row("hits", std::to_string(result.hits)) +
+        figure_row("decided", std::to_string(result.decided)) + figure_row("ties", std::to_string(result.ties)) +
+        figure_row("wrong regions", std::to_string(result.wrong)) +
         figure_row("bit differences", alone ? "not compared" : std::to_string(result.bit_differences)) +
-        figure_row("distances", std::to_string(result.ends) + ", and " + std::to_string(result.leaping_ends) + " that leap") +
+        figure_row("distances",
+                   std::to_string(result.ends) + ", and " + std::to_string(result.leaping_ends) + " that leap") +
         error_row("most millimetres", result.farthest, judged) + error_row("most ulps", result.worst, judged);
     for (std::size_t i = 0; i < std::min(result.wrong_rays.size(), most_printed); ++i) {
         const WrongRay& ray = result.wrong_rays[i];

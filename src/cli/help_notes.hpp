@@ -1,0 +1,127 @@
+// The notes on the help pages, below the options. Lines of at most 100 bytes.
+#pragma once
+
+namespace csgrt::cli {
+
+inline constexpr const char* render_notes = R"(
+Methods that are kept for comparison have options of their own: 'csgrt help methods'.
+
+Lengths are millimetres, whatever unit the scene's file has; angles are degrees.
+
+An EXR holds these channels, 32-bit floats:
+  R G B A        colours
+  Z              distance along the ray, mm; inf where nothing is hit
+  N.X N.Y N.Z    unit normal of the surface, outward
+  region, solid  numbers from 1; 0 where nothing is hit
+  depth          segments on the ray
+  partitions     partitions on the ray
+  overlap        partitions on the ray that several regions claim
+Its header names the regions and solids that occur in it (csgrt:regions, csgrt:solids: JSON texts
+such as {"17": "/all.g/x.r"}). A PNG holds the colours, 8 bits each, linear.
+
+A picture, and the partitions along one ray:
+  csgrt scenes/operators.json -o operators.png
+  printf '0 -9000 0  0 1 0\n' | csgrt shoot scenes/operators.json --rays -
+)";
+
+inline constexpr const char* shoot_notes = R"(
+Methods that are kept for comparison have options of their own: 'csgrt help methods'.
+
+A ray is a line of six numbers, separated by blanks: ox oy oz dx dy dz. Blank lines are skipped, and
+# begins a comment.
+  ox oy oz       origin, millimetres (whatever unit the scene's file has), each at most 1e18
+  dx dy dz       direction of any length; its largest component is from 1e-250 to 1e250
+A number too small for a double is read as 0; one too large is an error.
+
+The output begins with lines that start with #: version and model; counts of rays, solids and
+regions, whether air is kept (useair), the tolerance (tol.dist, mm); the box of the model (box, low
+and high corner in mm, or 'unbounded' or 'empty'). Then each ray, in the order of the input, has a
+line of four words:
+  ray            this word
+  INDEX          the ray's number, from 0
+  PARTITIONS     how many lines of partitions follow
+  OVERLAPS       how many lines of overlaps follow these
+A partition is a stretch of the ray within one region. Partitions are listed from front to back,
+one on a line of 13 words:
+  region         its path in the model, /all.g/left.r
+  in out         where the ray enters and leaves it, in lengths of the direction: mm if that is 1.
+                 The point is origin + in * direction. Partitions behind the origin are listed too:
+                 in is negative if the ray starts inside, in and out if it starts behind the
+                 region. -inf or inf: the region has no end there
+  inx iny inz    unit normal where the ray enters, pointing out of the region: against the ray
+  outx outy outz unit normal where the ray leaves, pointing out of the region: along the ray
+                 (normal and solid of an infinite end mean nothing)
+  in-solid       the solid whose surface the ray enters through: one of the region's own, one that
+                 is subtracted from it, or one of the region that has the partition before it
+  out-solid      the solid whose surface the ray leaves through, likewise
+  in-type out-type  their types, in BRL-CAD's names: ell, tgc, arb8, ...
+An overlap is a stretch that several regions claim; one of them has the partition. Its line:
+  overlap        this word
+  in out         as above
+  region region...  the paths of all regions that claim it
+Numbers have 17 digits, so that they read back to the same bits. A blank or a backslash in a name
+is written as \ooo, its byte in octal. Ends closer than the tolerance are one. Regions that only
+touch do not overlap. If any line of the input is wrong, all wrong lines are reported, no ray is
+shot, and the exit status is 6.
+)";
+
+inline constexpr const char* verify_notes = R"(
+Methods that are kept for comparison have options of their own: 'csgrt help methods'.
+
+Rays and distances are as in 'csgrt help shoot'. Errors of distances are given in mm and in units of
+the last place. The exit status is 8 if any ray that rounding does not decide has wrong regions, or
+if device and reference differ in any bit.
+)";
+
+inline constexpr const char* compare_notes = R"(
+X is in the units of the channel or column: mm for Z, lengths of the direction for in and out, 0 to
+1 for colours, 1 for counts and numbers of regions. The exit status is 0 if nothing differs, 8 if
+something does.
+)";
+
+inline constexpr const char* devices_notes = R"(
+Each entry begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices
+have kernels for the default method only, compiled ahead; the kernels of other devices are compiled
+when they are first used. A note names a driver that cannot be used.
+)";
+
+/// Also what `csgrt methods` prints.
+inline constexpr const char* methods_notes = R"(
+The default method is the one to use: double precision, bracketed quartics, no contraction. The
+others are kept to be measured against it: bench/make_chart charts their times and errors. They need
+an OpenCL device or --reference. render and shoot take all options below, verify all but
+--contraction.
+
+  Precision: the numbers in which rays meet solids.
+  --precision double             the default
+  --precision single             float, relative to the eye: rays and places of solids are double,
+                                 and their difference is rounded to float once
+  --precision single-world       float throughout, in the coordinates of the world
+
+  Quartics: how tor, eto and cones with two tapers are solved.
+  --quartic bracketed            the default: the origin is moved to the closest approach, and the
+                                 roots lie between those of the derivative
+  --quartic bracketed-unshifted  the same, but the origin stays where the ray starts
+  --quartic ferrari              closed form
+  --quartic yuksel               brackets and Newton, to a stated error (Yuksel 2022)
+
+  Contraction: whether a device may round a product and a sum as one.
+  --contraction off              the default: every device and the reference have the same bits
+  --contraction on               results differ from device to device; not with --reference
+)";
+
+inline constexpr const char* info_notes = R"(
+'units' is the unit that the file names. 'bounds' is the box of the regions in millimetres, or
+'unbounded' or 'empty'. The operators of a tree: u union, - difference, + intersection, ^ exclusive
+or, ! complement.
+)";
+
+inline constexpr const char* convert_notes = R"(
+The scene that is written has the same geometry to the last bit, and keeps the file's unit.
+)";
+
+inline constexpr const char* exit_status =
+    "\nExit status: 0 done, 2 usage, 3 scene, 4 no device, 5 out of memory, 6 file, 7 device fault,\n"
+    "8 a comparison or verification differs, 130 interrupted.\n";
+
+}  // namespace csgrt::cli
