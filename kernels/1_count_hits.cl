@@ -1,16 +1,16 @@
 // Kernel 1: how many segments does each ray have, so that exactly that much memory is allocated, or it is
-// known whether what there is does (capacity.h). First in float, from box
+// known whether what there is does (shared/capacity.h). First in float, from box
 // to box: which solids may the ray meet. Then a work-item for each such candidate, so that no ray waits for its many solids
 // one after the other.
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
 //
 // On processors the rays of a picture's blocks find their candidates eight at once (1_packet_candidates.cl).
-#include "blocks.h"
-#include "camera.h"
+#include "traversal/beam.h"
+#include "traversal/camera.h"
 #include "geometry/collect.h"
-#include "capacity.h"
-#include "traverse.h"
+#include "shared/capacity.h"
+#include "traversal/candidates.h"
 
 // Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
 // in blocks.

@@ -2,9 +2,9 @@
 // of solids that packets know, what they meet of them: count_hits (1_count_hits.cl) is left those that one ray alone comes to.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
-#include "capacity.h"
+#include "shared/capacity.h"
 #include "geometry/collect.h"
-#include "packet.h"
+#include "packet/packet.h"
 
 // A packet on its way through the nodes of its block's list.
 typedef struct {

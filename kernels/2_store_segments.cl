@@ -4,8 +4,8 @@
 //   ends of a ray:   in out | in out | in out ...      by ascending solid, then by distance
 //
 // Whose an end is stands in the end's word of `bits` until kernel 3 has read it: the nodes may lie where `found` does.
-#include "camera.h"
-#include "capacity.h"
+#include "traversal/camera.h"
+#include "shared/capacity.h"
 #include "geometry/collect.h"
 
 static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, Candidate c, __global const End* found,

@@ -12,8 +12,8 @@
 // coincide change together, whichever comes first: a segment that begins and ends in one event vanishes. The event's t is
 // that of its first end, and a partition's node is in the place of that end, so the list needs no memory but the
 // 2 * segments nodes.
-#include "camera.h"
-#include "capacity.h"
+#include "traversal/camera.h"
+#include "shared/capacity.h"
 
 static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
                       __global PartitionNode* all_nodes) {

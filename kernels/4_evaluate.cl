@@ -2,8 +2,8 @@
 //
 // Overlap: the smallest index keeps the partition: solids before FASTGEN's plates, these before its volumes, air last, as in BRL-CAD,
 // and of one rank the first in the model. A rule that looked at the partition before would depend on the direction of the ray.
-#include "boolean.h"
-#include "capacity.h"
+#include "boolean/claim.h"
+#include "shared/capacity.h"
 
 // `c` holds the scene.
 static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,

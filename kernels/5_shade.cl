@@ -1,6 +1,6 @@
 // Kernel 5: the first claimed partition -> a pixel.
-#include "capacity.h"
-#include "shading.h"
+#include "shared/capacity.h"
+#include "shading/pixel.h"
 
 __kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                     __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,

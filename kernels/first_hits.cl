@@ -1,5 +1,5 @@
 // The first hits of a picture, without segments in memory: from a block's nodes to its pixels. How a work-item goes that way
-// comes before this: a ray at a time (first_hits_ray.h), or on processors eight (first_hits_packet.h).
+// comes before this: a ray at a time (shading/first_hits_ray.h), or on processors eight (packet/first_hits_packet.h).
 //
 // Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
 

@@ -5,8 +5,8 @@
 // coefficients formed from a far origin lose their digits. The moved origin w = (o - center) + shift * d is computed
 // with the rounding errors of its two large terms kept, so it is good to a few ulps of |w|,
 // however far the ray starts.
-#ifndef CSGRT_AFFINE_H
-#define CSGRT_AFFINE_H
+#ifndef CSGRT_GEOMETRY_AFFINE_H
+#define CSGRT_GEOMETRY_AFFINE_H
 
 #include "hits.h"
 

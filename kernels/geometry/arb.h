@@ -1,7 +1,7 @@
 // arb4 to arb8 and arbn: a convex polyhedron, the piece of the ray that all its faces leave. No reals.
 // Planes and surfaces: the faces.
-#ifndef CSGRT_ARB_H
-#define CSGRT_ARB_H
+#ifndef CSGRT_GEOMETRY_ARB_H
+#define CSGRT_GEOMETRY_ARB_H
 
 #include "plane.h"
 

@@ -13,8 +13,8 @@
 // ends have one sign, whatever rounding does inside. Two changes closer than 2^-SIGN_DEPTH may both be missed: the
 // value between them is within rounding of zero, but where a piece of an outline that is turned ends on the axis. There
 // the value fades with the radius and keeps its digits, so next to both ends pieces are halved down to 2^-TIP_DEPTH.
-#ifndef CSGRT_BERNSTEIN_H
-#define CSGRT_BERNSTEIN_H
+#ifndef CSGRT_GEOMETRY_BERNSTEIN_H
+#define CSGRT_GEOMETRY_BERNSTEIN_H
 
 #include "../shared/base.h"
 

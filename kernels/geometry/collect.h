@@ -1,6 +1,6 @@
 // Any solid's segments along a ray, as ends: the one door through which the walk, the reference and the tests come.
-#ifndef CSGRT_COLLECT_H
-#define CSGRT_COLLECT_H
+#ifndef CSGRT_GEOMETRY_COLLECT_H
+#define CSGRT_GEOMETRY_COLLECT_H
 
 #include "crossings.h"
 #include "extrude.h"

@@ -1,8 +1,8 @@
 // What a ray meets of a cylinder or cone, whatever the shape of its side: the two ends; the side of a round one; and where it may
 // meet that of another.
 // Parameters, planes and surfaces are the tgc's (tgc.h).
-#ifndef CSGRT_CONE_H
-#define CSGRT_CONE_H
+#ifndef CSGRT_GEOMETRY_CONE_H
+#define CSGRT_GEOMETRY_CONE_H
 
 #include "affine.h"
 #include "plane.h"

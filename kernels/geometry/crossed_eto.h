@@ -10,8 +10,8 @@
 //   F(rho) = E + rho O,   E = alpha (rho^2 - radius^2) + gamma h^2 + lin h,   O = 2 beta h + odd
 //
 // (radius 0 at the axis, odd 0 on the circle) whose terms vanish at the pivot as F does. The ray is cut between pivots.
-#ifndef CSGRT_CROSSED_ETO_H
-#define CSGRT_CROSSED_ETO_H
+#ifndef CSGRT_GEOMETRY_CROSSED_ETO_H
+#define CSGRT_GEOMETRY_CROSSED_ETO_H
 
 #include "eto.h"
 

@@ -10,8 +10,8 @@
 //   crossings    |     |     |   |     |
 //                out   in    in  out   out
 //   segments                 |===|             the others are left over
-#ifndef CSGRT_CROSSINGS_H
-#define CSGRT_CROSSINGS_H
+#ifndef CSGRT_GEOMETRY_CROSSINGS_H
+#define CSGRT_GEOMETRY_CROSSINGS_H
 
 #include "hits.h"
 

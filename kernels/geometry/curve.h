@@ -5,8 +5,8 @@
 // its reals begin and its degree. The sketch's reals are x0 y0 x1 y1 a line. A curve's are x y weight a control point;
 // weights are positive, and 1 at its ends. Points where pieces meet are equal to the bit. Pieces are numbered, lines
 // first.
-#ifndef CSGRT_CURVE_H
-#define CSGRT_CURVE_H
+#ifndef CSGRT_GEOMETRY_CURVE_H
+#define CSGRT_GEOMETRY_CURVE_H
 
 #include "hits.h"
 

@@ -7,8 +7,8 @@
 //
 // Crossings on the side that stays are the solid's own. At each of the two cuts the parity of the crossings before it
 // tells whether the ray crosses it inside what is cut; then that is a crossing of the solid, too.
-#ifndef CSGRT_CUT_H
-#define CSGRT_CUT_H
+#ifndef CSGRT_GEOMETRY_CUT_H
+#define CSGRT_GEOMETRY_CUT_H
 
 #include "crossings.h"
 

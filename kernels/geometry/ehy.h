@@ -2,8 +2,8 @@
 //
 //   local z = -1 at the base, +1 at the apex; zeta = c + (1 - z) / 2 is the distance below the vertex of the asymptotic
 //   cone in units of the height:   x^2 + y^2 - k (zeta^2 - c^2) < 0,  k = 1 / (1 + 2 c),  zeta > 0
-#ifndef CSGRT_EHY_H
-#define CSGRT_EHY_H
+#ifndef CSGRT_GEOMETRY_EHY_H
+#define CSGRT_GEOMETRY_EHY_H
 
 #include "affine.h"
 #include "plane.h"

@@ -13,8 +13,8 @@
 //   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2,   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1 + gap)
 //
 // whose terms vanish with it where the gap is 0. A ray that passes near is taken from its closest approach to that point.
-#ifndef CSGRT_ETO_H
-#define CSGRT_ETO_H
+#ifndef CSGRT_GEOMETRY_ETO_H
+#define CSGRT_GEOMETRY_ETO_H
 
 #include "affine.h"
 #include "quartic.h"

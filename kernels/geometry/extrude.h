@@ -7,8 +7,8 @@
 // (even-odd), and the ends cut the solid out of that prism. On which side of the line a point lies is the sign of one
 // expression, so all pieces that meet in a point agree about it, and the count of crossings of a closed outline is
 // even, vertices hit or not.
-#ifndef CSGRT_EXTRUDE_H
-#define CSGRT_EXTRUDE_H
+#ifndef CSGRT_GEOMETRY_EXTRUDE_H
+#define CSGRT_GEOMETRY_EXTRUDE_H
 
 #include "affine.h"
 #include "bernstein.h"

@@ -3,8 +3,8 @@
 //
 //   u = y - c3 / 4:   y^4 + p y^2 + q y + r  =  (y^2 + s y + e) (y^2 - s y + f),   s^2 = 2 m
 //   m^3 + p m^2 + (p^2 / 4 - r) m - q^2 / 8 = 0
-#ifndef CSGRT_FERRARI_H
-#define CSGRT_FERRARI_H
+#ifndef CSGRT_GEOMETRY_FERRARI_H
+#define CSGRT_GEOMETRY_FERRARI_H
 
 #include "polynomial.h"
 #include "power.h"

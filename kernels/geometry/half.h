@@ -1,6 +1,6 @@
 // Half-space: one plane; the segment reaches to infinity on one side, or on both. No reals. Surface 0.
-#ifndef CSGRT_HALF_H
-#define CSGRT_HALF_H
+#ifndef CSGRT_GEOMETRY_HALF_H
+#define CSGRT_GEOMETRY_HALF_H
 
 #include "plane.h"
 

@@ -4,8 +4,8 @@
 //   -----|=========|-----------|=========|-----> t        count = 2
 //
 // `surface` numbers the surfaces of a solid; each <solid>.h says which is which.
-#ifndef CSGRT_HITS_H
-#define CSGRT_HITS_H
+#ifndef CSGRT_GEOMETRY_HITS_H
+#define CSGRT_GEOMETRY_HITS_H
 
 #include "tables.h"
 

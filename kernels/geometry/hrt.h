@@ -7,8 +7,8 @@
 //
 // The ray is cut where A or B is least and where z is 0. On each part A, A', B, B' and z are monotone, so the ranges of F
 // and of its derivatives follow from their values at the ends; pieces are walked as in superell.h.
-#ifndef CSGRT_HRT_H
-#define CSGRT_HRT_H
+#ifndef CSGRT_GEOMETRY_HRT_H
+#define CSGRT_GEOMETRY_HRT_H
 
 #include "affine.h"
 #include "crossings.h"

@@ -16,8 +16,8 @@
 //       +---------------- r
 //
 // Points on the axis are nearer to it than any ray, so an outline may end there.
-#ifndef CSGRT_HYPERBOLA_H
-#define CSGRT_HYPERBOLA_H
+#ifndef CSGRT_GEOMETRY_HYPERBOLA_H
+#define CSGRT_GEOMETRY_HYPERBOLA_H
 
 #include "affine.h"
 #include "bernstein.h"

@@ -1,8 +1,8 @@
 // Closed surfaces of triangles: what they enclose by parity (see crossings.h), whichever way the triangles face. Those
 // that are not closed, but face one way: what they enclose where a ray does not come through a gap.
 // Parameters, words: see triangle.h. Surfaces: the triangles, and LEAVES where the ray goes out.
-#ifndef CSGRT_MESH_H
-#define CSGRT_MESH_H
+#ifndef CSGRT_GEOMETRY_MESH_H
+#define CSGRT_GEOMETRY_MESH_H
 
 #include "../shared/slab.h"
 #include "crossings.h"

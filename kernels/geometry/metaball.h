@@ -10,8 +10,8 @@
 //
 // Along the ray v = m + (u - u0)^2 for each point, so its range over a piece is known exactly; phi and its derivatives by
 // v are monotone. The ranges of F, F' and F'' are sums of ranges; pieces are walked as in superell.h.
-#ifndef CSGRT_METABALL_H
-#define CSGRT_METABALL_H
+#ifndef CSGRT_GEOMETRY_METABALL_H
+#define CSGRT_GEOMETRY_METABALL_H
 
 #include "affine.h"
 #include "crossings.h"

@@ -9,8 +9,8 @@
 //         `-..-'
 //
 // Its normal turns without a jump, so it has one surface, 0. A particle that ends in a point has it as its local origin.
-#ifndef CSGRT_PART_H
-#define CSGRT_PART_H
+#ifndef CSGRT_GEOMETRY_PART_H
+#define CSGRT_GEOMETRY_PART_H
 
 #include "tgc.h"
 

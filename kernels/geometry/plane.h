@@ -1,7 +1,7 @@
 // Planes stand in one world-space table and are intersected from there, never through a solid's own matrix: two solids
 // that share a plane compute the same t to the last bit, so the sort sees an exact tie.
-#ifndef CSGRT_PLANE_H
-#define CSGRT_PLANE_H
+#ifndef CSGRT_GEOMETRY_PLANE_H
+#define CSGRT_GEOMETRY_PLANE_H
 
 #include "hits.h"
 

@@ -7,8 +7,8 @@
 //
 // Parameters: those of the place, as triangle.h has them, then SKIN: how thick along the ray, in the world, triangles
 // without thickness are. Words: PLATE_*, then the mesh's. Surfaces as in mesh.h.
-#ifndef CSGRT_PLATE_H
-#define CSGRT_PLATE_H
+#ifndef CSGRT_GEOMETRY_PLATE_H
+#define CSGRT_GEOMETRY_PLATE_H
 
 #include "mesh.h"
 

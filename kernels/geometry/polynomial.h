@@ -1,6 +1,6 @@
 // Roots, and the pieces of a ray on which a polynomial is negative (inside).
-#ifndef CSGRT_POLYNOMIAL_H
-#define CSGRT_POLYNOMIAL_H
+#ifndef CSGRT_GEOMETRY_POLYNOMIAL_H
+#define CSGRT_GEOMETRY_POLYNOMIAL_H
 
 #include "quadratic.h"
 

@@ -1,8 +1,8 @@
 // Powers with real exponents, the same to the bit on every device: only + - * / fma floor and exact scaling by powers of 2.
 // log2 by atanh's series on sqrt(1/2) .. sqrt(2), exp2 by Taylor's on -1/2 .. 1/2; both within about 1 ulp of double. With
 // 113 bits the series are longer.
-#ifndef CSGRT_POWER_H
-#define CSGRT_POWER_H
+#ifndef CSGRT_GEOMETRY_POWER_H
+#define CSGRT_GEOMETRY_POWER_H
 
 #include "../shared/base.h"
 

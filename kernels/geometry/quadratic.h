@@ -1,6 +1,6 @@
 // Where a quadratic is negative between its two roots.
-#ifndef CSGRT_QUADRATIC_H
-#define CSGRT_QUADRATIC_H
+#ifndef CSGRT_GEOMETRY_QUADRATIC_H
+#define CSGRT_GEOMETRY_QUADRATIC_H
 
 #include "hits.h"
 

@@ -8,8 +8,8 @@
 //   rhc  hyperbolic cylinder         y^2 - k z^2 + k c^2          base, ends; a plane that cuts the other branch off
 //
 // Planes: as many as there are; surface 0 is the quadric, surface 1 + i plane i.
-#ifndef CSGRT_QUADRIC_H
-#define CSGRT_QUADRIC_H
+#ifndef CSGRT_GEOMETRY_QUADRIC_H
+#define CSGRT_GEOMETRY_QUADRIC_H
 
 #include "affine.h"
 #include "plane.h"

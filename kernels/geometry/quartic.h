@@ -5,8 +5,8 @@
 //   QUARTIC_FERRARI    the closed form, ferrari.h
 //   QUARTIC_YUKSEL     roots between those of the derivative, to a stated error (Yuksel 2022, High-Performance Polynomial
 //                      Root Finding for Graphics), whose cubic is deflated once one of its roots is known
-#ifndef CSGRT_QUARTIC_H
-#define CSGRT_QUARTIC_H
+#ifndef CSGRT_GEOMETRY_QUARTIC_H
+#define CSGRT_GEOMETRY_QUARTIC_H
 
 #include "affine.h"
 #include "ferrari.h"

@@ -1,6 +1,6 @@
 // Ranges of numbers, as far as the closed-form solids need them: what a quantity may be on a piece of a ray.
-#ifndef CSGRT_RANGE_H
-#define CSGRT_RANGE_H
+#ifndef CSGRT_GEOMETRY_RANGE_H
+#define CSGRT_GEOMETRY_RANGE_H
 
 #include "../shared/base.h"
 

@@ -5,8 +5,8 @@
 //
 // Each crossing of what the outline sweeps all round (hyperbola.h) turns inside into outside, and the two half planes
 // where the turn begins and ends cut the solid out of that.
-#ifndef CSGRT_REVOLVE_H
-#define CSGRT_REVOLVE_H
+#ifndef CSGRT_GEOMETRY_REVOLVE_H
+#define CSGRT_GEOMETRY_REVOLVE_H
 
 #include "cut.h"
 #include "hyperbola.h"

@@ -1,7 +1,7 @@
 // Any solid of at most two segments, and any solid's normal: the place that knows all types (with collect.h). A program holds only the types that its scene has
 // (-DCSGRT_SOLIDS=<bits>): code that is not there costs no registers.
-#ifndef CSGRT_SOLID_H
-#define CSGRT_SOLID_H
+#ifndef CSGRT_GEOMETRY_SOLID_H
+#define CSGRT_GEOMETRY_SOLID_H
 
 #include "arb.h"
 #include "crossed_eto.h"

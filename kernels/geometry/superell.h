@@ -14,8 +14,8 @@
 // tell whether it holds a root, or its second derivative has none, and then G turns once at most. Where nothing helps
 // down to SUPERELL_LEAST of the part (a ray that touches within rounding, or runs within a flat side), the signs at the
 // ends decide as well; and after SUPERELL_STEPS pieces, at any width.
-#ifndef CSGRT_SUPERELL_H
-#define CSGRT_SUPERELL_H
+#ifndef CSGRT_GEOMETRY_SUPERELL_H
+#define CSGRT_GEOMETRY_SUPERELL_H
 
 #include "affine.h"
 #include "crossings.h"

@@ -1,6 +1,6 @@
 // The tables that solids live in, and what is known of their types.
-#ifndef CSGRT_TABLES_H
-#define CSGRT_TABLES_H
+#ifndef CSGRT_GEOMETRY_TABLES_H
+#define CSGRT_GEOMETRY_TABLES_H
 
 #include "../shared/layout.h"
 

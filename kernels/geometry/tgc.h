@@ -5,8 +5,8 @@
 //   kind 0 (a = b):  x^2 + y^2 - a^2 < 0             a quadric
 //   kind 1:          x^2 b^2 + y^2 a^2 - a^2 b^2 < 0  a quartic
 //   radius2: the square of a radius, local, around everything
-#ifndef CSGRT_TGC_H
-#define CSGRT_TGC_H
+#ifndef CSGRT_GEOMETRY_TGC_H
+#define CSGRT_GEOMETRY_TGC_H
 
 #include "cone.h"
 #include "quartic.h"

@@ -14,8 +14,8 @@
 //
 // whose terms vanish with f at the pinch of a horn torus. The origin is the ray's closest approach to just that point, so the
 // coefficients along the ray vanish likewise, and near it the quartic is as exact relative to its own size as elsewhere.
-#ifndef CSGRT_TOR_H
-#define CSGRT_TOR_H
+#ifndef CSGRT_GEOMETRY_TOR_H
+#define CSGRT_GEOMETRY_TOR_H
 
 #include "quartic.h"
 #include "torus.h"

@@ -1,6 +1,6 @@
 // Where a ray may meet a torus, and the torus's normal. Parameters, planes and surfaces are the tor's (tor.h).
-#ifndef CSGRT_TORUS_H
-#define CSGRT_TORUS_H
+#ifndef CSGRT_GEOMETRY_TORUS_H
+#define CSGRT_GEOMETRY_TORUS_H
 
 #include "affine.h"
 #include "plane.h"

@@ -1,8 +1,8 @@
 // A ray that touches a solid all along a segment, as far as rounding lets one say: it runs in a face or along a wall, or comes no
 // deeper than rounding. Both ends of the segment are marked with the side to which the ray would miss the solid (MISSED_...). Here
 // and not in each solid, which asks for it seldom: what is rare costs a GPU's registers and a processor's vectors wherever it stands.
-#ifndef CSGRT_TOUCH_H
-#define CSGRT_TOUCH_H
+#ifndef CSGRT_GEOMETRY_TOUCH_H
+#define CSGRT_GEOMETRY_TOUCH_H
 
 #include "cone.h"
 #include "plane.h"

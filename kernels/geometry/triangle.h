@@ -12,8 +12,8 @@
 //
 // Parameters: affine (12). A mesh keeps its vertices around its middle, scaled by a power of two so that all of them lie
 // within MESH_RADIUS of it.
-#ifndef CSGRT_TRIANGLE_H
-#define CSGRT_TRIANGLE_H
+#ifndef CSGRT_GEOMETRY_TRIANGLE_H
+#define CSGRT_GEOMETRY_TRIANGLE_H
 
 #include "affine.h"
 #include "polynomial.h"

@@ -6,8 +6,8 @@
 // scaling by powers of 2, which IEEE 754 fixes to the bit.
 // Transcendental functions are not bit-equal between devices and stay out.
 // Never put two calls with side effects into one argument list: compilers evaluate them in different orders.
-#ifndef CSGRT_BASE_H
-#define CSGRT_BASE_H
+#ifndef CSGRT_SHARED_BASE_H
+#define CSGRT_SHARED_BASE_H
 
 #ifdef __OPENCL_VERSION__
 #ifdef CSGRT_CONTRACT  // to see what it costs: results then differ between devices
@@ -35,7 +35,7 @@ typedef uint u32;
 #else
 #define ENDS __global
 #endif
-#ifdef CSGRT_PACKETS  // packet.h: the same functions for one ray and for several
+#ifdef CSGRT_PACKETS  // packet/packet.h: the same functions for one ray and for several
 #define FN static __attribute__((overloadable))
 #else
 #define FN static
@@ -83,7 +83,7 @@ FN real real_scaled(real x, int e) { return host::scaled(x, e); }
 FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
 #endif
 
-// A value that is one for each ray, as far as packets need the source (packet.h): of one ray, what it is called.
+// A value that is one for each ray, as far as packets need the source (packet/packet.h): of one ray, what it is called.
 typedef real parameter;  // of a solid, whatever the number of rays
 typedef float single;
 typedef int truth;  // of two reals compared

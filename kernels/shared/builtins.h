@@ -1,8 +1,8 @@
 // OpenCL C's functions, so far as kernels use them, for a compiler that is kept from reading its declarations of them all
 // (src/device/program.cpp). As Khronos's specification has them: what depends on nothing but its arguments is const, what all
 // work-items of a group must come to together is convergent.
-#ifndef CSGRT_BUILTINS_H
-#define CSGRT_BUILTINS_H
+#ifndef CSGRT_SHARED_BUILTINS_H
+#define CSGRT_SHARED_BUILTINS_H
 
 #define OVERLOADED __attribute__((overloadable))
 #define PURE __attribute__((overloadable, const))

@@ -1,7 +1,7 @@
 // THE one file for every record that crosses the bus, every opcode and every limit that host and device share.
 // Sizes and offsets are asserted on the host (src/kernel_host/kernels.hpp) and reported by a probe kernel from the device.
-#ifndef CSGRT_LAYOUT_H
-#define CSGRT_LAYOUT_H
+#ifndef CSGRT_SHARED_LAYOUT_H
+#define CSGRT_SHARED_LAYOUT_H
 
 #include "vectors.h"
 
@@ -216,9 +216,9 @@ typedef struct {
     u32 picked;            // 1: the tile's rays are those whose numbers are listed; 0: the blocks of them are
     u32 channels;          // of the picture: CHANNEL_x bits
     Window window;         // the picture's pixels that can show anything; none of the others has a ray
-    u32 lines;             // that the tile's picture has, see place_of() in camera.h; 0: a float of each ray
+    u32 lines;             // that the tile's picture has, see place_of() in traversal/camera.h; 0: a float of each ray
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
-    u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see capacity.h
+    u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
 } Frame;
 
 // A float for each plane of a picture.
@@ -265,7 +265,7 @@ typedef struct {
 // wait for each other, the more so the more there is to do: the few blocks that cost most have fewer rays in each group of LOCKSTEP.
 #define PARTS 4u
 #define PART_SHIFT 26u    // blocks are fewer: their rays have numbers of 32 bits
-#define PARTED_CLASS 40u  // costs from 128 on (class_of in picture_blocks.cl)
+#define PARTED_CLASS 40u  // costs from 128 on (class_of in tile_list.cl)
 #define LOCKSTEP 32u
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
@@ -288,7 +288,7 @@ typedef struct {
 } End;
 
 // Set in End.surface of both ends of a segment along which the ray touches the solid, as far as rounding lets one say, because
-// it runs in a face of it or along its wall: moved a little above that surface, or below it, the ray misses the solid. boolean.h
+// it runs in a face of it or along its wall: moved a little above that surface, or below it, the ray misses the solid. boolean/claim.h
 // tells what for.
 #define MISSED_ABOVE 0x40000000u
 #define MISSED_BELOW 0x20000000u

@@ -4,8 +4,8 @@
 // to the hierarchy's center, so |p| <= radius; then the errors of p, 1/d and the products amount to less than
 // radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single precision
 // boxes grow with the distance of the ray's origin: there a solid may be met where it is not.
-#ifndef CSGRT_SLAB_H
-#define CSGRT_SLAB_H
+#ifndef CSGRT_SHARED_SLAB_H
+#define CSGRT_SHARED_SLAB_H
 
 #include "layout.h"
 

@@ -1,7 +1,7 @@
-// Points, and sums and products with what their rounding lost. As everything that a packet needs (packet.h), it is written for
+// Points, and sums and products with what their rounding lost. As everything that a packet needs (packet/packet.h), it is written for
 // one ray or, with `real` redefined, for several side by side.
-#ifndef CSGRT_VECTORS_H
-#define CSGRT_VECTORS_H
+#ifndef CSGRT_SHARED_VECTORS_H
+#define CSGRT_SHARED_VECTORS_H
 
 #include "base.h"
 

@@ -47,10 +47,10 @@ std::string_view included_file(std::string_view line) {
     return name ? name->substr(0, name->find('"')) : std::string_view();
 }
 
-/// "geometry/ell.h" -> "CSGRT_ELL_H".
+/// "geometry/ell.h" -> "CSGRT_GEOMETRY_ELL_H".
 std::string guard_of(const std::string& name) {
-    std::string guard = "CSGRT_" + name.substr(name.find_last_of('/') + 1);
-    for (char& c : guard) c = c == '.' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    std::string guard = "CSGRT_" + name;
+    for (char& c : guard) c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return guard;
 }
 

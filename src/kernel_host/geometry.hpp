@@ -5,8 +5,8 @@
 
 namespace csgrt::kernel {
 
-#include "../kernels/camera.h"
+#include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
-#include "../kernels/shading.h"
+#include "../kernels/shading/pixel.h"
 
 }  // namespace csgrt::kernel

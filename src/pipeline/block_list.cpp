@@ -7,7 +7,7 @@ namespace csgrt {
 static_assert(COST_CLASSES <= work_group);  // an item a class
 
 void BlockList::build() {
-    program_.emplace(device_, assemble_program({"picture_blocks.cl"}));
+    program_.emplace(device_, assemble_program({"tile_list.cl"}));
     count_.emplace(program_->kernel("count_blocks"));
     put_background_.emplace(program_->kernel("put_background"));
     list_.emplace(program_->kernel("list_blocks"));

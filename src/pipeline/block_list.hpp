@@ -1,5 +1,5 @@
 // Of a tile whose pixels come by lines: which blocks see anything, listed on the device, and the background of the others
-// (kernels/picture_blocks.cl).
+// (kernels/tile_list.cl).
 #pragma once
 
 #include <array>

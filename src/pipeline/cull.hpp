@@ -9,7 +9,7 @@ class Cull {
 public:
     /// `program` holds the kernel of `file`.
     Cull(Device& device, const Program& program);
-    static constexpr const char* file = "0_cull_blocks.cl";
+    static constexpr const char* file = "0_cull_tiles.cl";
 
     /// Looks what the frame's tile's blocks may see, and clears the tally of one that comes by lines; does not wait. Lists every
     /// block's nodes, too: by distance if only first hits are wanted, else as they stand in the hierarchy (on a GPU, then, not at all).

@@ -9,7 +9,7 @@
 namespace csgrt {
 namespace kernel {
 #define CSGRT_LARGE_TERMS
-#include "../kernels/boolean.h"
+#include "../kernels/boolean/claim.h"
 }  // namespace kernel
 
 std::vector<std::vector<ClaimedPartition>> Exact::claims(std::uint32_t rays) const {

@@ -20,7 +20,7 @@ FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings&
     : device_(device),
       rays_an_item_(in_packets(device, settings) ? packet_rays : 1),
       program_(device,
-               assemble_program({Cull::file, rays_an_item_ == 1 ? "first_hits_ray.h" : "first_hits_packet.h",
+               assemble_program({Cull::file, rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h",
                                  "first_hits.cl"}),
                defines(device, scene, settings),
                settings.precision != Precision::double_),

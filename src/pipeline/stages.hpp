@@ -82,7 +82,7 @@ void add_times(const TimedKernels& timed, PipelineCounts& counts);
 
 /// Do a picture's rays go side by side in a processor's vectors, `packet_rays` a work-item?
 bool in_packets(const Device& device, const Settings& settings);
-inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet.h
+inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet/packet.h
 
 /// The options that a program for this scene is compiled with.
 std::vector<std::string> defines_of(const Device& device, const CompiledScene& scene, const Settings& settings);

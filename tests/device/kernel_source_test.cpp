@@ -1,6 +1,8 @@
 #include "catch.hpp"
 
 #include <stdexcept>
+#include <cctype>
+#include <set>
 #include <string>
 
 #include "device/kernel_source.hpp"
@@ -37,19 +39,32 @@ TEST_CASE("an assembled program has each file once and no #include left", "[devi
     const std::string text = assemble_program({"1_count_hits.cl", "2_store_segments.cl"});
     CHECK(count(text, "#include") == 0);
     CHECK(count(text, "#line 1 \"kernels/shared/layout.h\"") == 1);
-    CHECK(count(text, "#line 1 \"kernels/traverse.h\"") == 1);
+    CHECK(count(text, "#line 1 \"kernels/traversal/candidates.h\"") == 1);
     CHECK(count(text, "__kernel void count_hits(") == 1);
     CHECK(count(text, "__kernel void store_segments(") == 1);
     // What is included stands before what includes it.
     CHECK(text.find("SolidRecord;") < text.find("__kernel void count_hits("));
 }
 
+TEST_CASE("a header's guard is its path, so that no two share one", "[device]") {
+    std::set<std::string> guards;
+    for (const KernelFile& file : kernel_files()) {
+        std::string guard = std::string("CSGRT_") + file.name;
+        if (!guard.ends_with(".h")) continue;
+        INFO(file.name);
+        for (char& c : guard) c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        CHECK(guards.insert(guard).second);
+        CHECK(std::string(file.text).find("#ifndef " + guard + "\n#define " + guard + "\n") != std::string::npos);
+    }
+    CHECK(guards.size() > 30);
+}
+
 TEST_CASE("a file whose guard is undefined is assembled once more where it is included again", "[device]") {
-    const std::string text = assemble_program({"first_hits_packet.h", "first_hits.cl"});
+    const std::string text = assemble_program({"packet/first_hits_packet.h", "first_hits.cl"});
     CHECK(count(text, "#include") == 0);
-    for (const char* twice : {"shared/vectors.h", "shared/slab.h", "geometry/ell.h", "geometry/cone.h", "geometry/torus.h", "plastic.h"})
+    for (const char* twice : {"shared/vectors.h", "shared/slab.h", "geometry/ell.h", "geometry/cone.h", "geometry/torus.h", "shading/plastic.h"})
         CHECK(count(text, std::string("#line 1 \"kernels/") + twice + "\"") == 2);
-    for (const char* once : {"shared/base.h", "shared/layout.h", "geometry/tgc.h", "geometry/tor.h", "shading.h", "packet.h"})
+    for (const char* once : {"shared/base.h", "shared/layout.h", "geometry/tgc.h", "geometry/tor.h", "shading/pixel.h", "packet/packet.h"})
         CHECK(count(text, std::string("#line 1 \"kernels/") + once + "\"") == 1);
 }
 

@@ -38,15 +38,15 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
             CHECK(program.has_own_declarations());
             CHECK(program.build_log() == "");
         };
-        std::vector<std::string> exact = {"0_cull_blocks.cl", "1_count_hits.cl", "scan.cl",     "2_store_segments.cl",
+        std::vector<std::string> exact = {"0_cull_tiles.cl", "1_count_hits.cl", "scan.cl",     "2_store_segments.cl",
                                           "3_weave.cl",       "4_evaluate.cl",   "5_shade.cl"};
         require_own(exact);
-        require_own({"picture_blocks.cl"});
+        require_own({"tile_list.cl"});
         defines.push_back("CSGRT_PRIVATE_ENDS");
-        require_own({"0_cull_blocks.cl", "first_hits_ray.h", "first_hits.cl"});
+        require_own({"0_cull_tiles.cl", "shading/first_hits_ray.h", "first_hits.cl"});
         defines.push_back("CSGRT_PACKETS");
         if (is_single) continue;
-        require_own({"0_cull_blocks.cl", "first_hits_packet.h", "first_hits.cl"});
+        require_own({"0_cull_tiles.cl", "packet/first_hits_packet.h", "first_hits.cl"});
         std::erase(defines, "CSGRT_PRIVATE_ENDS");
         exact.insert(exact.begin() + 1, "1_packet_candidates.cl");
         require_own(exact);

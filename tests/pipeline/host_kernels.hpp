@@ -27,8 +27,8 @@ using std::size_t;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wzero-as-null-pointer-constant"
-#include "../kernels/traverse.h"
-#include "../kernels/0_cull_blocks.cl"
+#include "../kernels/traversal/candidates.h"
+#include "../kernels/0_cull_tiles.cl"
 #include "../kernels/1_count_hits.cl"
 #include "../kernels/2_store_segments.cl"
 #include "../kernels/3_weave.cl"
@@ -36,7 +36,7 @@ using std::size_t;
 #include "../kernels/5_shade.cl"
 #define CSGRT_SOLIDS 0xffffffffu
 inline u32 atomic_inc(u32* place) { return (*place)++; }
-#include "../kernels/first_hits_ray.h"
+#include "../kernels/shading/first_hits_ray.h"
 #include "../kernels/first_hits.cl"
 #undef CSGRT_SOLIDS
 #pragma GCC diagnostic pop

@@ -15,7 +15,7 @@ struct Hierarchy {
     std::vector<std::uint32_t> order;    ///< boxes in the order of the leaves
 };
 
-/// Boxes are widened by this much of the radius, all around. The slab test of kernels/traverse.h takes the ray's origin
+/// Boxes are widened by this much of the radius, all around. The slab test of kernels/traversal/candidates.h takes the ray's origin
 /// within one radius of the centre, and with all its roundings to float displaces a side by less than half of this.
 inline constexpr double bvh_padding = 1.0 / (1 << 20);
 

@@ -1,4 +1,4 @@
-// Trees -> their terms (kernels/boolean.h): what evaluation needs besides the words.
+// Trees -> their terms (kernels/boolean/claim.h): what evaluation needs besides the words.
 #pragma once
 
 #include "compile/compiled_scene.hpp"

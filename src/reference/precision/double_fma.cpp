@@ -23,9 +23,9 @@ namespace csgrt::fused {
 
 using namespace kernel;  // records, and functions so small that they become part of those that call them
 
-#include "../kernels/camera.h"
+#include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
-#include "../kernels/shading.h"
+#include "../kernels/shading/pixel.h"
 
 }  // namespace csgrt::fused
 

@@ -7,9 +7,9 @@
 #include "compile/compiled_scene.hpp"
 #include "reference/reference_kernels.hpp"
 
-#undef CSGRT_BASE_H
-#undef CSGRT_VECTORS_H
-#undef CSGRT_LAYOUT_H
+#undef CSGRT_SHARED_BASE_H
+#undef CSGRT_SHARED_VECTORS_H
+#undef CSGRT_SHARED_LAYOUT_H
 #undef SOLID_CENTER
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wfloat-conversion"
@@ -20,8 +20,8 @@ CSGRT_NUMBERS
 using u32 = std::uint32_t;
 inline const real REAL_INFINITY = static_cast<real>(std::numeric_limits<double>::infinity());
 
-#include "../kernels/camera.h"
+#include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
-#include "../kernels/shading.h"
+#include "../kernels/shading/pixel.h"
 
 }  // namespace csgrt::CSGRT_KERNELS

@@ -6,10 +6,10 @@
 //
 //   region   (a + b - c) u (d - e) u f
 //   starts    a or b        d        f       cover {c, d}: only d - e is evaluated
-#ifndef CSGRT_BOOLEAN_H
-#define CSGRT_BOOLEAN_H
+#ifndef CSGRT_BOOLEAN_CLAIM_H
+#define CSGRT_BOOLEAN_CLAIM_H
 
-#include "shared/layout.h"
+#include "../shared/layout.h"
 
 // A ray's segments, and the bits that say which of them cover the partition.
 typedef struct {

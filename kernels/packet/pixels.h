@@ -1,9 +1,9 @@
-// From what a packet's rays see first to the channels of their pixels: shading.h's work, for eight at once.
+// From what a packet's rays see first to the channels of their pixels: shading/pixel.h's work, for eight at once.
 #ifndef CSGRT_PACKET_PIXELS_H
 #define CSGRT_PACKET_PIXELS_H
 
-#include "packet_hits.h"
-#include "shading.h"
+#include "hits.h"
+#include "../shading/pixel.h"
 
 // Of what the rays of `hit` see first: along the surface's outward normal. The others look like the first of them.
 FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {

@@ -1,9 +1,9 @@
 // The first hit of one ray, drawn (first_hits.cl).
-#ifndef CSGRT_FIRST_HITS_RAY_H
-#define CSGRT_FIRST_HITS_RAY_H
+#ifndef CSGRT_SHADING_FIRST_HITS_RAY_H
+#define CSGRT_SHADING_FIRST_HITS_RAY_H
 
-#include "first_hit.h"
-#include "shading.h"
+#include "../boolean/first_hit.h"
+#include "pixel.h"
 
 #define RAYS_AN_ITEM 1u
 #define FIRST_OF_ITEM(id) (id)

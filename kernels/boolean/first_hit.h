@@ -1,19 +1,19 @@
 // The first claimed partition of a ray, without the others: front to back, in the ray's own memory.
 //
-// The nodes that the ray's block may meet come nearest first (blocks.h). What is still unseen lies behind the next of them,
+// The nodes that the ray's block may meet come nearest first (traversal/beam.h). What is still unseen lies behind the next of them,
 // so every event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim
 // ends it all. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
 //
 //   nodes      |--seen--|   |--seen--|      |--unseen--|
 //   ends        i     o  i    i   o         :       o  o
 //   events      1     2  3    4   5         : these may be joined by others yet
-#ifndef CSGRT_FIRST_HIT_H
-#define CSGRT_FIRST_HIT_H
+#ifndef CSGRT_BOOLEAN_FIRST_HIT_H
+#define CSGRT_BOOLEAN_FIRST_HIT_H
 
-#include "blocks.h"
-#include "boolean.h"
-#include "geometry/collect.h"
-#include "traverse.h"
+#include "../traversal/beam.h"
+#include "claim.h"
+#include "../geometry/collect.h"
+#include "../traversal/candidates.h"
 
 #define PENDING FEW                 // segments that a ray holds at a time: its ends are not sorted by solid
 #define SLOT_WORDS (PENDING / 32u)  // of a bit for each of them

@@ -1,8 +1,8 @@
 // The ray through the middle of a pixel.
-#ifndef CSGRT_VIEW_H
-#define CSGRT_VIEW_H
+#ifndef CSGRT_TRAVERSAL_VIEW_H
+#define CSGRT_TRAVERSAL_VIEW_H
 
-#include "shared/layout.h"
+#include "../shared/layout.h"
 
 // Column and row from the top left.
 FN world_ray view_ray(GLOBAL const Frame* f, wide column, wide row) {

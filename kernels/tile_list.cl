@@ -1,6 +1,6 @@
 // Before the kernels of a tile whose pixels come by lines, on a GPU: which of its blocks see anything, those that cost most first,
 // so that the host need not say, and wait before it does; and the background of all others.
-#include "camera.h"
+#include "traversal/camera.h"
 
 // A class for each cost below 16, then eight for every power of two.
 static u32 class_of(u32 cost) {

@@ -1,11 +1,11 @@
-// What a packet's rays meet of a solid, taken up by each of them: first_hit.h's work, but the closed-form solids are put to all of
+// What a packet's rays meet of a solid, taken up by each of them: boolean/first_hit.h's work, but the closed-form solids are put to all of
 // them at once.
 //
 // Some of the rays (`which`, `lost`) are a word whose bit k stands for ray k.
 #ifndef CSGRT_PACKET_SOLIDS_H
 #define CSGRT_PACKET_SOLIDS_H
 
-#include "first_hit.h"
+#include "../boolean/first_hit.h"
 #include "packet.h"
 
 // The rays of a packet on their way through the scene.

@@ -3,11 +3,11 @@
 // A point of one of them and the point of the middle ray that is as far from the eye (parallel rays: from the picture
 // plane) are apart by the beam's `spread` at most. So where the middle ray enters a box that is larger by that much,
 // no ray of the block has entered the box itself yet.
-#ifndef CSGRT_BLOCKS_H
-#define CSGRT_BLOCKS_H
+#ifndef CSGRT_TRAVERSAL_BEAM_H
+#define CSGRT_TRAVERSAL_BEAM_H
 
 #include "camera.h"
-#include "shared/slab.h"
+#include "../shared/slab.h"
 
 typedef struct {
     slab_ray slabs;

@@ -1,7 +1,7 @@
 // From a ray's number to the ray. Rays of a picture are numbered in blocks of 8 x 8 pixels of its window, row by row from the top
 // left.
-#ifndef CSGRT_CAMERA_H
-#define CSGRT_CAMERA_H
+#ifndef CSGRT_TRAVERSAL_CAMERA_H
+#define CSGRT_TRAVERSAL_CAMERA_H
 
 #include "view.h"
 

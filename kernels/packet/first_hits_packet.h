@@ -1,8 +1,8 @@
 // The first hits of a packet of rays, drawn (first_hits.cl): two rows of four pixels.
-#ifndef CSGRT_FIRST_HITS_PACKET_H
-#define CSGRT_FIRST_HITS_PACKET_H
+#ifndef CSGRT_PACKET_FIRST_HITS_PACKET_H
+#define CSGRT_PACKET_FIRST_HITS_PACKET_H
 
-#include "packet_pixels.h"
+#include "pixels.h"
 
 #define RAYS_AN_ITEM PACKET
 #define FIRST_OF_ITEM(id) first_of_packet(id)

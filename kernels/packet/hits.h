@@ -1,11 +1,11 @@
-// The first claimed partitions of a packet's rays: first_hit.h's work, but the rays go through their block's nodes together. Each
+// The first claimed partitions of a packet's rays: boolean/first_hit.h's work, but the rays go through their block's nodes together. Each
 // ray's events are its own.
 //
 // Some of the rays (`which`, `lost`, `hit`) are a word whose bit k stands for ray k.
 #ifndef CSGRT_PACKET_HITS_H
 #define CSGRT_PACKET_HITS_H
 
-#include "packet_batch.h"
+#include "batch.h"
 
 // The rays among `which` that meet what a subtree holds take it up, or have it wait. Returns those that have no room.
 FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, solid_batch* waiting) {

@@ -1,9 +1,9 @@
 // From what a ray hits to the channels of its pixel.
-#ifndef CSGRT_SHADING_H
-#define CSGRT_SHADING_H
+#ifndef CSGRT_SHADING_PIXEL_H
+#define CSGRT_SHADING_PIXEL_H
 
-#include "camera.h"
-#include "geometry/solid.h"
+#include "../traversal/camera.h"
+#include "../geometry/solid.h"
 #include "plastic.h"
 
 // How regions look.

@@ -2,13 +2,13 @@
 // solids than one row of eight. For processors, whose work-items have vectors: what a ray waits for, others use.
 //
 // The source is the same (one ray's `real` becomes a vector), so the bits are: vectors round each number as scalars do.
-#ifndef CSGRT_PACKET_H
-#define CSGRT_PACKET_H
+#ifndef CSGRT_PACKET_PACKET_H
+#define CSGRT_PACKET_PACKET_H
 
-#include "camera.h"
-#include "geometry/solid.h"
-#include "plastic.h"
-#include "shared/slab.h"
+#include "../traversal/camera.h"
+#include "../geometry/solid.h"
+#include "../shading/plastic.h"
+#include "../shared/slab.h"
 
 #define PACKET 8u
 
@@ -60,34 +60,34 @@ FN int none(long8 x) { return !any(x); }
 #define plane_normal packet_plane_normal
 #define face_normal packet_face_normal
 
-#undef CSGRT_VECTORS_H
-#undef CSGRT_VIEW_H
-#undef CSGRT_SLAB_H
-#undef CSGRT_HITS_H
-#undef CSGRT_AFFINE_H
-#undef CSGRT_PLANE_H
-#undef CSGRT_QUADRATIC_H
-#undef CSGRT_ARB_H
-#undef CSGRT_ELL_H
-#undef CSGRT_HALF_H
-#undef CSGRT_CONE_H
-#undef CSGRT_TORUS_H
-#undef CSGRT_EHY_H
-#undef CSGRT_QUADRIC_H
-#undef CSGRT_PLASTIC_H
-#include "shared/vectors.h"
-#include "view.h"
-#include "shared/slab.h"
-#include "geometry/hits.h"
-#include "geometry/affine.h"
-#include "geometry/plane.h"
-#include "geometry/quadratic.h"
-#include "geometry/arb.h"
-#include "geometry/ell.h"
-#include "geometry/half.h"
-#include "geometry/cone.h"
-#include "geometry/torus.h"
-#include "plastic.h"
+#undef CSGRT_SHARED_VECTORS_H
+#undef CSGRT_TRAVERSAL_VIEW_H
+#undef CSGRT_SHARED_SLAB_H
+#undef CSGRT_GEOMETRY_HITS_H
+#undef CSGRT_GEOMETRY_AFFINE_H
+#undef CSGRT_GEOMETRY_PLANE_H
+#undef CSGRT_GEOMETRY_QUADRATIC_H
+#undef CSGRT_GEOMETRY_ARB_H
+#undef CSGRT_GEOMETRY_ELL_H
+#undef CSGRT_GEOMETRY_HALF_H
+#undef CSGRT_GEOMETRY_CONE_H
+#undef CSGRT_GEOMETRY_TORUS_H
+#undef CSGRT_GEOMETRY_EHY_H
+#undef CSGRT_GEOMETRY_QUADRIC_H
+#undef CSGRT_SHADING_PLASTIC_H
+#include "../shared/vectors.h"
+#include "../traversal/view.h"
+#include "../shared/slab.h"
+#include "../geometry/hits.h"
+#include "../geometry/affine.h"
+#include "../geometry/plane.h"
+#include "../geometry/quadratic.h"
+#include "../geometry/arb.h"
+#include "../geometry/ell.h"
+#include "../geometry/half.h"
+#include "../geometry/cone.h"
+#include "../geometry/torus.h"
+#include "../shading/plastic.h"
 
 // A packet's count of segments where it takes more than is here to know: the ray is to go alone.
 #define UNDECIDED 3u
@@ -102,8 +102,8 @@ FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, 
     return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
 }
 
-#include "geometry/ehy.h"
-#include "geometry/quadric.h"
+#include "../geometry/ehy.h"
+#include "../geometry/quadric.h"
 
 // As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be solved.
 FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
@@ -250,7 +250,7 @@ FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {
     return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius, f->t_min);
 }
 
-// As one ray's (traverse.h), for the rays of `which`; *hit: those of them that meet the leaf.
+// As one ray's (traversal/candidates.h), for the rays of `which`; *hit: those of them that meet the leaf.
 FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, u32* i, u32 end, u32 which, u32* hit) {
     u32 leaf = 0;
     while (!leaf && *i < end) {

@@ -1,6 +1,6 @@
 // Kernel 0: which blocks of a picture can see anything at all; the rays of the others are never made. And which nodes of
 // the hierarchy each of them meets: found once for 64 rays, which are put to little else.
-#include "blocks.h"
+#include "traversal/beam.h"
 
 // Nothing is counted yet, and no block shows anything.
 static void clear_tally(__global TileTally* tally, u32 blocks, u32 id) {

@@ -3,11 +3,11 @@
 // Nodes stand in depth-first order and know where to go on when their box is missed: no stack. Solids are numbered in
 // the order of the leaves, so a ray's candidates, and later its segments, come out sorted by solid. Every hit along the ray
 // is wanted, so the order of distance does not matter here.
-#ifndef CSGRT_TRAVERSE_H
-#define CSGRT_TRAVERSE_H
+#ifndef CSGRT_TRAVERSAL_CANDIDATES_H
+#define CSGRT_TRAVERSAL_CANDIDATES_H
 
 #include "camera.h"
-#include "shared/slab.h"
+#include "../shared/slab.h"
 
 // Steps to the next leaf that the ray meets among the nodes from *i on. Returns its solids as BvhNode has them, 0 if `end`
 // comes first; *i stands behind it then.

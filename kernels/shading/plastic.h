@@ -6,10 +6,10 @@
 // colour * glow (SHAPED_LIGHTS).
 //
 // The power is by squaring: multiplications only, so every device gives the same bits.
-#ifndef CSGRT_PLASTIC_H
-#define CSGRT_PLASTIC_H
+#ifndef CSGRT_SHADING_PLASTIC_H
+#define CSGRT_SHADING_PLASTIC_H
 
-#include "shared/layout.h"
+#include "../shared/layout.h"
 
 typedef struct {
     real r, g, b;

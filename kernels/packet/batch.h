@@ -5,8 +5,8 @@
 #ifndef CSGRT_PACKET_BATCH_H
 #define CSGRT_PACKET_BATCH_H
 
-#include "packet_solids.h"
-#include "shading.h"
+#include "solids.h"
+#include "../shading/pixel.h"
 
 #ifdef CSGRT_FETCH
 
