@@ -34,7 +34,7 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     const PreparedFrame prepared = prepare_frame(compiled, view, -1);
     kernel::counted = {};
     const test::HostRun run = test::run_kernels(compiled, prepared);
-    const double pixels = view.width * view.height;  // of which only those of the window have rays
+    const double pixels = view.width * view.height;  // of which only those of the screen have rays
     const auto per_pixel = [&](auto count) { return static_cast<double>(count) / pixels; };
     const auto bytes_of = [](const auto& all) { return all.size() * sizeof all[0]; };
     std::uint64_t partitions = 0;

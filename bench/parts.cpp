@@ -99,7 +99,7 @@ private:
             case 0:
                 return bushing(name);
             case 1:
-                return block(name);
+                return tile(name);
             case 2:
                 return rounded(name);
             default:
@@ -117,7 +117,7 @@ private:
     }
 
     /// A box with two drilled holes, one of them countersunk by a ball.
-    void block(const std::string& name) {
+    void tile(const std::string& name) {
         const double x = between(5, 9), y = between(5, 9), z = between(4, 14), at = between(1, x - 3);
         const Tree body = solid(box({-x, -y, 0}, {x, y, z}));
         const Tree upright = solid(cylinder({at, 0, -1}, {0, 0, z + 2}, between(0.8, 1.8)));

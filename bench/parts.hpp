@@ -7,7 +7,7 @@
 
 namespace csgrt::bench {
 
-/// Exactly `solids` solids (3 at least), about four a region: blocks with holes, bushings, flanges and rounded blocks
+/// Exactly `solids` solids (3 at least), about four a region: tiles with holes, bushings, flanges and rounded tiles
 /// on a square grid on one plate, in groups of 16, each with its own sizes and its place by a matrix; one in four is
 /// turned. From any side the picture is covered about alike and a ray meets about as many parts, however many there
 /// are. The same numbers on every machine: nothing is used but + - * / sqrt and whole numbers.

@@ -1,17 +1,17 @@
-// Kernel 0: which blocks of a picture can see anything at all; the rays of the others are never made. And which nodes of
+// Kernel 0: which tiles of a picture can see anything at all; the rays of the others are never made. And which nodes of
 // the hierarchy each of them meets: found once for 64 rays, which are put to little else.
 #include "traversal/beam.h"
 
-// Nothing is counted yet, and no block shows anything.
-static void clear_tally(__global TileTally* tally, u32 blocks, u32 id) {
+// Nothing is counted yet, and no tile shows anything.
+static void clear_tally(__global BatchReport* tally, u32 tiles, u32 id) {
     u32 k;
-    for (k = id; k < sizeof(TileTally) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)tally)[k] = 0;
-    if (id < blocks) ((__global unsigned char*)(tally + 1))[id] = 0;
+    for (k = id; k < sizeof(BatchReport) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)tally)[k] = 0;
+    if (id < tiles) ((__global unsigned char*)(tally + 1))[id] = 0;
 }
 
 // From the root down, level by level, as long as there is room: a node gives way to those of its two children that the
 // beam meets. The entries are the hierarchy's parameter yet.
-static u32 list_nodes(beam b, __global const BvhNode* nodes, BlockNode* list) {
+static u32 list_nodes(beam b, __global const BvhNode* nodes, TileNode* list) {
     u32 count, k, split = 1;
     list[0] = entry_of(b, nodes, 0);
     count = list[0].entry < BOX_MISSED;
@@ -20,8 +20,8 @@ static u32 list_nodes(beam b, __global const BvhNode* nodes, BlockNode* list) {
         u32 kept = 0;
         split = 0;
         for (k = 0; k < end; ++k) {
-            const BlockNode e = list[k];
-            BlockNode first, second;
+            const TileNode e = list[k];
+            TileNode first, second;
             if (nodes[e.node].leaf || count == LISTED_NODES - 1) {
                 list[kept++] = e;
                 continue;
@@ -45,13 +45,13 @@ static u32 list_nodes(beam b, __global const BvhNode* nodes, BlockNode* list) {
 }
 
 // By distance, or as they stand in the hierarchy.
-static void store_sorted(beam b, BlockNode* list, u32 count, int by_distance, __global BlockNode* stored) {
+static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __global TileNode* stored) {
     u32 i, k;
     for (i = 0; i < count; ++i) {
-        BlockNode e = list[i];
+        TileNode e = list[i];
         e.entry = entry_from_center(b, e.entry);
         for (k = i; k > 0; --k) {
-            const BlockNode before = list[k - 1];
+            const TileNode before = list[k - 1];
             if (by_distance ? before.entry <= e.entry : before.node < e.node) break;
             list[k] = before;
         }
@@ -62,8 +62,8 @@ static void store_sorted(beam b, BlockNode* list, u32 count, int by_distance, __
     stored[count].entry = BOX_MISSED;
 }
 
-// Leaves and the nodes above them, as far as a byte goes: what a block's rays cost is more or less in proportion.
-static u32 count_nodes(__global const BvhNode* nodes, const BlockNode* list, u32 count) {
+// Leaves and the nodes above them, as far as a byte goes: what a tile's rays cost is more or less in proportion.
+static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count) {
     u32 i, sum = 0;
     for (i = 0; i < count; ++i) sum += nodes[list[i].node].skip - list[i].node;
     return sum < 254 ? sum : 254;
@@ -81,17 +81,17 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
     return 0;
 }
 
-// A work-item is a block: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. `lists` 0: they are not wanted.
-__kernel void cull_blocks(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global BlockNode* lists, __global TileTally* tally) {
-    const u32 id = (u32)get_global_id(0), blocks = frame->ray_count / (BLOCK * BLOCK);
+// A work-item is a tile: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. `lists` 0: they are not wanted.
+__kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
+                          __global TileNode* lists, __global BatchReport* tally) {
+    const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);
     u32 cost = 0;
     beam b;
-    if (frame->lines) clear_tally(tally, blocks, id);
-    if (id >= blocks) return;
-    b = make_beam(frame, frame->first_ray / (BLOCK * BLOCK) + id);
+    if (frame->lines) clear_tally(tally, tiles, id);
+    if (id >= tiles) return;
+    b = make_beam(frame, frame->first_ray / (TILE * TILE) + id);
     if (lists) {
-        BlockNode list[LISTED_NODES - 1];
+        TileNode list[LISTED_NODES - 1];
         u32 count = 0;
         if (b.slabs.hits_sphere && frame->node_count > 0) count = list_nodes(b, nodes, list);
         store_sorted(b, list, count, !frame->every_partition, lists + (size_t)id * LISTED_NODES);

@@ -5,7 +5,7 @@
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
 //
-// On processors the rays of a picture's blocks find their candidates eight at once (1_packet_candidates.cl).
+// On processors the rays of a picture's tiles find their candidates eight at once (1_packet_candidates.cl).
 #include "traversal/beam.h"
 #include "traversal/camera.h"
 #include "geometry/collect.h"
@@ -13,8 +13,8 @@
 #include "traversal/candidates.h"
 
 // Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
-// in blocks.
-__kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
+// in tiles.
+__kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
                               __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0), number;
     RayCount count;

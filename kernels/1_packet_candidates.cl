@@ -1,4 +1,4 @@
-// Kernel 1's first step on processors, for the rays of a picture's blocks: which solids may they meet, eight rays at once. And,
+// Kernel 1's first step on processors, for the rays of a picture's tiles: which solids may they meet, eight rays at once. And,
 // of solids that packets know, what they meet of them: count_hits (1_count_hits.cl) is left those that one ray alone comes to.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
@@ -6,16 +6,16 @@
 #include "geometry/collect.h"
 #include "packet/packet.h"
 
-// A packet on its way through the nodes of its block's list.
+// A packet on its way through the nodes of its tile's list.
 typedef struct {
     packet_slab_ray slabs;
     __global const BvhNode* nodes;
-    __global const BlockNode* next;
+    __global const TileNode* next;
     u32 which;   // rays that pass near the scene
     u32 i, end;  // of the subtree that it is in
 } packet_walk;
 
-static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const BlockNode* list,
+static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const TileNode* list,
                               packet_world_ray r, u32 within) {
     packet_walk w;
     w.slabs = slabs_of(f, r);
@@ -39,14 +39,14 @@ static u32 next_packet_leaf(packet_walk* w, u32* hit) {
     return leaf;
 }
 
-__kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const BlockNode* lists,
+__kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
                                       __global const RayRecord* rays, __global RayCount* places) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     pixel_position first;
     u32 counts[PACKET], number, k;
     if (id >= frame->ray_count) return;
     number = first_of_packet(number_of(frame, rays, id));
-    first = pixel_of(number, frame->window);
+    first = pixel_of(number, frame->screen);
     for (k = 0; k < PACKET; ++k) counts[k] = 0;
     if (first.inside) {
         const u32 within = rays_inside(frame, first);
@@ -104,7 +104,7 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 which) {
 __kernel void list_packet_candidates(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                                      __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
                                      __global const u32* words, __global const BvhNode* inner_nodes,
-                                     __global const BvhNode* nodes, __global const BlockNode* lists,
+                                     __global const BvhNode* nodes, __global const TileNode* lists,
                                      __global const RayRecord* rays, __global const RayCount* places,
                                      __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
@@ -123,7 +123,7 @@ __kernel void list_packet_candidates(__global const Frame* frame, __global const
     }
     if (!any) return;
     number = first_of_packet(number_of(frame, rays, id));
-    first = pixel_of(number, frame->window);
+    first = pixel_of(number, frame->screen);
     within = rays_inside(frame, first);
     from_eye = rays_through(frame, first);
     list.rays.o = from_eye.o;

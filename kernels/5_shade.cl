@@ -9,7 +9,7 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
                     __global const LightRecord* lights, __global const RayCount* offsets,
                     __global const End* ends, __global const PartitionNode* nodes,
                     __global RayTally* tallies, __global const RayRecord* rays,
-                    __global TileTally* tally_of_tile, __global float* picture) {
+                    __global BatchReport* report, __global float* picture) {
     u32 id = (u32)get_global_id(0), seen = NONE, number;
     RayTally tally;
     Pixel pixel;
@@ -17,12 +17,12 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     ray3 r;
     if (id >= frame->ray_count) return;
     if (id == 0 && frame->lines) {  // weaving has left what stands behind the rays' tallies
-        tally_of_tile->candidates = tallies[frame->ray_count].partitions;
-        tally_of_tile->total = offsets[frame->ray_count];
+        report->candidates = tallies[frame->ray_count].partitions;
+        report->total = offsets[frame->ray_count];
     }
     if (!segments_fit(frame, offsets)) return;
     number = number_of(frame, rays, id);
-    at = pixel_of(number, frame->window);
+    at = pixel_of(number, frame->screen);
     if (!at.inside) return;
     r = geometry_ray(frame, camera_ray(frame, at));
     tally = tallies[id];
@@ -53,5 +53,5 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
     pixel.overlap = tally.overlaps;
     tallies[id].overlaps = tally.overlaps;
     put_pixel(frame, picture + place_of(frame, at, id), pixel);
-    if (pixel.depth) mark_shown(frame, tally_of_tile, number);  // a ray that meets no segment sees nothing
+    if (pixel.depth) mark_shown(frame, report, number);  // a ray that meets no segment sees nothing
 }

@@ -1,14 +1,14 @@
-// The first hits of a picture, without segments in memory: from a block's nodes to its pixels. How a work-item goes that way
+// The first hits of a picture, without segments in memory: from a tile's nodes to its pixels. How a work-item goes that way
 // comes before this: a ray at a time (shading/first_hits_ray.h), or on processors eight (packet/first_hits_packet.h).
 //
-// Of a tile whose pixels come by lines the host need not know how many blocks see anything: items without an entry end at once.
+// Of a batch whose pixels come by lines the host need not know how many tiles see anything: items without an entry end at once.
 
-// The number that item `id` has by the list of blocks, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
+// The number that item `id` has by the list of tiles, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
-    const u32 entry = entries[id / (BLOCK * BLOCK)], code = entry >> PART_SHIFT, within = id % (BLOCK * BLOCK);
+    const u32 entry = entries[id / (TILE * TILE)], code = entry >> PART_SHIFT, within = id % (TILE * TILE);
     const u32 parts = code ? PARTS : 1u, rays = LOCKSTEP / parts, part = code ? code - PARTS : 0;
     if (within % LOCKSTEP >= rays) return COUNT_MAX;
-    return (entry & ((1u << PART_SHIFT) - 1u)) * (BLOCK * BLOCK) + part * (BLOCK * BLOCK) / parts + within / LOCKSTEP * rays +
+    return (entry & ((1u << PART_SHIFT) - 1u)) * (TILE * TILE) + part * (TILE * TILE) / parts + within / LOCKSTEP * rays +
            within % LOCKSTEP;
 }
 
@@ -17,19 +17,19 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
                          __global const BvhNode* inner_nodes, __global const BvhNode* nodes,
                          __global const RegionRecord* regions, __global const StartRecord* starts, __global const u32* leaves,
                          __global const u32* trees, __global const MaterialRecord* materials,
-                         __global const LightRecord* lights, __global const BlockNode* block_nodes,
-                         __global const RayRecord* rays, __global TileTally* tally, __global u32* overflown,
+                         __global const LightRecord* lights, __global const TileNode* tile_nodes,
+                         __global const RayRecord* rays, __global BatchReport* tally, __global u32* overflown,
                          __global float* picture) {
     const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
     u32 number, lost, sees;
     pixel_position at;
     scene_tables s;
     appearance_tables a;
-    if (id >= frame->ray_count || (frame->lines && id / (BLOCK * BLOCK) >= tally->entries)) return;
+    if (id >= frame->ray_count || (frame->lines && id / (TILE * TILE) >= tally->entries)) return;
     number = frame->lines ? number_in_part((__global const u32*)rays, id) : number_of(frame, rays, id);
     if (number == COUNT_MAX) return;
     number = FIRST_OF_ITEM(number);
-    at = pixel_of(number, frame->window);
+    at = pixel_of(number, frame->screen);
     if (!at.inside) return;
     s.g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
     s.nodes = nodes;
@@ -42,7 +42,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     a.regions = regions;
     a.materials = materials;
     a.lights = lights;
-    lost = draw(frame, s, a, list_of(frame, block_nodes, number), at, picture + place_of(frame, at, FIRST_OF_ITEM(id)), &sees);
+    lost = draw(frame, s, a, list_of(frame, tile_nodes, number), at, picture + place_of(frame, at, FIRST_OF_ITEM(id)), &sees);
     if (sees) mark_shown(frame, tally, number);
     for (; lost; lost &= lost - 1u) overflown[atomic_inc(&tally->overflows)] = number + RAY_OF_ITEM(lowest(lost));
 }

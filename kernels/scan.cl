@@ -1,6 +1,6 @@
 // Between kernels 1 and 2: exclusive prefix sums over RayCount, in place. A group of SCAN_GROUP items sums SCAN_BLOCK
 // entries; one group sums the blocks' sums, which are added to their entries. Sums saturate at COUNT_MAX, which tells
-// the host that the tile is too large.
+// the host that the batch is too large.
 //
 //   scan blocks -> scan sums -> scan add
 #include "shared/layout.h"

@@ -1,4 +1,4 @@
-// Before the kernels of a tile whose pixels come by lines, on a GPU: which of its blocks see anything, those that cost most first,
+// Before the kernels of a batch whose pixels come by lines, on a GPU: which of its tiles see anything, those that cost most first,
 // so that the host need not say, and wait before it does; and the background of all others.
 #include "traversal/camera.h"
 
@@ -8,50 +8,50 @@ static u32 class_of(u32 cost) {
     return cost < 16u ? cost : 8u * power - 16u + (cost >> (power - 3u) & 7u);
 }
 
-// costs: kernel 0's, of `count` blocks. An item a block.
-__kernel void count_blocks(__global const unsigned char* costs, u32 count, __global TileTally* tally) {
-    __local u32 blocks[COST_CLASSES];
+// costs: kernel 0's, of `count` tiles. An item a tile.
+__kernel void count_tiles(__global const unsigned char* costs, u32 count, __global BatchReport* tally) {
+    __local u32 tiles[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
-    if (item < COST_CLASSES) blocks[item] = 0;
+    if (item < COST_CLASSES) tiles[item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (id < count) atomic_inc(blocks + class_of(costs[id]));
+    if (id < count) atomic_inc(tiles + class_of(costs[id]));
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < COST_CLASSES && blocks[item]) atomic_add(tally->blocks + item, blocks[item]);
+    if (item < COST_CLASSES && tiles[item]) atomic_add(tally->tiles + item, tiles[item]);
 }
 
-// Entries of a block of that class.
+// Entries of a tile of that class.
 static u32 parts_of(u32 class_number, u32 in_parts) { return in_parts && class_number >= PARTED_CLASS ? PARTS : 1u; }
 
-// Are blocks listed in parts? The list has room for as many entries as there are blocks: those that see nothing make it.
-static u32 are_in_parts(__local const u32* blocks, u32 most_in_parts) {
+// Are tiles listed in parts? The list has room for as many entries as there are tiles: those that see nothing make it.
+static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
     u32 k, in_parts = 0;
-    for (k = PARTED_CLASS; k < COST_CLASSES; ++k) in_parts += blocks[k];
-    return in_parts <= most_in_parts && in_parts * (PARTS - 1u) <= blocks[0];
+    for (k = PARTED_CLASS; k < COST_CLASSES; ++k) in_parts += tiles[k];
+    return in_parts <= most_in_parts && in_parts * (PARTS - 1u) <= tiles[0];
 }
 
-// The numbers of the tile's blocks that see anything, from `first` on, in `numbers`: those of the same class in any order. A device
+// The numbers of the batch's tiles that see anything, from `first` on, in `numbers`: those of the same class in any order. A device
 // that ends with the longest waits for it; so the dearest come first, and in parts if they are no more than `most_in_parts`.
-__kernel void list_blocks(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global TileTally* tally,
+__kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global BatchReport* tally,
                           __global u32* numbers) {
-    __local u32 all[COST_CLASSES], blocks[COST_CLASSES], places[COST_CLASSES];
+    __local u32 all[COST_CLASSES], tiles[COST_CLASSES], places[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
     u32 own = 0, before = 0, in_parts, k;
     if (item < COST_CLASSES) {
-        all[item] = tally->blocks[item];
-        blocks[item] = 0;
+        all[item] = tally->tiles[item];
+        tiles[item] = 0;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     in_parts = are_in_parts(all, most_in_parts);
     if (id < count) {
         own = class_of(costs[id]);
-        before = atomic_inc(blocks + own);
+        before = atomic_inc(tiles + own);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < COST_CLASSES) {
         u32 place = 0;
         for (k = item + 1; k < COST_CLASSES; ++k) place += all[k] * parts_of(k, in_parts);
         if (id == 0) tally->entries = place;
-        if (blocks[item]) places[item] = place + atomic_add(tally->listed + item, blocks[item]) * parts_of(item, in_parts);
+        if (tiles[item]) places[item] = place + atomic_add(tally->listed + item, tiles[item]) * parts_of(item, in_parts);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (own > 0) {
@@ -61,14 +61,14 @@ __kernel void list_blocks(__global const unsigned char* costs, u32 first, u32 co
     }
 }
 
-// Fills what no ray will, of a picture of whole lines of the window. A group of BLOCK * BLOCK items a block.
-__kernel void put_background(__global const unsigned char* costs, Window window, u32 first_ray, u32 lines, u32 planes,
+// Fills what no ray will, of a picture of whole lines of the screen. A group of TILE * TILE items a tile.
+__kernel void put_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 lines, u32 planes,
                              PlaneValues background, __global float* picture) {
     pixel_position at;
     u32 p;
     if (costs[get_group_id(0)]) return;
-    at = pixel_of(first_ray + (u32)get_global_id(0), window);
+    at = pixel_of(first_ray + (u32)get_global_id(0), screen);
     if (!at.inside) return;
-    picture += place_in_lines(window, first_ray, at);
-    for (p = 0; p < planes; ++p) picture[(size_t)p * lines * width_of(window)] = background.of[p];
+    picture += place_in_lines(screen, first_ray, at);
+    for (p = 0; p < planes; ++p) picture[(size_t)p * lines * width_of(screen)] = background.of[p];
 }

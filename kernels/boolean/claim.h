@@ -117,18 +117,18 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
 }
 
 #ifdef CSGRT_LARGE_TERMS
-// The next few covered leaves of a large term, ascending: a window that moves on as they are used up.
-#define WINDOW 8
+// The next few covered leaves of a large term, ascending: a leaf_cursor that moves on as they are used up.
+#define CURSOR_LEAVES 8
 typedef struct {
-    u32 nodes[WINDOW];
+    u32 nodes[CURSOR_LEAVES];
     u32 count, at;
     u32 more;  // there may be some after those kept
-} window;
+} leaf_cursor;
 
-// Takes up a leaf that is not before the window; 0: it and all greater ones lie behind it.
-FN u32 keep(window* w, u32 node) {
+// Takes up a leaf that is not before the leaf_cursor; 0: it and all greater ones lie behind it.
+FN u32 keep(leaf_cursor* w, u32 node) {
     u32 k = w->count;
-    if (k == WINDOW) {
+    if (k == CURSOR_LEAVES) {
         w->more = 1;
         if (node >= w->nodes[k - 1]) return 0;
         --k;
@@ -141,7 +141,7 @@ FN u32 keep(window* w, u32 node) {
 }
 
 // Keeps the first leaves within [from, end) that are covered.
-FN void fill_window(window* w, cover c, u32 from, u32 end) {
+FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
     u32 word, words = words_of(c.segments);
     w->count = w->at = w->more = 0;
     for (word = 0; word < words; ++word) {
@@ -167,9 +167,9 @@ FN void fill_window(window* w, cover c, u32 from, u32 end) {
 }
 
 // Moves to the first leaf at or after `from`, which never goes back. 0: there is none before `end`.
-FN u32 find_leaf(window* w, cover c, u32 from, u32 end) {
+FN u32 find_leaf(leaf_cursor* w, cover c, u32 from, u32 end) {
     while (w->at < w->count && w->nodes[w->at] < from) ++w->at;
-    if (w->at == w->count && w->more) fill_window(w, c, from, end);
+    if (w->at == w->count && w->more) fill_cursor(w, c, from, end);
     return w->at < w->count;
 }
 
@@ -182,8 +182,8 @@ FN u32 find_leaf(window* w, cover c, u32 from, u32 end) {
 FN u32 walk_term(cover c, u32 node, u32 end) {
     u32 stack[TREE_STACK], ends[TREE_STACK];
     u32 depth = 0, negate = 0, value, term_end = end;
-    window w;
-    fill_window(&w, c, node, end);
+    leaf_cursor w;
+    fill_cursor(&w, c, node, end);
     for (;;) {
         u32 word, op;
         if (!find_leaf(&w, c, node, term_end) || w.nodes[w.at] >= end) {

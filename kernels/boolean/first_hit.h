@@ -1,6 +1,6 @@
 // The first claimed partition of a ray, without the others: front to back, in the ray's own memory.
 //
-// The nodes that the ray's block may meet come nearest first (traversal/beam.h). What is still unseen lies behind the next of them,
+// The nodes that the ray's tile may meet come nearest first (traversal/beam.h). What is still unseen lies behind the next of them,
 // so every event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim
 // ends it all. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
 //
@@ -214,17 +214,17 @@ FN float due_at(const front* w, real tolerance, wide offset) {
     return w->due < REAL_INFINITY ? (float)((wide)(w->due + tolerance) - offset) : BOX_MISSED;
 }
 
-// `next`: the nodes of the ray's block.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const BlockNode* next, ray3 r, front* w) {
+// `next`: the nodes of the ray's tile.
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, front* w) {
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
     u32 solid = 0, end = f->unbounded_count, i = 0, subtree_end = 0, leaf, result = RAY_GOES_ON;
     start_front(w);
-    // All rays of a block come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
+    // All rays of a tile come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
     // have one way out, here and in what they call, and few conditions: work-items that leave in several ways run apart after.
     do {
-        BlockNode e;
+        TileNode e;
         do {
             for (; solid < end && result == RAY_GOES_ON; ++solid)
                 if (!take_solid(w, s.g, solid, r, t_min)) result = RAY_OVERFLOWS;

@@ -26,7 +26,7 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
 
 // Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the rays
 // that had no room, of which nothing is drawn. `seen`: those that see anything.
-FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const BlockNode* list, pixel_position first,
+FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position first,
             __global float* picture, u32* seen) {
     const u32 within = rays_inside(f, first);
     u32 hit, lost;

@@ -1,4 +1,4 @@
-// The first claimed partitions of a packet's rays: boolean/first_hit.h's work, but the rays go through their block's nodes together. Each
+// The first claimed partitions of a packet's rays: boolean/first_hit.h's work, but the rays go through their tile's nodes together. Each
 // ray's events are its own.
 //
 // Some of the rays (`which`, `lost`, `hit`) are a word whose bit k stands for ray k.
@@ -21,10 +21,10 @@ FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, solid_batch*
 
 // Of the rays of `which`, those whose first seen partition is known; `lost`: those that hold more than there is room for.
 FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __global const RegionRecord* regions,
-                     __global const BlockNode* next, u32 which, u32* lost) {
+                     __global const TileNode* next, u32 which, u32* lost) {
     const u32 near_scene = bits_of(p->slabs.hits_sphere);
     u32 hit = 0, k;
-    BlockNode e;
+    TileNode e;
     solid_batch waiting;
     start_batch(&waiting);
     *lost = 0;

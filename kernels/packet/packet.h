@@ -1,4 +1,4 @@
-// The closed-form solids once more, for a packet of rays side by side: two rows of four pixels of a block, which meet fewer boxes and
+// The closed-form solids once more, for a packet of rays side by side: two rows of four pixels of a tile, which meet fewer boxes and
 // solids than one row of eight. For processors, whose work-items have vectors: what a ray waits for, others use.
 //
 // The source is the same (one ray's `real` becomes a vector), so the bits are: vectors round each number as scalars do.
@@ -230,10 +230,10 @@ FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 3
 // the row's first to the first ray's; and how far from there ray k's is.
 #define PACKET_ROW 4u
 FN u32 first_of_packet(u32 id) {
-    const u32 within = id % (BLOCK * BLOCK) / PACKET;
-    return id - id % (BLOCK * BLOCK) + within / 2u * (2u * BLOCK) + within % 2u * PACKET_ROW;
+    const u32 within = id % (TILE * TILE) / PACKET;
+    return id - id % (TILE * TILE) + within / 2u * (2u * TILE) + within % 2u * PACKET_ROW;
 }
-FN u32 ray_of_packet(u32 k) { return k / PACKET_ROW * BLOCK + k % PACKET_ROW; }
+FN u32 ray_of_packet(u32 k) { return k / PACKET_ROW * TILE + k % PACKET_ROW; }
 
 // The rays through the pixels of the packet whose first, which is in the picture, is given.
 FN packet_world_ray rays_through(__global const Frame* f, pixel_position first) {
@@ -242,8 +242,8 @@ FN packet_world_ray rays_through(__global const Frame* f, pixel_position first) 
 
 // Those of them whose pixels are in it, too.
 FN u32 rays_inside(__global const Frame* f, pixel_position first) {
-    const u32 columns = f->window.right - first.x, row = columns < PACKET_ROW ? (1u << columns) - 1u : (1u << PACKET_ROW) - 1u;
-    return first.y + 1u < f->window.bottom ? row | row << PACKET_ROW : row;
+    const u32 columns = f->screen.right - first.x, row = columns < PACKET_ROW ? (1u << columns) - 1u : (1u << PACKET_ROW) - 1u;
+    return first.y + 1u < f->screen.bottom ? row | row << PACKET_ROW : row;
 }
 
 FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {

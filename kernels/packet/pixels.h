@@ -123,7 +123,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture,
                             u32 which, u32 hit) {
     const size_t size = plane_of(f);
-    const u32 line = f->lines ? width_of(f->window) : BLOCK;
+    const u32 line = f->lines ? width_of(f->screen) : TILE;
     const int8 seen = of_bits(hit);
     packet_view v;
     u32 k;

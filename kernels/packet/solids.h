@@ -14,7 +14,7 @@ typedef struct {
     packet_lanes lanes;
     packet_slab_ray slabs;
     real t_min, tolerance;
-    wide offset;  // of distances in the block's list
+    wide offset;  // of distances in the tile's list
     float due[PACKET];  // about where the first event of each is complete
     front fronts[PACKET];
 } packet;

@@ -10,7 +10,7 @@
 #define RAY_OF_ITEM(k) (k)
 
 // Draws the pixel at `at`, whose channels begin at `picture`. 1: the ray had no room, nothing is drawn. `seen`: does it see anything?
-FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const BlockNode* list, pixel_position at,
+FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position at,
             __global float* picture, u32* seen) {
     const ray3 r = geometry_ray(f, camera_ray(f, at));
     front w;

@@ -67,7 +67,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
     return p;
 }
 
-// Stores what a ray sees, channel by channel; `picture`: its place in the tile's first.
+// Stores what a ray sees, channel by channel; `picture`: its place in the batch's first.
 FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, Pixel p) {
     const size_t size = plane_of(f);
     u32 i;

@@ -191,10 +191,10 @@ typedef struct {
 
 // ---- Rays ----
 
-// Pixels of a picture: columns left ... right - 1 and lines top ... bottom - 1. It begins with a block of BLOCK * BLOCK pixels.
+// Pixels of a picture: columns left ... right - 1 and lines top ... bottom - 1. It begins with a tile of TILE * TILE pixels.
 typedef struct {
     u32 left, top, right, bottom;
-} Window;
+} ScreenBounds;
 
 typedef struct {
     // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
@@ -210,13 +210,13 @@ typedef struct {
     u32 width, height;
     u32 perspective;       // 0 or 1
     u32 listed;            // 1: the rays are a list, not a picture's
-    u32 first_ray, ray_count;  // this tile
+    u32 first_ray, ray_count;  // this batch
     u32 solid_count, unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: only the first hits are wanted
-    u32 picked;            // 1: the tile's rays are those whose numbers are listed; 0: the blocks of them are
+    u32 picked;            // 1: the batch's rays are those whose numbers are listed; 0: the tiles of them are
     u32 channels;          // of the picture: CHANNEL_x bits
-    Window window;         // the picture's pixels that can show anything; none of the others has a ray
-    u32 lines;             // that the tile's picture has, see place_of() in traversal/camera.h; 0: a float of each ray
+    ScreenBounds screen;         // the picture's pixels that can show anything; none of the others has a ray
+    u32 lines;             // that the batch's picture has, see place_of() in traversal/camera.h; 0: a float of each ray
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
 } Frame;
@@ -227,44 +227,44 @@ typedef struct {
     float of[MOST_PLANES];
 } PlaneValues;
 
-// Rays are numbered in blocks of 8 x 8 pixels, so that the work-items of a group look at neighbours.
-#define BLOCK 8u
+// Rays are numbered in tiles of 8 x 8 pixels, so that the work-items of a group look at neighbours.
+#define TILE 8u
 
 typedef struct {
     wide ox, oy, oz, dx, dy, dz;
 } RayRecord;
 
-// 0 cull blocks -> first hits: nodes of the hierarchy that hold all that a block's rays may meet, each one thing once: leaves,
+// 0 cull tiles -> first hits: nodes of the hierarchy that hold all that a tile's rays may meet, each one thing once: leaves,
 // or subtrees where there is much. Nearest first, then an entry without a node.
 typedef struct {
     u32 node;     // NONE: no more
-    float entry;  // no ray of the block comes there before this distance, less that of the scene's center
-} BlockNode;
-#define LISTED_NODES 32u  // entries of a block
+    float entry;  // no ray of the tile comes there before this distance, less that of the scene's center
+} TileNode;
+#define LISTED_NODES 32u  // entries of a tile
 
-// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.
+// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the batch.
 typedef struct {
     u32 segments;  // of the ray
     u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
 } RayCount;
-#define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a tile is too large
+#define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a batch is too large
 
-// Of a tile whose pixels come by lines: its blocks by what they cost, and what the host wants to know when it is drawn. Behind it
-// stands a byte for each of the tile's blocks: not 0 if a ray of it sees something.
+// Of a batch whose pixels come by lines: its tiles by what they cost, and what the host wants to know when it is drawn. Behind it
+// stands a byte for each of the batch's tiles: not 0 if a ray of it sees something.
 #define COST_CLASSES 48u
 typedef struct {
-    u32 blocks[COST_CLASSES];  // how many of each class; of class 0 those that see nothing
+    u32 tiles[COST_CLASSES];  // how many of each class; of class 0 those that see nothing
     u32 listed[COST_CLASSES];  // of them, those that have their place in the list, where class 0 has none
-    u32 entries;               // of that list: blocks of all classes but 0, or parts of them
+    u32 entries;               // of that list: tiles of all classes but 0, or parts of them
     u32 overflows;             // first hits: rays without room, in no order
     u32 candidates;            // every partition: what its rays have, whether there was room for it or not
     RayCount total;            // the same
-} TileTally;
+} BatchReport;
 
-// An entry of the list: a block's number, and above it 0, or PARTS and more for each of its parts. Work-items that go in lockstep
-// wait for each other, the more so the more there is to do: the few blocks that cost most have fewer rays in each group of LOCKSTEP.
+// An entry of the list: a tile's number, and above it 0, or PARTS and more for each of its parts. Work-items that go in lockstep
+// wait for each other, the more so the more there is to do: the few tiles that cost most have fewer rays in each group of LOCKSTEP.
 #define PARTS 4u
-#define PART_SHIFT 26u    // blocks are fewer: their rays have numbers of 32 bits
+#define PART_SHIFT 26u    // tiles are fewer: their rays have numbers of 32 bits
 #define PARTED_CLASS 40u  // costs from 128 on (class_of in tile_list.cl)
 #define LOCKSTEP 32u
 
@@ -326,16 +326,16 @@ typedef struct {
     u32 depth, partitions, overlap;
 } Pixel;
 
-// The picture: for each channel, in this order, a plane: a float of each of the tile's rays, or of each pixel of its lines.
+// The picture: for each channel, in this order, a plane: a float of each of the batch's rays, or of each pixel of its lines.
 #define CHANNEL_COLOR 1u     // R G B A
 #define CHANNEL_DISTANCE 2u  // Z
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z
 #define CHANNEL_IDS 8u       // region, solid
 #define CHANNEL_COUNTS 16u   // depth, partitions, overlap
 
-FN u32 width_of(Window w) { return w.right - w.left; }
-FN u32 blocks_across(Window w) { return (width_of(w) + BLOCK - 1u) / BLOCK; }
-FN u32 blocks_down(Window w) { return (w.bottom - w.top + BLOCK - 1u) / BLOCK; }
+FN u32 width_of(ScreenBounds w) { return w.right - w.left; }
+FN u32 tiles_across(ScreenBounds w) { return (width_of(w) + TILE - 1u) / TILE; }
+FN u32 tiles_down(ScreenBounds w) { return (w.bottom - w.top + TILE - 1u) / TILE; }
 
 
 #endif

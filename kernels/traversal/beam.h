@@ -1,8 +1,8 @@
-// A block's rays as one: the ray through its middle, so thick that it holds them all within the scene's sphere.
+// A tile's rays as one: the ray through its middle, so thick that it holds them all within the scene's sphere.
 //
 // A point of one of them and the point of the middle ray that is as far from the eye (parallel rays: from the picture
 // plane) are apart by the beam's `spread` at most. So where the middle ray enters a box that is larger by that much,
-// no ray of the block has entered the box itself yet.
+// no ray of the tile has entered the box itself yet.
 #ifndef CSGRT_TRAVERSAL_BEAM_H
 #define CSGRT_TRAVERSAL_BEAM_H
 
@@ -22,16 +22,16 @@ FN wide distance_of_center(GLOBAL const Frame* f) {
     return f->perspective ? wide_sqrt(wide_dot(to, to)) : wide_dot(to, make_wide3(f->w[0], f->w[1], f->w[2]));
 }
 
-FN beam make_beam(GLOBAL const Frame* f, u32 block) {
+FN beam make_beam(GLOBAL const Frame* f, u32 tile) {
     wide3 u = make_wide3(f->u[0], f->u[1], f->u[2]), v = make_wide3(f->v[0], f->v[1], f->v[2]);
     wide3 w = make_wide3(f->w[0], f->w[1], f->w[2]);
-    wide across = (wide)(BLOCK / 2) * (wide_sqrt(wide_dot(u, u)) + wide_sqrt(wide_dot(v, v)));
-    pixel_position at = pixel_of(block * BLOCK * BLOCK, f->window);
+    wide across = (wide)(TILE / 2) * (wide_sqrt(wide_dot(u, u)) + wide_sqrt(wide_dot(v, v)));
+    pixel_position at = pixel_of(tile * TILE * TILE, f->screen);
     real spread, reach;
     ray3 r;
     beam b;
-    at.x += BLOCK / 2;
-    at.y += BLOCK / 2;
+    at.x += TILE / 2;
+    at.y += TILE / 2;
     r = geometry_ray(f, camera_ray(f, at));
     b.to_center = distance_of_center(f);
     if (f->perspective) across = across * (b.to_center + f->radius) / wide_sqrt(wide_dot(w, w));
@@ -43,9 +43,9 @@ FN beam make_beam(GLOBAL const Frame* f, u32 block) {
     return b;
 }
 
-// The nodes of the block of a picture's ray, out of the lists of the frame's blocks.
-FN GLOBAL const BlockNode* list_of(GLOBAL const Frame* f, GLOBAL const BlockNode* lists, u32 number) {
-    return lists + (size_t)((number - f->first_ray) / (BLOCK * BLOCK)) * LISTED_NODES;
+// The nodes of the tile of a picture's ray, out of the lists of the frame's tiles.
+FN GLOBAL const TileNode* list_of(GLOBAL const Frame* f, GLOBAL const TileNode* lists, u32 number) {
+    return lists + (size_t)((number - f->first_ray) / (TILE * TILE)) * LISTED_NODES;
 }
 
 // As box_entry, before any of the beam's rays.
@@ -58,8 +58,8 @@ FN float beam_entry(beam b, BvhNode node) {
     return box_entry(b.slabs, node);
 }
 
-FN BlockNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
-    BlockNode e;
+FN TileNode entry_of(beam b, GLOBAL const BvhNode* nodes, u32 node) {
+    TileNode e;
     e.node = node;
     e.entry = beam_entry(b, nodes[node]);
     return e;

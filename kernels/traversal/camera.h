@@ -1,4 +1,4 @@
-// From a ray's number to the ray. Rays of a picture are numbered in blocks of 8 x 8 pixels of its window, row by row from the top
+// From a ray's number to the ray. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by row from the top
 // left.
 #ifndef CSGRT_TRAVERSAL_CAMERA_H
 #define CSGRT_TRAVERSAL_CAMERA_H
@@ -10,30 +10,30 @@ typedef struct {
     int inside;
 } pixel_position;
 
-FN pixel_position pixel_of(u32 ray, Window w) {
+FN pixel_position pixel_of(u32 ray, ScreenBounds w) {
     pixel_position p;
-    const u32 across = blocks_across(w), block = ray / (BLOCK * BLOCK), within = ray % (BLOCK * BLOCK);
-    p.x = w.left + block % across * BLOCK + within % BLOCK;
-    p.y = w.top + block / across * BLOCK + within / BLOCK;
+    const u32 across = tiles_across(w), tile = ray / (TILE * TILE), within = ray % (TILE * TILE);
+    p.x = w.left + tile % across * TILE + within % TILE;
+    p.y = w.top + tile / across * TILE + within / TILE;
     p.inside = p.x < w.right && p.y < w.bottom;
     return p;
 }
 
-// Where a pixel stands in whole lines of the window's, from the top of a tile's first block on.
-FN size_t place_in_lines(Window w, u32 first_ray, pixel_position at) {
-    const u32 top = w.top + first_ray / (BLOCK * BLOCK) / blocks_across(w) * BLOCK;
+// Where a pixel stands in whole lines of the screen's, from the top of a batch's first tile on.
+FN size_t place_in_lines(ScreenBounds w, u32 first_ray, pixel_position at) {
+    const u32 top = w.top + first_ray / (TILE * TILE) / tiles_across(w) * TILE;
     return (size_t)(at.y - top) * width_of(w) + (at.x - w.left);
 }
 
-// Where a ray's pixel stands in a plane of the tile's picture, and how many floats that has.
+// Where a ray's pixel stands in a plane of the batch's picture, and how many floats that has.
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
-    return f->lines ? place_in_lines(f->window, f->first_ray, at) : id;
+    return f->lines ? place_in_lines(f->screen, f->first_ray, at) : id;
 }
-FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * width_of(f->window) : f->ray_count; }
+FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * width_of(f->screen) : f->ray_count; }
 
-// Tells the host that the ray's block shows something. Any number of them may say so at once.
-FN void mark_shown(GLOBAL const Frame* f, GLOBAL TileTally* tally, u32 number) {
-    if (f->lines) ((GLOBAL unsigned char*)(tally + 1))[(number - f->first_ray) / (BLOCK * BLOCK)] = 1;
+// Tells the host that the ray's tile shows something. Any number of them may say so at once.
+FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* tally, u32 number) {
+    if (f->lines) ((GLOBAL unsigned char*)(tally + 1))[(number - f->first_ray) / (TILE * TILE)] = 1;
 }
 
 FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) { return view_ray(f, (wide)at.x, (wide)at.y); }
@@ -77,11 +77,11 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
-// The number of the tile's ray `id`. Of a picture the numbers are listed in place of rays: one by one, or by blocks, which are whole.
+// The number of the batch's ray `id`. Of a picture the numbers are listed in place of rays: one by one, or by tiles, which are whole.
 FN u32 number_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 id) {
     GLOBAL const u32* numbers = (GLOBAL const u32*)rays;
     if (f->listed) return id;
-    return f->picked ? numbers[id] : numbers[id / (BLOCK * BLOCK)] * (BLOCK * BLOCK) + id % (BLOCK * BLOCK);
+    return f->picked ? numbers[id] : numbers[id / (TILE * TILE)] * (TILE * TILE) + id % (TILE * TILE);
 }
 
 // The ray of a number: from the list of rays if there is one, else through a pixel. Returns 0 if there is no such ray.
@@ -94,7 +94,7 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
         *r = geometry_ray(f, w);
         return 1;
     } else {
-        pixel_position at = pixel_of(number, f->window);
+        pixel_position at = pixel_of(number, f->screen);
         *r = geometry_ray(f, camera_ray(f, at));
         return at.inside;
     }

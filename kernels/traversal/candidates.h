@@ -23,8 +23,8 @@ FN u32 next_leaf(slab_ray s, GLOBAL const BvhNode* nodes, u32* i, u32 end) {
 }
 
 // Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that the
-// ray's block meets, as they stand in the hierarchy; 0: there is no such list.
-FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const BlockNode* next, ray3 r, u32 ray,
+// ray's tile meets, as they stand in the hierarchy; 0: there is no such list.
+FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, u32 ray,
             GLOBAL Candidate* candidates) {
     const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
     u32 count = 0, i = 0, last = s.hits_sphere && !next ? f->node_count : 0, solid = 0, end = f->unbounded_count;

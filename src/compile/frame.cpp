@@ -224,8 +224,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     }
     frame.light_count = static_cast<std::uint32_t>(result.lights.size());
 
-    frame.window = window_of(scene, frame);
-    result.rays = std::uint64_t{kernel::blocks_across(frame.window)} * kernel::blocks_down(frame.window) * BLOCK * BLOCK;
+    frame.screen = screen_bounds(scene, frame);
+    result.rays = std::uint64_t{kernel::tiles_across(frame.screen)} * kernel::tiles_down(frame.screen) * TILE * TILE;
     result.right = from_glm(axes.right);
     result.up = from_glm(axes.up);
     result.back = from_glm(axes.back);

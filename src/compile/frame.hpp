@@ -14,7 +14,7 @@ struct PreparedFrame {
     double view_size = 0;      ///< height of the picture at the centre, millimetres
     Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
     Vec3 center;
-    std::uint64_t rays = 0;  ///< numbers of rays: pixels of the window, filled up to whole blocks
+    std::uint64_t rays = 0;  ///< numbers of rays: pixels of the screen, filled up to whole tiles
 };
 
 /// BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that make no

@@ -57,8 +57,8 @@ bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Ex
 
 }  // namespace
 
-kernel::Window window_of(const CompiledScene& scene, const kernel::Frame& f) {
-    const kernel::Window all{0, 0, f.width, f.height};
+kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Frame& f) {
+    const kernel::ScreenBounds all{0, 0, f.width, f.height};
     if (scene.unbounded_count > 0) return all;
     if (scene.nodes.empty()) return {};
     // By as much boxes grow for single rays (kernels/shared/slab.h), and coordinates are rounded. The same for every precision.
@@ -74,15 +74,15 @@ kernel::Window window_of(const CompiledScene& scene, const kernel::Frame& f) {
 
     constexpr double margin = 2;  // pixels
     const auto within = [](double at, std::uint32_t size) { return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0 * size)); };
-    kernel::Window window;
-    window.left = within(std::floor(extent.left - margin), f.width) / BLOCK * BLOCK;
-    window.top = within(std::floor(extent.top - margin), f.height) / BLOCK * BLOCK;
-    window.right = within(std::ceil(extent.right + margin + 1), f.width);
-    window.bottom = within(std::ceil(extent.bottom + margin + 1), f.height);
-    window.right = std::min(f.width, (window.right + BLOCK - 1) / BLOCK * BLOCK);
-    window.bottom = std::min(f.height, (window.bottom + BLOCK - 1) / BLOCK * BLOCK);
-    if (window.left >= window.right || window.top >= window.bottom) return {};
-    return window;
+    kernel::ScreenBounds screen;
+    screen.left = within(std::floor(extent.left - margin), f.width) / TILE * TILE;
+    screen.top = within(std::floor(extent.top - margin), f.height) / TILE * TILE;
+    screen.right = within(std::ceil(extent.right + margin + 1), f.width);
+    screen.bottom = within(std::ceil(extent.bottom + margin + 1), f.height);
+    screen.right = std::min(f.width, (screen.right + TILE - 1) / TILE * TILE);
+    screen.bottom = std::min(f.height, (screen.bottom + TILE - 1) / TILE * TILE);
+    if (screen.left >= screen.right || screen.top >= screen.bottom) return {};
+    return screen;
 }
 
 }  // namespace csgrt

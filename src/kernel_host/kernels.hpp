@@ -31,7 +31,7 @@ static_assert(sizeof(StartRecord) == 24);
 static_assert(sizeof(RayTally) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
-static_assert(sizeof(BlockNode) == 8);
+static_assert(sizeof(TileNode) == 8);
 static_assert(sizeof(PlaneValues) == sizeof(Pixel));
 
 }  // namespace csgrt::kernel

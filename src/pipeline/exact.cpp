@@ -72,10 +72,10 @@ void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, 
 }
 
 void Exact::queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed) {
-    const std::uint32_t entries = rays + 1, blocks = blocks_of(entries);
+    const std::uint32_t entries = rays + 1, tiles = blocks_of(entries);
     sum_blocks(counts, entries, sums_, timed);
-    if (blocks > 1) {
-        timed.emplace_back(&PipelineCounts::scan, scan_sums_.launch(work_group, work_group, sums_, blocks));
+    if (tiles > 1) {
+        timed.emplace_back(&PipelineCounts::scan, scan_sums_.launch(work_group, work_group, sums_, tiles));
         timed.emplace_back(&PipelineCounts::scan, scan_add_.launch(entries, work_group, counts, sums_, entries));
     }
     device_.flush();
@@ -144,11 +144,11 @@ bool Exact::reserve_counted(const kernel::RayCount& total) {
     return true;
 }
 
-std::optional<Exact::Needs> Exact::weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind,
+std::optional<Exact::Needs> Exact::weave(const SceneBuffers& scene, const BatchBuffers& batch, std::uint32_t rays, Rays kind,
                                          TimedKernels& timed) {
-    if (auto needs = try_weave({scene, tile, rays, kind, timed})) return needs;
+    if (auto needs = try_weave({scene, batch, rays, kind, timed})) return needs;
     for (const auto& [time, kernel] : timed) wait_for(kernel);  // a fault is not a lack of memory
-    release_counted();  // a smaller tile is not to be kept from its own
+    release_counted();  // a smaller batch is not to be kept from its own
     return {};
 }
 
@@ -178,7 +178,7 @@ bool Exact::hold_rays(std::uint32_t rays) const {
 
 std::optional<Exact::Needs> Exact::capacity_for(std::uint32_t rays) const {
     if (!hold_rays(rays)) return {};
-    // The more of two: a picture may well have two tiles that differ.
+    // The more of two: a picture may well have two batches that differ.
     const auto expected = [&](double RayNeeds::*what) {
         return static_cast<std::uint64_t>(std::max(needed_.*what, needed_before_.*what) * rays);
     };
@@ -191,9 +191,9 @@ std::optional<Exact::Needs> Exact::capacity_for(std::uint32_t rays) const {
     return there;
 }
 
-void Exact::weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, const Needs& capacity,
+void Exact::weave_ahead(const SceneBuffers& scene, const BatchBuffers& batch, std::uint32_t rays, const Needs& capacity,
                         TimedKernels& timed) {
-    const Run run{scene, tile, rays, Rays::blocks, timed};
+    const Run run{scene, batch, rays, Rays::tiles, timed};
     queue_places(run);
     queue_counts(run, capacity.candidates);
     queue_partitions(run, capacity.candidates, 2 * std::size_t{capacity.total.segments});
@@ -202,50 +202,50 @@ void Exact::weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std:
 
 void Exact::queue_places(const Run& run) {
     const SceneBuffers& s = run.scene;
-    const TileBuffers& tile = run.tile;
+    const BatchBuffers& batch = run.batch;
     const Buffer none(device_, "nothing");
-    const Buffer& lists = run.kind == Rays::blocks ? tile.lists : none;
+    const Buffer& lists = run.kind == Rays::tiles ? batch.lists : none;
     constexpr std::size_t group = work_group;
     run.timed.emplace_back(
         &PipelineCounts::count_hits,
-        by_packets(run) ? packet_candidates_->count.launch(run.rays / packet_rays, group, tile.frame, s.nodes, lists, tile.rays, places_)
-                        : find_candidates_.launch(run.rays, group, tile.frame, s.nodes, lists, tile.rays, places_, none));
+        by_packets(run) ? packet_candidates_->count.launch(run.rays / packet_rays, group, batch.frame, s.nodes, lists, batch.rays, places_)
+                        : find_candidates_.launch(run.rays, group, batch.frame, s.nodes, lists, batch.rays, places_, none));
     queue_scan(places_, run.rays, run.timed);
 }
 
 // `candidates`: as many, or as many as there is room for.
 void Exact::queue_counts(const Run& run, std::size_t candidates) {
     const SceneBuffers& s = run.scene;
-    const TileBuffers& tile = run.tile;
+    const BatchBuffers& batch = run.batch;
     const Buffer none(device_, "nothing");
-    const Buffer& lists = run.kind == Rays::blocks ? tile.lists : none;
+    const Buffer& lists = run.kind == Rays::tiles ? batch.lists : none;
     const std::size_t group = work_group, listed = candidates ? run.rays : 0;
     const auto timed = [&](Event event) { run.timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
     timed(by_packets(run)
-              ? packet_candidates_->list.launch(listed / packet_rays, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                                s.inner_nodes, s.nodes, lists, tile.rays, places_, candidates_, found_)
-              : find_candidates_.launch(listed, group, tile.frame, s.nodes, lists, tile.rays, places_, candidates_));
+              ? packet_candidates_->list.launch(listed / packet_rays, group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                                s.inner_nodes, s.nodes, lists, batch.rays, places_, candidates_, found_)
+              : find_candidates_.launch(listed, group, batch.frame, s.nodes, lists, batch.rays, places_, candidates_));
     device_.flush();
-    timed(count_hits_.launch(candidates, group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, tile.rays,
+    timed(count_hits_.launch(candidates, group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, batch.rays,
                              places_, candidates_, found_));
-    timed(sum_hits_.launch(run.rays, work_group, tile.frame, places_, candidates_, counts_));
+    timed(sum_hits_.launch(run.rays, work_group, batch.frame, places_, candidates_, counts_));
     queue_scan(counts_, run.rays, run.timed);
 }
 
 // `candidates`, `nodes`: as many, or as many as there is room for.
 void Exact::queue_partitions(const Run& run, std::size_t candidates, std::size_t nodes) {
     const SceneBuffers& s = run.scene;
-    const TileBuffers& tile = run.tile;
+    const BatchBuffers& batch = run.batch;
     const auto timed = [&](double PipelineCounts::*time, Event event) { run.timed.emplace_back(time, std::move(event)); };
     timed(&PipelineCounts::store_segments,
-          store_segments_.launch(nodes ? candidates : 0, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                         s.inner_nodes, tile.rays, places_, candidates_, found_, counts_, ends_, bits_));
+          store_segments_.launch(nodes ? candidates : 0, work_group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
+                                         s.inner_nodes, batch.rays, places_, candidates_, found_, counts_, ends_, bits_));
     device_.flush();
     Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
     partitions.reserve(nodes * sizeof(kernel::PartitionNode));
-    timed(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, tile.frame, counts_, ends_, bits_, partitions));
-    timed(&PipelineCounts::weave, weave_.launch(run.rays, work_group, tile.frame, tile.rays, counts_, ends_, partitions, bits_, places_));
-    timed(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, tile.frame, s.solids, s.starts, s.leaves, s.trees, counts_,
+    timed(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, batch.frame, counts_, ends_, bits_, partitions));
+    timed(&PipelineCounts::weave, weave_.launch(run.rays, work_group, batch.frame, batch.rays, counts_, ends_, partitions, bits_, places_));
+    timed(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, batch.frame, s.solids, s.starts, s.leaves, s.trees, counts_,
                                                               ends_, bits_, partitions));
 }
 
@@ -262,14 +262,14 @@ void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& co
                                              .words = double(needs.total.words) / rays});
 }
 
-void Exact::shade(const SceneBuffers& s, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed) {
+void Exact::shade(const SceneBuffers& s, const BatchBuffers& batch, const Buffer& picture, std::uint32_t rays, TimedKernels& timed) {
     timed.emplace_back(&PipelineCounts::shade,
-                       shade_.launch(rays, work_group, tile.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
-                                     s.regions, s.materials, s.lights, counts_, ends_, found_, places_, tile.rays,
-                                     tile.tally, picture));
+                       shade_.launch(rays, work_group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
+                                     s.regions, s.materials, s.lights, counts_, ends_, found_, places_, batch.rays,
+                                     batch.tally, picture));
 }
 
-// The first step of a scan leaves the sums of blocks, so that not every ray's tally has to come to the host.
+// The first step of a scan leaves the sums of tiles, so that not every ray's tally has to come to the host.
 void Exact::tally(std::uint32_t rays, TimedKernels& timed) {
     sum_blocks(places_, rays, tally_sums_, timed);
     tallies_ = blocks_of(rays);

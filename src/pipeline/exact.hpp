@@ -1,4 +1,4 @@
-// Every partition of a tile's rays, in five kernels:
+// Every partition of a batch's rays, in five kernels:
 //
 //   count hits -> store segments -> weave -> evaluate -> shade
 //
@@ -16,9 +16,9 @@
 
 namespace csgrt {
 
-/// How a tile's rays are given: blocks of a picture's that kernel 0 has looked at, single ones of a picture's, or a
+/// How a batch's rays are given: tiles of a picture's that kernel 0 has looked at, single ones of a picture's, or a
 /// list.
-enum class Rays { blocks, picked, listed };
+enum class Rays { tiles, picked, listed };
 
 class Exact {
 public:
@@ -34,16 +34,16 @@ public:
         }
     };
 
-    /// Runs the kernels on the tile's rays, but the last one; waits for counts only. None: the rays' segments do not fit the
-    /// memory; nothing is lost then, the caller takes a smaller tile.
-    std::optional<Needs> weave(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, Rays kind, TimedKernels& timed);
+    /// Runs the kernels on the batch's rays, but the last one; waits for counts only. None: the rays' segments do not fit the
+    /// memory; nothing is lost then, the caller takes a smaller batch.
+    std::optional<Needs> weave(const SceneBuffers& scene, const BatchBuffers& batch, std::uint32_t rays, Rays kind, TimedKernels& timed);
     /// What there is memory for; none: by what earlier rays needed it would hardly do for so many.
     std::optional<Needs> capacity_for(std::uint32_t rays) const;
-    /// The same in the memory that there is, of a picture's blocks whose frame says so; does not wait, not even for what runs. What the
-    /// rays need, and so whether that was enough, stands in the tile's tally once they are shaded.
-    void weave_ahead(const SceneBuffers& scene, const TileBuffers& tile, std::uint32_t rays, const Needs& capacity, TimedKernels& timed);
+    /// The same in the memory that there is, of a picture's tiles whose frame says so; does not wait, not even for what runs. What the
+    /// rays need, and so whether that was enough, stands in the batch's tally once they are shaded.
+    void weave_ahead(const SceneBuffers& scene, const BatchBuffers& batch, std::uint32_t rays, const Needs& capacity, TimedKernels& timed);
     /// Runs the last one on the last run's rays, if they are a picture's. Does not wait.
-    void shade(const SceneBuffers& scene, const TileBuffers& tile, const Buffer& picture, std::uint32_t rays, TimedKernels& timed);
+    void shade(const SceneBuffers& scene, const BatchBuffers& batch, const Buffer& picture, std::uint32_t rays, TimedKernels& timed);
     /// Has the last run's partitions and overlaps summed, once it is shaded. Does not wait.
     void tally(std::uint32_t rays, TimedKernels& timed);
     /// Has the sums copied; see QueuedRead. When that is done, and before the next call of tally().
@@ -67,10 +67,10 @@ public:
     void release();  ///< gives that back: another use of the budget wants it
 
 private:
-    /// One tile's kernels, of which steps are queued.
+    /// One batch's kernels, of which steps are queued.
     struct Run {
         const SceneBuffers& scene;
-        const TileBuffers& tile;
+        const BatchBuffers& batch;
         std::uint32_t rays;
         Rays kind;
         TimedKernels& timed;
@@ -79,13 +79,13 @@ private:
     struct RayNeeds {
         double candidates = 0, segments = 0, words = 0;
     };
-    /// Only a picture's blocks hold rays that lie side by side.
-    bool by_packets(const Run& run) const { return run.kind == Rays::blocks && packet_candidates_; }
+    /// Only a picture's tiles hold rays that lie side by side.
+    bool by_packets(const Run& run) const { return run.kind == Rays::tiles && packet_candidates_; }
     std::optional<Needs> try_weave(const Run& run);
     void queue_places(const Run& run);  // where each ray's candidates stand
     void queue_counts(const Run& run, std::size_t candidates);
     void queue_partitions(const Run& run, std::size_t candidates, std::size_t nodes);
-    /// A step of the scan: of each block of entries the sum; the entries become sums within their block.
+    /// A step of the scan: of each tile of entries the sum; the entries become sums within their tile.
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     /// Exclusive prefix sums over the first rays + 1 entries, the last of which, which need not be set, has a part in none.
     void queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed);
@@ -120,7 +120,7 @@ private:
     Buffer candidates_;        // this and the others: by what was counted
     Buffer found_;             // the candidates' only segments; once they are stored, the partitions
     Buffer ends_, bits_;
-    Buffer sums_;              // of the scan's blocks
+    Buffer sums_;              // of the scan's tiles
     kernel::RayCount total_{};                              // of the last run that was counted
     RayNeeds needed_, needed_before_;                       // by the last rays whose needs are known, and by those before
     Buffer tally_sums_;        // read while the next run's kernels run

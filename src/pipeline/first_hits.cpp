@@ -27,13 +27,13 @@ FirstHits::FirstHits(Device& device, const CompiledScene& scene, const Settings&
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")) {}
 
-TimedKernels FirstHits::launch(const SceneBuffers& s, TileBuffers& tile, const Buffer& picture, std::uint32_t rays) {
-    tile.overflown.reserve(rays * ray_bytes);
+TimedKernels FirstHits::launch(const SceneBuffers& s, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays) {
+    batch.overflown.reserve(rays * ray_bytes);
     TimedKernels timed;
     timed.emplace_back(&PipelineCounts::first_hits,
-               first_hits_.launch(rays / rays_an_item_, uneven_group(device_), tile.frame, s.solids, s.reals, s.planes,
+               first_hits_.launch(rays / rays_an_item_, uneven_group(device_), batch.frame, s.solids, s.reals, s.planes,
                                            s.plane_refs, s.words, s.inner_nodes, s.nodes, s.regions, s.starts, s.leaves, s.trees,
-                                           s.materials, s.lights, tile.lists, tile.rays, tile.tally, tile.overflown, picture));
+                                           s.materials, s.lights, batch.lists, batch.rays, batch.tally, batch.overflown, picture));
     return timed;
 }
 

@@ -1,4 +1,4 @@
-// The first hits of a tile, in one kernel. Nothing is stored but the picture.
+// The first hits of a batch, in one kernel. Nothing is stored but the picture.
 #pragma once
 
 #include "pipeline/cull.hpp"
@@ -9,11 +9,11 @@ class FirstHits {
 public:
     FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the tile's rays, whose blocks were culled before, into `picture`. Does not wait.
-    TimedKernels launch(const SceneBuffers& scene, TileBuffers& tile, const Buffer& picture, std::uint32_t rays);
+    /// Draws the batch's rays, whose tiles were culled before, into `picture`. Does not wait.
+    TimedKernels launch(const SceneBuffers& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
 
     Cull& cull() { return cull_; }
-    static constexpr std::uint64_t ray_bytes = 4;  ///< of the tile's buffers that it needs itself, at most
+    static constexpr std::uint64_t ray_bytes = 4;  ///< of the batch's buffers that it needs itself, at most
 
 private:
     Device& device_;

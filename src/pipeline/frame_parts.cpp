@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/block_rows.hpp"
+#include "pipeline/tile_rows.hpp"
 #include "pipeline/stages.hpp"
 
 namespace csgrt {
@@ -12,16 +12,16 @@ RayCosts::RayCosts(std::uint64_t rays) : rays_(rays), row_(1 << 16), band_(row_)
     sums_.push_back(rays * of_shown);
 }
 
-// To look at all blocks of 8192 x 8192 pixels took up to 0.4 ms, before any device has work.
+// To look at all tiles of 8192 x 8192 pixels took up to 0.4 ms, before any device has work.
 RayCosts::RayCosts(const kernel::Frame& frame, const RenderTarget& target) {
-    const std::uint32_t across = kernel::blocks_across(frame.window), down = kernel::blocks_down(frame.window);
+    const std::uint32_t across = kernel::tiles_across(frame.screen), down = kernel::tiles_down(frame.screen);
     const std::size_t rows_a_band = std::max(1u, down / most_bands);
-    row_ = std::uint64_t{across} * block_rays;
+    row_ = std::uint64_t{across} * tile_rays;
     band_ = rows_a_band * row_;
     rays_ = down * row_;
     sums_.push_back(0);
     if (rays_ == 0) return;
-    const BlockRows rows(frame, 0, across * down);
+    const TileRows rows(frame, 0, across * down);
     std::vector<std::uint64_t> held;  // of a band's middle row
     std::uint64_t all = 0;
     for (std::size_t first = 0; first < down; first += rows_a_band) {
@@ -30,7 +30,7 @@ RayCosts::RayCosts(const kernel::Frame& frame, const RenderTarget& target) {
     }
     for (std::size_t band = 0; band < held.size(); ++band) {
         const std::uint64_t shown = all == 0 ? across : held[band];
-        sums_.push_back(sums_.back() + rays_of(band) / row_ * (row_ + (of_shown - 1) * block_rays * shown));
+        sums_.push_back(sums_.back() + rays_of(band) / row_ * (row_ + (of_shown - 1) * tile_rays * shown));
     }
 }
 
@@ -46,8 +46,8 @@ std::uint64_t RayCosts::end(std::uint64_t first, std::uint64_t cost) const {
     if (sum >= total()) return rays_;
     const auto band = static_cast<std::size_t>(std::ranges::upper_bound(sums_, sum) - sums_.begin()) - 1;
     std::uint64_t end = band * band_ + (sum - sums_[band]) * rays_of(band) / (sums_[band + 1] - sums_[band]);
-    const std::uint64_t unit = end >= first + many * row_ ? row_ : block_rays;
-    end = std::max((end + unit - 1) / unit * unit, first + block_rays);
+    const std::uint64_t unit = end >= first + many * row_ ? row_ : tile_rays;
+    end = std::max((end + unit - 1) / unit * unit, first + tile_rays);
     return std::min(end, rays_);
 }
 

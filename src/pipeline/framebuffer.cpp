@@ -36,10 +36,10 @@ Image Framebuffer::take() {
 
 /// Makes it a picture of that form; new memory is background.
 void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background) {
-    const auto blocks_along = [](int size) { return (static_cast<std::size_t>(size) + BLOCK - 1) / BLOCK; };
-    const std::size_t blocks = blocks_along(width) * blocks_along(height);
-    const bool fits =  // what was moved away keeps its size, but no blocks
-        image_.width == width && image_.height == height && image_.names == names && drawn_.size() == blocks;
+    const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
+    const std::size_t tiles = tiles_along(width) * tiles_along(height);
+    const bool fits =  // what was moved away keeps its size, but no tiles
+        image_.width == width && image_.height == height && image_.names == names && drawn_.size() == tiles;
     if (!fits) {
         *this = {};  // before there is more memory; and whole, if there is none
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -50,7 +50,7 @@ void Framebuffer::fit(int width, int height, std::vector<std::string> names, std
         image_.channels = std::move(channels);
     }
     if (!fits)
-        drawn_.assign(blocks, 0);
+        drawn_.assign(tiles, 0);
     else if (background != background_)
         std::fill(drawn_.begin(), drawn_.end(), std::uint8_t{1});
     background_ = std::move(background);

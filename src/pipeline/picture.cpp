@@ -5,19 +5,19 @@
 
 #include "kernel_host/geometry.hpp"
 #include "base/parallel.hpp"
-#include "pipeline/block_rows.hpp"
+#include "pipeline/tile_rows.hpp"
 
 namespace csgrt {
 namespace {
 
-// Fewer are copied sooner than a thread starts: pixels of blocks, and floats of long lines.
+// Fewer are copied sooner than a thread starts: pixels of tiles, and floats of long lines.
 constexpr std::size_t pixels_a_thread = 1 << 17, floats_a_thread = 1 << 20;
 
 /// A part of a plane's line.
 void copy(float* to, std::size_t count, const float* values) {
-    if (count == BLOCK) {
-        std::array<float, BLOCK> eight;  // of a fixed size: no call
-        std::copy_n(values, BLOCK, eight.begin());
+    if (count == TILE) {
+        std::array<float, TILE> eight;  // of a fixed size: no call
+        std::copy_n(values, TILE, eight.begin());
         std::copy(eight.begin(), eight.end(), to);
     } else {
         std::copy_n(values, count, to);
@@ -26,22 +26,22 @@ void copy(float* to, std::size_t count, const float* values) {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Blocks of a row that stand side by side and are background, or a single one that was drawn.
+/// Tiles of a row that stand side by side and are background, or a single one that was drawn.
 struct Run {
     std::size_t begin, end;  ///< pixels of a line
     std::uint32_t place;     ///< of the drawn one, else `none`
 };
 
-class Blocks {
+class Tiles {
 public:
-    Blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
+    Tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
            const float* values, const RenderTarget& target)
         : rows_(frame, first, end), width_(frame.width), drawn_(drawn.size()), values_(values), places_(end - first, none),
           target_(target) {
         for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
         std::size_t held = 0;
         for (std::size_t row = 0; row < rows_.count(); ++row) held += count_held(rows_.held(row, target));
-        pixels_ = (drawn.size() + held) * BLOCK * BLOCK;
+        pixels_ = (drawn.size() + held) * TILE * TILE;
     }
 
     void put() const {
@@ -57,17 +57,17 @@ public:
     }
 
 private:
-    /// What is to be written of a row of blocks; and keeps what the row then holds.
+    /// What is to be written of a row of tiles; and keeps what the row then holds.
     void find_runs(std::size_t row, std::vector<Run>& runs) const {
         runs.clear();
-        const BlockRows::Extent all = rows_.whole(row);
+        const TileRows::Extent all = rows_.whole(row);
         const std::span<std::uint8_t> held = rows_.held(row, target_);
-        for (std::size_t block = all.begin; block < all.end; ++block) {
-            const std::uint32_t place = places_[rows_.place(row, block)];
+        for (std::size_t tile = all.begin; tile < all.end; ++tile) {
+            const std::uint32_t place = places_[rows_.place(row, tile)];
             const bool is_drawn = place != none;
-            std::uint8_t& holds = held[block - all.begin];
+            std::uint8_t& holds = held[tile - all.begin];
             if (is_drawn || holds) {
-                const std::size_t begin = rows_.column(block), end = rows_.column(block + 1);
+                const std::size_t begin = rows_.column(tile), end = rows_.column(tile + 1);
                 if (!is_drawn && !runs.empty() && runs.back().place == none && runs.back().end == begin)
                     runs.back().end = end;
                 else
@@ -86,7 +86,7 @@ private:
                 for (const Run& run : runs) {
                     if (run.place != none)
                         copy(line + run.begin, run.end - run.begin,
-                                   values_ + ((p * drawn_ + run.place) * BLOCK + y) * BLOCK);
+                                   values_ + ((p * drawn_ + run.place) * TILE + y) * TILE);
                     else
                         std::fill_n(line + run.begin, run.end - run.begin, plane.background);
                 }
@@ -94,20 +94,20 @@ private:
         }
     }
 
-    BlockRows rows_;
+    TileRows rows_;
     std::size_t width_;  ///< of the picture
     std::size_t drawn_;  ///< how many
     const float* values_;
-    std::vector<std::uint32_t> places_;  ///< of the tile's blocks among the drawn ones
+    std::vector<std::uint32_t> places_;  ///< of the batch's tiles among the drawn ones
     const RenderTarget& target_;
     std::size_t pixels_;  ///< that are written, at most
 };
 
 }  // namespace
 
-void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
+void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                 const float* values, const RenderTarget& target) {
-    Blocks(frame, first, end, drawn, values, target).put();
+    Tiles(frame, first, end, drawn, values, target).put();
 }
 
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
@@ -136,25 +136,25 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
 }
 
 void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
-    const kernel::Window& window = frame.window;
-    const kernel::Window all{0, 0, frame.width, frame.height};
-    const std::size_t across = kernel::blocks_across(all), down = kernel::blocks_down(all);
-    const std::size_t left = window.left / BLOCK, right = (window.right + BLOCK - 1) / BLOCK;
+    const kernel::ScreenBounds& screen = frame.screen;
+    const kernel::ScreenBounds all{0, 0, frame.width, frame.height};
+    const std::size_t across = kernel::tiles_across(all), down = kernel::tiles_down(all);
+    const std::size_t left = screen.left / TILE, right = (screen.right + TILE - 1) / TILE;
     std::vector<std::size_t> held;
     const auto find = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; (i = next_held(target.drawn, i, end)) < end; ++i) held.push_back(i);
     };
     for (std::size_t row = 0; row < down; ++row) {
-        const bool is_within = row * BLOCK >= window.top && row * BLOCK < window.bottom;
+        const bool is_within = row * TILE >= screen.top && row * TILE < screen.bottom;
         find(row * across, row * across + (is_within ? left : across));
         if (is_within) find(row * across + right, (row + 1) * across);
     }
-    for_chunks(held.size(), pixels_a_thread / (BLOCK * BLOCK), target.threads, [&](std::size_t i, std::size_t last, std::size_t) {
+    for_chunks(held.size(), pixels_a_thread / (TILE * TILE), target.threads, [&](std::size_t i, std::size_t last, std::size_t) {
         for (; i < last; ++i) {
-            const std::size_t x = held[i] % across * BLOCK, y = held[i] / across * BLOCK;
-            const std::size_t columns = std::min<std::size_t>(BLOCK, frame.width - x);
+            const std::size_t x = held[i] % across * TILE, y = held[i] / across * TILE;
+            const std::size_t columns = std::min<std::size_t>(TILE, frame.width - x);
             for (const ChannelPlane& plane : target.planes)
-                for (std::size_t line = y; line < std::min<std::size_t>(y + BLOCK, frame.height); ++line)
+                for (std::size_t line = y; line < std::min<std::size_t>(y + TILE, frame.height); ++line)
                     std::fill_n(plane.pixels + line * frame.width + x, columns, plane.background);
             target.drawn[held[i]] = 0;
         }
@@ -163,11 +163,11 @@ void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
 
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
               const RenderTarget& target) {
-    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK;
+    const std::size_t across = (frame.width + TILE - 1) / TILE;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const kernel::pixel_position at = kernel::pixel_of(numbers[i], frame.window);
+        const kernel::pixel_position at = kernel::pixel_of(numbers[i], frame.screen);
         if (!at.inside) continue;
-        target.drawn[at.y / BLOCK * across + at.x / BLOCK] = 1;
+        target.drawn[at.y / TILE * across + at.x / TILE] = 1;
         for (std::size_t p = 0; p < target.planes.size(); ++p)
             target.planes[p].pixels[std::size_t{at.y} * frame.width + at.x] = values[p * numbers.size() + i];
     }

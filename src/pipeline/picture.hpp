@@ -1,4 +1,4 @@
-// What the kernels leave of a tile's rays -> the planes of an image.
+// What the kernels leave of a batch's rays -> the planes of an image.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@ struct ChannelPlane {
 /// What a frame is drawn into.
 struct RenderTarget {
     std::span<const ChannelPlane> planes;
-    std::span<std::uint8_t> drawn;  ///< a block of the picture: 0 if it holds nothing but the background, else 1
+    std::span<std::uint8_t> drawn;  ///< a tile of the picture: 0 if it holds nothing but the background, else 1
     unsigned threads = 0;           ///< that put pixels into it; 0: all
     const KnownPicture* known = nullptr;  ///< their memory, as devices know it
 };
 
-/// Fills the pixels of the window's blocks from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for
-/// each plane the floats of their rays, block by block. The others get the background, where the target does not hold it.
-void put_blocks(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
+/// Fills the pixels of the screen's tiles from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for
+/// each plane the floats of their rays, tile by tile. The others get the background, where the target does not hold it.
+void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                 const float* values, const RenderTarget& target);
 
-/// Fills the blocks outside of the frame's window that hold anything with the background.
+/// Fills the tiles outside of the frame's screen that hold anything with the background.
 void clear_around(const kernel::Frame& frame, const RenderTarget& target);
 
 /// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.

@@ -26,11 +26,11 @@ PictureLines::Lines* PictureLines::take(std::size_t bytes, std::size_t count) {
     return &lines;
 }
 
-void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
+void PictureLines::put(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
                        const RenderTarget& target) {
-    const std::uint32_t first = tile.first_block(), end = tile.end_block();
+    const std::uint32_t first = batch.first_tile(), end = batch.end_tile();
     lines.is_held = false;
-    lines.put = ++tiles_put_;
+    lines.put = ++batches_put_;
     if (target.planes.empty()) return;
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, shown, target);
     hold_shown(frame, first, end, shown, target);
@@ -52,8 +52,8 @@ void PictureLines::put(const kernel::Frame& frame, const Tile& tile, std::span<c
         return;
     }
     const std::size_t pixels = std::size_t{frame.width} * frame.height;
-    const bool are_many = pixels > 2 * std::size_t{tile.rays};  // tiles: others may have more to copy
-    Slot& slot = free_slot(std::max(floats, are_many ? tile.rays * target.planes.size() : 0) * sizeof(float));
+    const bool are_many = pixels > 2 * std::size_t{batch.rays};  // batches: others may have more to copy
+    Slot& slot = free_slot(std::max(floats, are_many ? batch.rays * target.planes.size() : 0) * sizeof(float));
     for (std::size_t i = 0; i < copies.size(); ++i) {
         copies[i].target = static_cast<float*>(slot.memory->data()) + rectangles[i].begin;
         copies[i].target_pitch = rectangles[i].columns();

@@ -8,10 +8,10 @@
 namespace csgrt {
 namespace {
 
-constexpr std::uint64_t most_rays = 1u << 24;  // of one tile: launches stay short
+constexpr std::uint64_t most_rays = 1u << 24;  // of one batch: launches stay short
 
-// Rays of a row of the window's blocks.
-std::uint64_t row_of(const kernel::Frame& frame) { return std::uint64_t{kernel::blocks_across(frame.window)} * block_rays; }
+// Rays of a row of the screen's tiles.
+std::uint64_t row_of(const kernel::Frame& frame) { return std::uint64_t{kernel::tiles_across(frame.screen)} * tile_rays; }
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       settings_(settings),
       most_rays_(most_rays_of_picture),
       buffers_(device, scene, kernels.tables()),
-      tile_(device),
+      batch_(device),
       picture_(device, "picture") {
     // The host's own processors need no copy, and have no time beside the kernels.
     if (readback == Readback::lines || device.info().type != "cpu") by_lines_.emplace(device);
@@ -57,39 +57,39 @@ void Pipeline::prepare(bool every_partition) {
     build_ms_ += milliseconds_since(start);
 }
 
-// Rays of a tile that take no more than a quarter of the budget: the rest is for segments and partitions.
+// Rays of a batch that take no more than a quarter of the budget: the rest is for segments and partitions.
 std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
-    const std::uint64_t held = picture_.size() + tile_.held() + (by_lines_ ? by_lines_->held() : 0) + (exact_ ? exact_->held() : 0);
+    const std::uint64_t held = picture_.size() + batch_.held() + (by_lines_ ? by_lines_->held() : 0) + (exact_ ? exact_->held() : 0);
     const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
     return std::clamp<std::uint64_t>(most, 1, most_rays);
 }
 
-// Of the frame's tiles.
-std::uint64_t Pipeline::largest_tile(const kernel::Frame& frame) const {
-    return std::min(row_of(frame) * kernel::blocks_down(frame.window), most_rays_);
+// Of the frame's batches.
+std::uint64_t Pipeline::largest_batch(const kernel::Frame& frame) const {
+    return std::min(row_of(frame) * kernel::tiles_down(frame.screen), most_rays_);
 }
 
-// For what a tile's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is
+// For what a batch's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is
 // needed, this much is held already.
 void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
     if (bytes <= device_.available() + reused) return;
-    tile_.release_rays();
+    batch_.release_rays();
     if (by_lines_) by_lines_->release();
     if (exact_) exact_->release();
 }
 
-void Pipeline::for_each_tile(TileSource& source, const Told& told, const std::function<bool(const Tile&)>& work) {
-    for (Tile tile = source.next(); tile.rays > 0; tile = source.next()) {
-        if (!work(tile)) {
-            source.halve(tile, device_.budget());
+void Pipeline::for_each_batch(BatchSource& source, const Told& told, const std::function<bool(const RayBatch&)>& work) {
+    for (RayBatch batch = source.next(); batch.rays > 0; batch = source.next()) {
+        if (!work(batch)) {
+            source.halve(batch, device_.budget());
         } else if (told) {
-            told(tile.rays);
+            told(batch.rays);
         }
     }
 }
 
 void Pipeline::upload(const kernel::Frame& frame) {
-    frame_upload_.start<std::byte>(tile_.frame, kernels_.frame(frame));
+    frame_upload_.start<std::byte>(batch_.frame, kernels_.frame(frame));
 }
 
 void Pipeline::upload_lights(const PreparedFrame& prepared) {
@@ -107,13 +107,13 @@ void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const
         by_lines_->release();
         if (exact_) exact_->release();
     }
-    const std::uint64_t bytes = bytes_a_ray(prepared.frame, target), largest = largest_tile(prepared.frame);
-    TileSource source(take, [&] { return std::min(fitting(bytes), largest); }, row_of(prepared.frame));
+    const std::uint64_t bytes = bytes_a_ray(prepared.frame, target), largest = largest_batch(prepared.frame);
+    BatchSource source(take, [&] { return std::min(fitting(bytes), largest); }, row_of(prepared.frame));
     const Drawing d{prepared.frame, source, target, told, counts};
     if (by_lines_) return every ? partitions_by_lines(d) : first_hits_by_lines(d);
-    for_each_tile(source, [&](std::uint64_t rays) { d.tell(static_cast<std::uint32_t>(rays)); }, [&](const Tile& tile) {
-        if (tile.rays % block_rays == 0) return draw_in_place(d, tile);
-        draw_part_of_block(d, tile);
+    for_each_batch(source, [&](std::uint64_t rays) { d.tell(static_cast<std::uint32_t>(rays)); }, [&](const RayBatch& batch) {
+        if (batch.rays % tile_rays == 0) return draw_in_place(d, batch);
+        draw_part_of_tile(d, batch);
         return true;
     });
 }
@@ -139,26 +139,26 @@ void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, c
     if (exact_) exact_->forget();  // what a call that threw has left
     picture_.release();
     exact();
-    TileSource source(take, [&] { return fitting(bytes + Exact::ray_bytes); }, 0);
-    for_each_tile(source, told, [&](const Tile& tile) {
-        const std::span<const Ray> some = rays.subspan(tile.first, tile.rays);
-        make_room(tile.rays * (bytes + Exact::ray_bytes), tile_.rays.size());
-        tile_.rays.reserve(tile.rays * bytes);
-        tile_.rays.upload(kernels_.rays(some));
+    BatchSource source(take, [&] { return fitting(bytes + Exact::ray_bytes); }, 0);
+    for_each_batch(source, told, [&](const RayBatch& batch) {
+        const std::span<const Ray> some = rays.subspan(batch.first, batch.rays);
+        make_room(batch.rays * (bytes + Exact::ray_bytes), batch_.rays.size());
+        batch_.rays.reserve(batch.rays * bytes);
+        batch_.rays.upload(kernels_.rays(some));
         kernel::Frame frame = prepared.frame;
-        frame.ray_count = tile.rays;
+        frame.ray_count = batch.rays;
         upload(frame);
         TimedKernels timed;
-        const auto needs = weave(tile.rays, Rays::listed, timed);
+        const auto needs = weave(batch.rays, Rays::listed, timed);
         if (!needs) return false;
-        exact().add_needs(*needs, tile.rays, counts);
-        exact().settle(tile.rays, true, timed, counts);
-        const auto claims = exact().claims(tile.rays);
-        for (std::uint32_t i = 0; i < tile.rays; ++i) {
-            answers[tile.first + i] = to_partitions(kernels_, prepared.frame, some[i], claims[i]);
+        exact().add_needs(*needs, batch.rays, counts);
+        exact().settle(batch.rays, true, timed, counts);
+        const auto claims = exact().claims(batch.rays);
+        for (std::uint32_t i = 0; i < batch.rays; ++i) {
+            answers[batch.first + i] = to_partitions(kernels_, prepared.frame, some[i], claims[i]);
             for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
         }
-        ++counts.tiles;
+        ++counts.batches;
         return true;
     });
 }

@@ -33,7 +33,7 @@ Pipelines::Pipelines(const std::vector<FoundDevice>& devices, const CompiledScen
     setup_ms_ = milliseconds_since(start);
 }
 
-// One device alone takes all rays as tiles of its own, unless it copies the first ones' pixels while it draws others; of every
+// One device alone takes all rays as batches of its own, unless it copies the first ones' pixels while it draws others; of every
 // partition it has large ones.
 std::uint64_t Pipelines::parts_of(const RayCosts& costs, bool every_partition) const {
     constexpr std::uint64_t large = RayCosts::of_shown << 22;
@@ -45,7 +45,7 @@ std::uint64_t Pipelines::parts_of(const RayCosts& costs, bool every_partition) c
 // A thread for each device. What the first of the devices threw is thrown, once all threads have stopped.
 void Pipelines::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work) {
     const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
-    const bool is_one = parts_each == 1 || rays <= block_rays;
+    const bool is_one = parts_each == 1 || rays <= tile_rays;
     const std::size_t devices = is_one ? 1 : pipelines_.size();
     Parts parts(costs, pipelines_.size(), parts_each, !every_partition);
     std::mutex mutex;
@@ -129,7 +129,7 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
           [&](Pipeline& pipeline, const TakeRays& take, const Pipeline::Told& told, PipelineCounts& own) {
               pipeline.render(prepared, take, shared, told, own);
           });
-    clear_around(prepared.frame, target);  // while the last tiles' pixels are on their way
+    clear_around(prepared.frame, target);  // while the last batches' pixels are on their way
     for (const auto& pipeline : pipelines_) pipeline->finish();
 }
 

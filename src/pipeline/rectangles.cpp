@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
-#include "pipeline/block_rows.hpp"
+#include "pipeline/tile_rows.hpp"
 
 namespace csgrt {
 namespace {
 
-/// Of bytes, the first of which is block `left`'s, from the first to the last that is not 0: eight at a time.
-BlockRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t left) {
+/// Of bytes, the first of which is tile `left`'s, from the first to the last that is not 0: eight at a time.
+TileRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t left) {
     const auto are_zero = [&](std::size_t at) {
         std::uint64_t eight = 0;
         std::memcpy(&eight, bytes.data() + at, sizeof eight);
@@ -19,14 +19,14 @@ BlockRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t lef
     const std::size_t begin = next_held(bytes, 0, end);
     while (end >= begin + 8 && are_zero(end - 8)) end -= 8;
     while (end > begin && bytes[end - 1] == 0) --end;
-    return begin == end ? BlockRows::Extent{} : BlockRows::Extent{left + begin, left + end};
+    return begin == end ? TileRows::Extent{} : TileRows::Extent{left + begin, left + end};
 }
 
 /// A row's pixels; where there is room beside them, whole lines of the processor's cache, the first of which begins with
 /// pixel `aligned`: a GPU writes those a quarter sooner (bench/NOTES.md).
-Rectangle pixels_of(const BlockRows& rows, std::size_t row, BlockRows::Extent extent, std::size_t aligned) {
+Rectangle pixels_of(const TileRows& rows, std::size_t row, TileRows::Extent extent, std::size_t aligned) {
     constexpr std::size_t line = 64 / sizeof(float);
-    const BlockRows::Extent all = rows.whole(row);
+    const TileRows::Extent all = rows.whole(row);
     std::size_t left = rows.column(extent.begin), right = rows.column(extent.end);
     const std::size_t before = (left + line - aligned) % line, behind = (aligned + line - right % line) % line;
     if (left >= rows.column(all.begin) + before) left -= before;
@@ -34,10 +34,10 @@ Rectangle pixels_of(const BlockRows& rows, std::size_t row, BlockRows::Extent ex
     return {left, right, rows.top(row), rows.top(row + 1)};
 }
 
-/// Whether all of it is the tile's, whose rows but the first and the last are whole.
-bool hold(const BlockRows& rows, const Rectangle& r) {
+/// Whether all of it is the batch's, whose rows but the first and the last are whole.
+bool hold(const TileRows& rows, const Rectangle& r) {
     const auto fits = [&](std::size_t line) {
-        const BlockRows::Extent all = rows.whole(rows.row_of(line));
+        const TileRows::Extent all = rows.whole(rows.row_of(line));
         return r.left >= rows.column(all.begin) && r.right <= rows.column(all.end);
     };
     return fits(r.top) && fits(r.bottom - 1);
@@ -45,10 +45,10 @@ bool hold(const BlockRows& rows, const Rectangle& r) {
 
 constexpr std::size_t copy_cost = 1 << 12;  // pixels that a copy's begin takes as long as (bench/NOTES.md)
 
-/// Of rows that follow each other, what is between two columns of blocks.
+/// Of rows that follow each other, what is between two columns of tiles.
 struct Part {
     std::size_t first_row, end_row;
-    BlockRows::Extent columns;
+    TileRows::Extent columns;
     Rectangle pixels;
 };
 
@@ -60,18 +60,18 @@ Part around(const Part& a, const Part& b) {
              std::max(a.pixels.bottom, b.pixels.bottom)}};
 }
 
-/// The tile's blocks that are needed, and what holds them.
+/// The batch's tiles that are needed, and what holds them.
 class Needed {
 public:
     Needed(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
            const RenderTarget& target)
-        : rows_(frame, first, end), across_(kernel::blocks_across(frame.window)), blocks_(rows_.count() * across_) {
+        : rows_(frame, first, end), across_(kernel::tiles_across(frame.screen)), tiles_(rows_.count() * across_) {
         const std::size_t behind = reinterpret_cast<std::uintptr_t>(target.planes.front().pixels) % 64 / sizeof(float);
         aligned_ = (16 - behind) % 16;
         for (std::size_t row = 0; row < rows_.count(); ++row) {
-            const BlockRows::Extent all = rows_.whole(row);
+            const TileRows::Extent all = rows_.whole(row);
             const std::uint8_t *own = shown.data() + rows_.place(row, all.begin), *held = rows_.held(row, target).data();
-            std::uint8_t* const needed = blocks_.data() + row * across_ + all.begin;
+            std::uint8_t* const needed = tiles_.data() + row * across_ + all.begin;
             for (std::size_t i = 0; i < all.end - all.begin; ++i) needed[i] = own[i] | held[i];
         }
     }
@@ -80,7 +80,7 @@ public:
 
 private:
     /// Those of some rows, between two columns.
-    std::vector<Rectangle> cover(std::size_t first_row, std::size_t end_row, BlockRows::Extent columns) const {
+    std::vector<Rectangle> cover(std::size_t first_row, std::size_t end_row, TileRows::Extent columns) const {
         std::vector<Rectangle> found;
         for (const Part& part : join(strips(first_row, end_row, columns))) {
             std::vector<Rectangle> beside = split(part);
@@ -92,11 +92,11 @@ private:
 
     /// What is needed of a part without the widest gap in it, if that costs less than the whole; else nothing.
     std::vector<Rectangle> split(const Part& part) const {
-        constexpr std::size_t least = 4;  // blocks: rectangles beside it begin and end with lines of the cache
+        constexpr std::size_t least = 4;  // tiles: rectangles beside it begin and end with lines of the cache
         constexpr std::size_t least_pixels = 4 * copy_cost;  // that are worth a look
-        const BlockRows::Extent gap = widest_gap(part);
+        const TileRows::Extent gap = widest_gap(part);
         const std::size_t width = gap.end - gap.begin;
-        if (width < least || width * BLOCK * part.pixels.lines() < least_pixels) return {};
+        if (width < least || width * TILE * part.pixels.lines() < least_pixels) return {};
         std::vector<Rectangle> found = cover(part.first_row, part.end_row, {part.columns.begin, gap.begin});
         const std::vector<Rectangle> right = cover(part.first_row, part.end_row, {gap.end, part.columns.end});
         found.insert(found.end(), right.begin(), right.end());
@@ -106,11 +106,11 @@ private:
     }
 
     /// Columns that no row of the part needs.
-    BlockRows::Extent widest_gap(const Part& part) const {
+    TileRows::Extent widest_gap(const Part& part) const {
         std::vector<std::uint8_t> needed(part.columns.end - part.columns.begin);
         for (std::size_t row = part.first_row; row < part.end_row; ++row)
-            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] |= blocks_[row * across_ + part.columns.begin + i];
-        BlockRows::Extent widest;
+            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] |= tiles_[row * across_ + part.columns.begin + i];
+        TileRows::Extent widest;
         for (std::size_t begin = 0, i = 0; i < needed.size(); ++i) {
             if (needed[i]) begin = i + 1;
             if (i + 1 - begin > widest.end - widest.begin) widest = {begin, i + 1};
@@ -119,11 +119,11 @@ private:
     }
 
     /// Of each row that needs any.
-    std::vector<Part> strips(std::size_t first_row, std::size_t end_row, BlockRows::Extent columns) const {
+    std::vector<Part> strips(std::size_t first_row, std::size_t end_row, TileRows::Extent columns) const {
         std::vector<Part> found;
         for (std::size_t row = first_row; row < end_row; ++row) {
-            const auto of_row = std::span(blocks_).subspan(row * across_ + columns.begin, columns.end - columns.begin);
-            const BlockRows::Extent extent = extent_of(of_row, columns.begin);
+            const auto of_row = std::span(tiles_).subspan(row * across_ + columns.begin, columns.end - columns.begin);
+            const TileRows::Extent extent = extent_of(of_row, columns.begin);
             if (!extent.is_empty()) found.push_back({row, row + 1, extent, pixels_of(rows_, row, extent, aligned_)});
         }
         return found;
@@ -153,9 +153,9 @@ private:
         return found;
     }
 
-    BlockRows rows_;
+    TileRows rows_;
     std::size_t across_, aligned_ = 0;
-    std::vector<std::uint8_t> blocks_;  ///< row by row: not 0 where it is needed
+    std::vector<std::uint8_t> tiles_;  ///< row by row: not 0 where it is needed
 };
 
 }  // namespace
@@ -167,7 +167,7 @@ std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t
 
 void hold_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
                 const RenderTarget& target) {
-    const BlockRows rows(frame, first, end);
+    const TileRows rows(frame, first, end);
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const auto held = rows.held(row, target);
         std::ranges::copy(shown.subspan(rows.place(row, rows.whole(row).begin), held.size()), held.begin());
@@ -175,8 +175,8 @@ void hold_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t e
 }
 
 Rectangle lines_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end) {
-    const BlockRows rows(frame, first, end);
-    return {frame.window.left, frame.window.right, rows.top(0), rows.top(rows.count())};
+    const TileRows rows(frame, first, end);
+    return {frame.screen.left, frame.screen.right, rows.top(0), rows.top(rows.count())};
 }
 
 }  // namespace csgrt

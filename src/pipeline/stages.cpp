@@ -29,7 +29,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     overlaps += other.overlaps;
     segment_bytes += other.segment_bytes;
     partition_bytes += other.partition_bytes;
-    tiles += other.tiles;
+    batches += other.batches;
     drawn_again += other.drawn_again;
     count_hits += other.count_hits;
     scan += other.scan;
@@ -37,7 +37,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     weave += other.weave;
     evaluate += other.evaluate;
     shade += other.shade;
-    cull_blocks += other.cull_blocks;
+    cull_tiles += other.cull_tiles;
     first_hits += other.first_hits;
     return *this;
 }

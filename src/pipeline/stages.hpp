@@ -1,4 +1,4 @@
-// What the two ways through the pipeline share: the scene on the device, one tile's frame and rays, and the figures.
+// What the two ways through the pipeline share: the scene on the device, one batch's frame and rays, and the figures.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ inline constexpr std::size_t work_group = 64;
 /// would keep it busy after all others have ended, and what a loop over items has to keep for each of them is no small thing.
 std::size_t uneven_group(const Device& device);
 
-inline constexpr std::uint32_t block_rays = BLOCK * BLOCK;
+inline constexpr std::uint32_t tile_rays = TILE * TILE;
 
 /// The compiled scene on the device, and the frame's lights.
 struct SceneBuffers {
@@ -27,33 +27,33 @@ struct SceneBuffers {
 };
 
 /// Rays [first, first + rays) of a picture, of a list or of those picked.
-struct Tile {
+struct RayBatch {
     std::uint32_t first = 0, rays = 0;
-    bool operator==(const Tile&) const = default;
+    bool operator==(const RayBatch&) const = default;
 
-    std::uint32_t first_block() const { return first / block_rays; }
-    std::uint32_t end_block() const { return (first + rays) / block_rays; }
-    std::uint32_t blocks() const { return rays / block_rays; }
-    /// A kernel::TileTally and a byte a block.
-    std::uint64_t tally_bytes() const { return sizeof(kernel::TileTally) + (blocks() + 3) / 4 * 4; }
+    std::uint32_t first_tile() const { return first / tile_rays; }
+    std::uint32_t end_tile() const { return (first + rays) / tile_rays; }
+    std::uint32_t tiles() const { return rays / tile_rays; }
+    /// A kernel::BatchReport and a byte a tile.
+    std::uint64_t tally_bytes() const { return sizeof(kernel::BatchReport) + (tiles() + 3) / 4 * 4; }
 };
 
-/// One tile on the device: its frame; what its blocks see (cull.hpp); its rays, or their numbers, or those of their blocks; what the
-/// host wants to know of them (kernel::TileTally); and, of first hits, the numbers of the rays that had no room.
-struct TileBuffers {
-    explicit TileBuffers(Device& device)
-        : frame(device, "frame"), costs(device, "blocks"), lists(device, "blocks' nodes"), rays(device, "rays"),
+/// One batch on the device: its frame; what its tiles see (cull.hpp); its rays, or their numbers, or those of their tiles; what the
+/// host wants to know of them (kernel::BatchReport); and, of first hits, the numbers of the rays that had no room.
+struct BatchBuffers {
+    explicit BatchBuffers(Device& device)
+        : frame(device, "frame"), costs(device, "tiles"), lists(device, "tiles' nodes"), rays(device, "rays"),
           tally(device, "tally"), overflown(device, "rays without room") {}
     Buffer frame, costs, lists, rays, tally, overflown;
 
     std::uint64_t held() const { return costs.size() + lists.size() + rays.size() + tally.size() + overflown.size(); }
-    /// For a tile's blocks, its tally, and bytes for each ray that may have no room.
-    void reserve(const Tile& tile, std::uint64_t bytes_a_ray) {
-        rays.reserve(tile.blocks() * sizeof(std::uint32_t));
-        tally.reserve(tile.tally_bytes());
-        overflown.reserve(tile.rays * bytes_a_ray);
+    /// For a batch's tiles, its tally, and bytes for each ray that may have no room.
+    void reserve(const RayBatch& batch, std::uint64_t bytes_a_ray) {
+        rays.reserve(batch.tiles() * sizeof(std::uint32_t));
+        tally.reserve(batch.tally_bytes());
+        overflown.reserve(batch.rays * bytes_a_ray);
     }
-    /// Gives that back; or but for what its blocks see.
+    /// Gives that back; or but for what its tiles see.
     void release() {
         costs.release();
         lists.release();
@@ -64,13 +64,13 @@ struct TileBuffers {
     }
 };
 
-/// Figures of one frame, summed over its tiles. Times in milliseconds, the device's own; `build`: the host's.
+/// Figures of one frame, summed over its batches. Times in milliseconds, the device's own; `build`: the host's.
 struct PipelineCounts {
     std::uint64_t hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
-    std::uint64_t segment_bytes = 0, partition_bytes = 0;  ///< of all tiles together
-    std::uint32_t tiles = 0, drawn_again = 0;  ///< and, of them, those for which memory did not do at first
+    std::uint64_t segment_bytes = 0, partition_bytes = 0;  ///< of all batches together
+    std::uint32_t batches = 0, drawn_again = 0;  ///< and, of them, those for which memory did not do at first
     double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
-    double cull_blocks = 0, first_hits = 0;
+    double cull_tiles = 0, first_hits = 0;
 
     PipelineCounts& operator+=(const PipelineCounts& other);
 };

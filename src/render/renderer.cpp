@@ -168,7 +168,7 @@ struct Renderer::Impl {
         statistics.overlaps = c.overlaps;
         statistics.segment_bytes = c.segment_bytes;
         statistics.partition_bytes = c.partition_bytes;
-        statistics.tiles = c.tiles;
+        statistics.tiles = c.batches;
         statistics.device_bytes = pipelines.device_bytes();
         statistics.ms.count_hits = c.count_hits;
         statistics.ms.scan = c.scan;
@@ -176,7 +176,7 @@ struct Renderer::Impl {
         statistics.ms.weave = c.weave;
         statistics.ms.evaluate = c.evaluate;
         statistics.ms.shade = c.shade;
-        statistics.ms.cull_blocks = c.cull_blocks;
+        statistics.ms.cull_blocks = c.cull_tiles;
         statistics.ms.first_hits = c.first_hits;
         statistics.ms.build = search_ms + pipelines.build_ms();
         built_in_call_ms += pipelines.build_ms() - built_ms;

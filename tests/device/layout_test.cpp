@@ -31,13 +31,13 @@ using namespace csgrt;
     FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
-    FIELD(Frame, window) FIELD(Frame, lines) FIELD(Frame, rank_ends) \
-    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(Window) FIELD(Window, left) FIELD(Window, top) FIELD(Window, right) FIELD(Window, bottom) \
+    FIELD(Frame, screen) FIELD(Frame, lines) FIELD(Frame, rank_ends) \
+    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(ScreenBounds) FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
-    FIELD(RayRecord, dz) RECORD(BlockNode) FIELD(BlockNode, node) FIELD(BlockNode, entry) \
-    RECORD(TileTally) FIELD(TileTally, candidates) FIELD(TileTally, total) FIELD(TileTally, blocks) FIELD(TileTally, listed) \
-    FIELD(TileTally, entries) FIELD(TileTally, overflows) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
+    FIELD(RayRecord, dz) RECORD(TileNode) FIELD(TileNode, node) FIELD(TileNode, entry) \
+    RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) FIELD(BatchReport, listed) \
+    FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \

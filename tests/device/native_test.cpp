@@ -56,10 +56,10 @@ TEST_CASE("the native device's sums are those of one entry after the other", "[d
             count.segments = static_cast<std::uint32_t>(random() % (most + 1));
             count.words = static_cast<std::uint32_t>(random() % 3);
         }
-        const std::uint32_t blocks = (size + 1023) / 1024;
-        Buffer entries(device, "counts", counts), sums(device, "sums", blocks * sizeof(kernel::RayCount));
-        scan_blocks.launch(std::size_t{blocks} * 64, 64, entries, sums, size);
-        scan_sums.launch(64, 64, sums, blocks);
+        const std::uint32_t tiles = (size + 1023) / 1024;
+        Buffer entries(device, "counts", counts), sums(device, "sums", tiles * sizeof(kernel::RayCount));
+        scan_blocks.launch(std::size_t{tiles} * 64, 64, entries, sums, size);
+        scan_sums.launch(64, 64, sums, tiles);
         scan_add.launch(size, 64, entries, sums, size);
         const auto found = entries.read<kernel::RayCount>(size), expected = sums_before(counts);
         std::size_t different = 0;
@@ -80,7 +80,7 @@ TEST_CASE("the native device has the kernels of the default method and says so o
     CHECK_THROWS_AS(Program(device, "", {"CSGRT_QUARTIC=1", "CSGRT_PACKETS"}), Error);
     CHECK_THROWS_AS(Program(device, "", {"CSGRT_QUARTIC=0", "CSGRT_PACKETS"}, true), Error);
     const Program program = every_partition(device);
-    CHECK_THROWS_WITH(program.kernel("list_blocks"), ContainsSubstring("clCreateKernel (list_blocks)"));
+    CHECK_THROWS_WITH(program.kernel("list_tiles"), ContainsSubstring("clCreateKernel (list_tiles)"));
     Kernel scan_sums = program.kernel("scan_sums");
     Buffer sums(device, "sums", 64);
     CHECK_THROWS_WITH(scan_sums.launch(64, 64, sums, cl_ulong{8}), ContainsSubstring("clSetKernelArg (scan_sums, argument 1)"));

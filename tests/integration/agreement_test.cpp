@@ -1,5 +1,5 @@
 // The device and the reference agree to the last bit: every channel of every pixel, every partition of every ray,
-// whatever the view and however small the tiles.
+// whatever the view and however small the batches.
 #include <csgrt/csgrt.hpp>
 
 #include "bench/stress/families.hpp"

@@ -85,7 +85,7 @@ inline Settings on_compiling_device() {
     return settings;
 }
 
-/// Whole and in tiles, parallel and in perspective, every partition and the first hit; then `rays` random rays.
+/// Whole and in batches, parallel and in perspective, every partition and the first hit; then `rays` random rays.
 inline void require_agreement(const Scene& scene, const std::vector<std::string>& objects, int size, int rays,
                               const Settings& settings = on_device()) {
     Settings by_reference = settings;
@@ -98,8 +98,8 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
         return device.statistics().device_bytes;
     }();
     Settings little = settings;
-    little.max_memory = scene_bytes + 400'000;  // some dozen tiles
-    Renderer tiled(scene, objects, little);
+    little.max_memory = scene_bytes + 400'000;  // some dozen batches
+    Renderer batched(scene, objects, little);
     for (const double perspective : {0.0, 40.0}) {
         View view;
         view.width = size;
@@ -109,15 +109,15 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
         INFO("perspective " << perspective);
         const Image expected = reference.render(view);
         require_same(device.render(view), expected);
-        require_same(tiled.render(view), expected);
-        if (expected.width >= 64) CHECK(tiled.statistics().tiles > 1);
+        require_same(batched.render(view), expected);
+        if (expected.width >= 64) CHECK(batched.statistics().tiles > 1);
         CHECK(device.statistics().segments == reference.statistics().segments);
         CHECK(device.statistics().partitions_used == reference.statistics().partitions_used);
         CHECK(device.statistics().overlaps == reference.statistics().overlaps);
         view.every_partition = false;
         const Image first = device.render(view);
         require_same(first, reference.render(view));
-        require_same(tiled.render(view), first);
+        require_same(batched.render(view), first);
         REQUIRE(first.names.size() == 10);
         for (std::size_t c = 0; c < first.names.size(); ++c)
             CHECK(std::memcmp(first.channels[c].data(), expected.channels[c].data(), first.channels[c].size() * 4) == 0);
@@ -125,7 +125,7 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
     const std::vector<Ray> list = random_rays(reference.bounds(), rays);
     const auto expected = reference.shoot(list);
     require_same(device.shoot(list), expected);
-    require_same(tiled.shoot(list), expected);
+    require_same(batched.shoot(list), expected);
 }
 
 }  // namespace csgrt::test

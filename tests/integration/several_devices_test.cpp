@@ -45,7 +45,7 @@ TEST_CASE("two devices give what one gives", "[.two_devices]") {
         CHECK(two.statistics().device == one.statistics().device + " + " + one.statistics().device);
         for (const bool every : {false, true}) {
             View view;
-            view.width = 203;  // blocks at the edges, and parts that begin within a row
+            view.width = 203;  // tiles at the edges, and parts that begin within a row
             view.height = 157;
             view.every_partition = every;
             test::require_same(one.render(view), two.render(view));
@@ -129,7 +129,7 @@ TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
                 known_bytes = two.device_bytes() - before;
                 CHECK(known_bytes == 2 * 6 * pixels[0].size() * sizeof(float));
             }
-            CHECK(counts.tiles > 2);
+            CHECK(counts.batches > 2);
             const Image image = one.render(view);
             Image packed = image;
             packed.channels = pixels;

@@ -9,7 +9,7 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
-#include "pipeline/block_list.hpp"
+#include "pipeline/tile_list.hpp"
 #include "pipeline/first_hits.hpp"
 #include "pipeline/known_picture.hpp"
 #include "pipeline/pipelines.hpp"
@@ -34,7 +34,7 @@ TakeRays ranges_of(std::uint64_t rays, std::uint64_t each) {
 
 }  // namespace
 
-TEST_CASE("lines make the picture, whatever was there before and however many tiles there are") {
+TEST_CASE("lines make the picture, whatever was there before and however many batches there are") {
     Scene scene = bench::scene_of_parts(20);
     scene.background = {0.2, 0, 0.4};
     const bool every_partition = GENERATE(false, true);
@@ -54,7 +54,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
     Channels pixels;
     std::vector<std::uint8_t> drawn;
     std::vector<float> background;
-    std::uint32_t most_tiles = 0;
+    std::uint32_t most_batches = 0;
     std::optional<KnownPicture> known;
     for (const double azimuth : {35.0, 80.0, 200.0}) {
         View view;
@@ -86,24 +86,24 @@ TEST_CASE("lines make the picture, whatever was there before and however many ti
         pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), target, nullptr, counts);
         clear_around(prepared.frame, target);
         pipeline.finish();
-        most_tiles = std::max(most_tiles, counts.tiles);
+        most_batches = std::max(most_batches, counts.batches);
         Image packed = image;
         packed.channels = pixels;
         test::require_same(packed, image);
-        const auto blocks = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), 1));
-        CHECK(blocks > 5);
-        if (room == 0 || room > 100'000) CHECK(blocks < drawn.size() / 2);  // single rays mark theirs, whatever they show
+        const auto tiles = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), 1));
+        CHECK(tiles > 5);
+        if (room == 0 || room > 100'000) CHECK(tiles < drawn.size() / 2);  // single rays mark theirs, whatever they show
     }
-    CHECK((most_tiles > 1) == (room > 0));
+    CHECK((most_batches > 1) == (room > 0));
 
     View none;  // no channel at all: of first hits there are no counts
     none.width = none.height = 40;
     none.every_partition = false;
     none.channels = channel::counts;
     const PreparedFrame prepared = prepare_frame(compiled, none, renderer.statistics().tolerance);
-    std::vector<std::uint8_t> blocks(25, 1);
+    std::vector<std::uint8_t> tiles(25, 1);
     PipelineCounts counts;
-    const RenderTarget nothing{.planes = {}, .drawn = blocks};
+    const RenderTarget nothing{.planes = {}, .drawn = tiles};
     pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), nothing, nullptr, counts);
     pipeline.finish();
     CHECK(renderer.render(none).channels.empty());
@@ -113,7 +113,7 @@ namespace {
 
 /// A pipeline that brings pixels by lines, and the memory of a picture that it draws into.
 struct Lined {
-    /// `room`: bytes of device memory beside the scene's; 0: all that there is. `most_rays`: of a tile.
+    /// `room`: bytes of device memory beside the scene's; 0: all that there is. `most_rays`: of a batch.
     explicit Lined(const Scene& scene, std::uint64_t room = 0, std::uint64_t most_rays = Pipeline::most_rays_drawn,
                    Readback readback = Readback::lines)
         : renderer(scene, {}, settings), compiled(compile(scene, {})),
@@ -141,7 +141,7 @@ struct Lined {
         std::vector<ChannelPlane> planes;
         for (std::size_t p = 0; p < pixels.size(); ++p)
             planes.push_back({pixels[p].data(), image.names[p] == "Z" ? std::numeric_limits<float>::infinity() : 0.0f});
-        std::vector<std::uint8_t> drawn((width + BLOCK - 1) / BLOCK * ((height + BLOCK - 1) / BLOCK), 1);
+        std::vector<std::uint8_t> drawn((width + TILE - 1) / TILE * ((height + TILE - 1) / TILE), 1);
         const RenderTarget target{.planes = planes, .drawn = drawn};
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
@@ -182,19 +182,19 @@ struct Lined {
 
 }  // namespace
 
-TEST_CASE("pixels by lines: tiles that run beside each other") {
+TEST_CASE("pixels by lines: batches that run beside each other") {
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t most_rays : {2048, 16'384}) {
         Lined lined(bench::scene_of_parts(20), 0, most_rays);
         for (const double azimuth : {35, 120}) {
             lined.azimuth = azimuth;
-            CHECK(lined.draw(403, 361, every_partition, 1 << 20).tiles > 3);
-            lined.draw(250, 300, every_partition, 700 * block_rays);
+            CHECK(lined.draw(403, 361, every_partition, 1 << 20).batches > 3);
+            lined.draw(250, 300, every_partition, 700 * tile_rays);
         }
     }
 }
 
-TEST_CASE("pixels by lines: few channels, of tiles that run beside each other, in little memory") {
+TEST_CASE("pixels by lines: few channels, of batches that run beside each other, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
     for (std::uint64_t room = 200'000; room < 5'000'000; room += test::sanitized ? room : room / 5) {
         INFO("room " << room);
@@ -221,7 +221,7 @@ TEST_CASE("a picture in place after a list of rays, in little memory") {
 TEST_CASE("pixels by lines: parts of a frame one after the other") {
     Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
-    for (const std::uint64_t blocks : {7, 40, 1000}) lined.draw(203, 161, every_partition, blocks * block_rays);
+    for (const std::uint64_t tiles : {7, 40, 1000}) lined.draw(203, 161, every_partition, tiles * tile_rays);
 }
 
 TEST_CASE("pixels by lines: a picture of several copies, each put as it comes") {
@@ -234,13 +234,13 @@ TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
     Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     int told = 0;
-    CHECK_THROWS_AS(lined.draw(90, 80, every_partition, 30 * block_rays, [&](double) { return ++told < 3; }), Error);
-    lined.draw(300, 250, every_partition, 200 * block_rays);
-    CHECK_THROWS_AS(lined.draw(300, 250, every_partition, 200 * block_rays, [](double) { return false; }), Error);
-    lined.draw(40, 50, every_partition, 10 * block_rays);
+    CHECK_THROWS_AS(lined.draw(90, 80, every_partition, 30 * tile_rays, [&](double) { return ++told < 3; }), Error);
+    lined.draw(300, 250, every_partition, 200 * tile_rays);
+    CHECK_THROWS_AS(lined.draw(300, 250, every_partition, 200 * tile_rays, [](double) { return false; }), Error);
+    lined.draw(40, 50, every_partition, 10 * tile_rays);
 }
 
-TEST_CASE("pixels by lines: frames that are interrupted while tiles are queued, and others at once") {
+TEST_CASE("pixels by lines: frames that are interrupted while batches are queued, and others at once") {
     Lined lined(bench::scene_of_parts(20), 0, 16'384);
     for (int i = 0; i < 12; ++i) {
         lined.azimuth = 30 * i;
@@ -251,7 +251,7 @@ TEST_CASE("pixels by lines: frames that are interrupted while tiles are queued, 
     }
 }
 
-TEST_CASE("pixels by lines: every partition of tiles that need more than those before") {
+TEST_CASE("pixels by lines: every partition of batches that need more than those before") {
     Scene scene = bench::scene_of_parts(20);
     for (int i = 0; i < 40; ++i) {  // a pile that a side shows one in front of the other
         Solid ball{"pile" + std::to_string(i), stress::ball({20.0 + 3 * i, 0, 0}, 2), {}};
@@ -259,23 +259,23 @@ TEST_CASE("pixels by lines: every partition of tiles that need more than those b
         scene.objects.push_back(std::move(ball));
     }
     Lined lined(scene, 0, 8192);
-    std::uint32_t again = 0, tiles = 0;
+    std::uint32_t again = 0, batches = 0;
     for (const double azimuth : {90.0, 88.0, 0.0, 1.0, 0.0, 0.0, 90.0}) {
         INFO("azimuth " << azimuth);
         lined.azimuth = azimuth;
         const PipelineCounts counts = lined.draw(403, 361, true, 1 << 20);
-        CHECK(counts.tiles > 2);
-        tiles += counts.tiles;
+        CHECK(counts.batches > 2);
+        batches += counts.batches;
         again += counts.drawn_again;
-        lined.draw(250, 300, true, 300 * block_rays);
+        lined.draw(250, 300, true, 300 * tile_rays);
     }
     CHECK(again > 0);
-    CHECK(again < tiles / 4);
+    CHECK(again < batches / 4);
     lined.azimuth = 0;
     CHECK(lined.draw(403, 361, true, 1 << 20).drawn_again == 0);  // there is room for all by now
 }
 
-TEST_CASE("pixels by lines: every partition of tiles that need more than those before, in little memory") {
+TEST_CASE("pixels by lines: every partition of batches that need more than those before, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
     std::uint32_t again = 0;
     for (std::uint64_t room = 500'000; room < 40'000'000; room += test::sanitized ? 2 * room : room / 2) {
@@ -312,7 +312,7 @@ void add_ball(Scene& scene, const std::string& name, const Vec3& center, double 
     scene.top.push_back(name);
 }
 
-/// How many of the blocks of such a picture's first hits are listed in parts, counted by entries.
+/// How many of the tiles of such a picture's first hits are listed in parts, counted by entries.
 std::size_t count_parts(const Lined& lined, int width, int height) {
     View view;
     view.width = width;
@@ -322,17 +322,17 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     PreparedFrame prepared = prepare_frame(lined.compiled, view, lined.renderer.statistics().tolerance);
     const auto rays = static_cast<std::uint32_t>(prepared.rays);
     prepared.frame.ray_count = rays;
-    prepared.frame.lines = prepared.frame.window.bottom - prepared.frame.window.top;
+    prepared.frame.lines = prepared.frame.screen.bottom - prepared.frame.screen.top;
     Device device(lined.settings.device);
     FirstHits first_hits(device, lined.compiled, lined.settings);
     const SceneBuffers scene(device, lined.compiled, lined.kernels->tables());
-    TileBuffers tile(device);
-    BlockList list(device);
+    BatchBuffers batch(device);
+    TileList list(device);
     list.build();
-    tile.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
-    wait_for(first_hits.cull().launch(scene, tile, prepared.frame));
-    for (const Event& event : list.list({0, rays}, tile, BlockList::most_in_parts(device))) wait_for(event);
-    const auto entries = tile.rays.read<std::uint32_t>(tile.tally.read<kernel::TileTally>(1).front().entries);
+    batch.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
+    wait_for(first_hits.cull().launch(scene, batch, prepared.frame));
+    for (const Event& event : list.list({0, rays}, batch, TileList::most_in_parts(device))) wait_for(event);
+    const auto entries = batch.rays.read<std::uint32_t>(batch.tally.read<kernel::BatchReport>(1).front().entries);
     return static_cast<std::size_t>(std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));
 }
 
@@ -343,16 +343,16 @@ TEST_CASE("pixels by lines: rays that have no room") {
     add_shells(scene, {0, 0, 0}, 20, 0.1);
     add_ball(scene, "ball", {0, 30, 0}, 9);
     Lined lined(scene);
-    for (const std::uint64_t blocks : {9, 60, 1000})
-        CHECK(lined.draw(203, 161, false, blocks * block_rays).segments > 0);  // which the exact way alone counts
-    for (std::uint64_t room = 400'000; room < 40'000'000; room *= test::sanitized ? 8 : 2) {  // beside tiles that run
+    for (const std::uint64_t tiles : {9, 60, 1000})
+        CHECK(lined.draw(203, 161, false, tiles * tile_rays).segments > 0);  // which the exact way alone counts
+    for (std::uint64_t room = 400'000; room < 40'000'000; room *= test::sanitized ? 8 : 2) {  // beside batches that run
         INFO("room " << room);
         Lined beside(scene, room, 4096);
         CHECK(beside.draw(203, 161, false, 1 << 20).segments > 0);
     }
 }
 
-TEST_CASE("pixels by lines: few blocks with more to see than all others, whose rays come in parts") {
+TEST_CASE("pixels by lines: few tiles with more to see than all others, whose rays come in parts") {
     Scene scene;
     for (int i = 0; i < 300; ++i)  // a heap of some pixels, off the middle of an empty picture
         add_ball(scene, "ball" + std::to_string(i), {40 + 0.3 * (i % 7), 0.3 * (i / 7 % 7), 0.3 * (i / 49)}, 0.1 + 0.0003 * i);
@@ -367,13 +367,13 @@ TEST_CASE("pixels by lines: few blocks with more to see than all others, whose r
         lined.azimuth = azimuth;
         listed += count_parts(lined, 203, 161);
         const PipelineCounts whole = lined.draw(203, 161, false, 1 << 20);
-        const PipelineCounts parts = lined.draw(205, 170, false, 30 * block_rays);
-        CHECK(whole.tiles == 1);
-        CHECK(parts.tiles > 1);
+        const PipelineCounts parts = lined.draw(205, 170, false, 30 * tile_rays);
+        CHECK(whole.batches == 1);
+        CHECK(parts.batches > 1);
         CHECK((whole.segments > 0) == has_shells);
         CHECK((parts.segments > 0) == has_shells);
     }
-    if (BlockList::most_in_parts(lined.device) >= 8) CHECK(listed >= 8);  // one processor alone may find them too many
+    if (TileList::most_in_parts(lined.device) >= 8) CHECK(listed >= 8);  // one processor alone may find them too many
 }
 
 TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
@@ -418,7 +418,7 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
             PipelineCounts counts;
             pipelines.render(prepared, {.planes = planes, .drawn = drawn}, [&](double part) { told = part; return true; }, counts);
             CHECK(told == 1);
-            if (sees && !every_partition) CHECK(counts.tiles > 1);
+            if (sees && !every_partition) CHECK(counts.batches > 1);
             Image packed = image;
             packed.channels = pixels;
             test::require_same(packed, image);

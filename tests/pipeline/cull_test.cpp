@@ -1,4 +1,4 @@
-// What blocks of a picture may see: the device against the same kernel compiled for the host.
+// What tiles of a picture may see: the device against the same kernel compiled for the host.
 #include "device/compiling_device.hpp"
 #include "pipeline/cull.hpp"
 
@@ -21,14 +21,14 @@ namespace {
 
 struct Culled {
     std::vector<unsigned char> costs;
-    std::vector<std::vector<kernel::BlockNode>> lists;
+    std::vector<std::vector<kernel::TileNode>> lists;
 };
 
-Culled lists_of(std::vector<unsigned char> costs, std::span<const kernel::BlockNode> nodes) {
+Culled lists_of(std::vector<unsigned char> costs, std::span<const kernel::TileNode> nodes) {
     Culled culled{std::move(costs), {}};
-    for (std::size_t block = 0; block < culled.costs.size(); ++block) {
-        const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(block * LISTED_NODES);
-        const auto end = std::find_if(begin, begin + LISTED_NODES, [](const kernel::BlockNode& e) { return e.node == NONE; });
+    for (std::size_t tile = 0; tile < culled.costs.size(); ++tile) {
+        const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(tile * LISTED_NODES);
+        const auto end = std::find_if(begin, begin + LISTED_NODES, [](const kernel::TileNode& e) { return e.node == NONE; });
         culled.lists.emplace_back(begin, end);
     }
     return culled;
@@ -41,35 +41,35 @@ Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame)
     const SceneBuffers scene(device, compiled, kernels->tables());
     const Program program(device, assemble_program({Cull::file}), defines_of(device, compiled, settings));
     Cull kernel_0(device, program);
-    TileBuffers tile(device);
-    tile.frame = Buffer(device, "frame", kernels->frame(frame));
-    wait_for(kernel_0.launch(scene, tile, frame));
-    const std::uint32_t blocks = frame.ray_count / block_rays;
-    const auto tally = tile.tally.read<std::uint8_t>(Tile{0, frame.ray_count}.tally_bytes());
-    CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::TileTally) + blocks, [](std::uint8_t byte) { return byte == 0; }));
-    return lists_of(tile.costs.read<unsigned char>(blocks), tile.lists.read<kernel::BlockNode>(blocks * LISTED_NODES));
+    BatchBuffers batch(device);
+    batch.frame = Buffer(device, "frame", kernels->frame(frame));
+    wait_for(kernel_0.launch(scene, batch, frame));
+    const std::uint32_t tiles = frame.ray_count / tile_rays;
+    const auto tally = batch.tally.read<std::uint8_t>(RayBatch{0, frame.ray_count}.tally_bytes());
+    CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::BatchReport) + tiles, [](std::uint8_t byte) { return byte == 0; }));
+    return lists_of(batch.costs.read<unsigned char>(tiles), batch.lists.read<kernel::TileNode>(tiles * LISTED_NODES));
 }
 
 Culled cull_on_host(const CompiledScene& compiled, kernel::Frame frame) {
     frame.lines = 0;  // no tally to clear
-    test::HostBlocks blocks = test::cull(compiled, frame);
-    return lists_of(std::move(blocks.costs), blocks.lists);
+    test::HostTiles tiles = test::cull(compiled, frame);
+    return lists_of(std::move(tiles.costs), tiles.lists);
 }
 
-/// The most nodes of a block.
+/// The most nodes of a tile.
 std::size_t require_same(const CompiledScene& compiled, const View& view) {
     const PreparedFrame prepared = prepare_frame(compiled, view);
     kernel::Frame frame = prepared.frame;
     frame.ray_count = static_cast<std::uint32_t>(prepared.rays);
-    frame.lines = frame.window.bottom - frame.window.top;
+    frame.lines = frame.screen.bottom - frame.screen.top;
     const Culled on_host = cull_on_host(compiled, frame), on_device = cull_on_device(compiled, frame);
     REQUIRE(on_host.lists.size() == on_device.lists.size());
     CHECK(on_host.costs == on_device.costs);
     std::size_t differing = 0, most = 0;
-    for (std::size_t block = 0; block < on_host.lists.size(); ++block) {
-        const auto same = [](const kernel::BlockNode& a, const kernel::BlockNode& b) { return a.node == b.node && a.entry == b.entry; };
-        differing += !std::ranges::equal(on_host.lists[block], on_device.lists[block], same);
-        most = std::max(most, on_host.lists[block].size());
+    for (std::size_t tile = 0; tile < on_host.lists.size(); ++tile) {
+        const auto same = [](const kernel::TileNode& a, const kernel::TileNode& b) { return a.node == b.node && a.entry == b.entry; };
+        differing += !std::ranges::equal(on_host.lists[tile], on_device.lists[tile], same);
+        most = std::max(most, on_host.lists[tile].size());
     }
     CHECK(differing == 0);
     return most;
@@ -77,23 +77,23 @@ std::size_t require_same(const CompiledScene& compiled, const View& view) {
 
 }  // namespace
 
-TEST_CASE("blocks see the same on a device and on the host") {
+TEST_CASE("tiles see the same on a device and on the host") {
     for (const std::uint32_t parts : {1u, 20u, 3000u}) {
         INFO(parts << " parts");
         const CompiledScene compiled = compile(bench::scene_of_parts(parts), {});
         View view;
-        view.width = 203;  // blocks that no group of work-items is filled by
+        view.width = 203;  // tiles that no group of work-items is filled by
         view.height = 93;
         view.every_partition = false;
         for (const double perspective : {0, 40}) {
             view.camera.perspective = perspective;
             const std::size_t most = require_same(compiled, view);
-            CHECK((parts == 3000) == (most == LISTED_NODES - 1));  // no room for all that a block meets
+            CHECK((parts == 3000) == (most == LISTED_NODES - 1));  // no room for all that a tile meets
         }
     }
 }
 
-TEST_CASE("blocks see the same of a scene of one solid, and of an unbounded one") {
+TEST_CASE("tiles see the same of a scene of one solid, and of an unbounded one") {
     for (const bool bounded : {true, false}) {
         Scene scene;
         scene.objects.push_back(Solid{"half", Half{{{0, 0, 1}, 0}}, {}});

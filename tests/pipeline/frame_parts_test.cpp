@@ -12,14 +12,14 @@ using namespace csgrt;
 
 namespace {
 
-/// A frame whose window is so many blocks of a picture with a border, and what of the picture shows something.
+/// A frame whose screen is so many tiles of a picture with a border, and what of the picture shows something.
 struct Shown {
     Shown(std::uint32_t across, std::uint32_t down) : picture_across(across + 2), drawn((across + 2) * (down + 3)) {
-        frame.width = (across + 2) * BLOCK - 3;
-        frame.height = (down + 3) * BLOCK - 5;
-        frame.window = {BLOCK, 2 * BLOCK, (across + 1) * BLOCK, (down + 2) * BLOCK};
+        frame.width = (across + 2) * TILE - 3;
+        frame.height = (down + 3) * TILE - 5;
+        frame.screen = {TILE, 2 * TILE, (across + 1) * TILE, (down + 2) * TILE};
     }
-    /// Of the window's.
+    /// Of the screen's.
     std::uint8_t& at(std::uint32_t column, std::uint32_t row) { return drawn[(row + 2) * picture_across + column + 1]; }
 
     std::uint32_t picture_across;
@@ -36,13 +36,13 @@ std::vector<RayRange> all_of(Parts& parts) {
     return taken;
 }
 
-/// Each ray in one of them, and only blocks at their ends.
+/// Each ray in one of them, and only tiles at their ends.
 void check_whole(std::vector<RayRange> parts, std::uint64_t rays) {
     std::ranges::sort(parts, {}, &RayRange::first);
     std::uint64_t end = 0;
     for (const RayRange& part : parts) {
         CHECK(part.first == end);
-        CHECK(part.first % block_rays == 0);
+        CHECK(part.first % tile_rays == 0);
         end = part.end;
     }
     CHECK(end == rays);
@@ -57,35 +57,35 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
         const std::uint32_t across = 1 + below(40), down = round < 30 ? 1 + below(30) : 1 + below(1000);
         const std::uint32_t band = std::max(1u, down / RayCosts::most_bands);  // rows, for which one stands
         Shown shown(across, down);
-        for (auto& block : shown.drawn) block = random() % 3 == 0;
+        for (auto& tile : shown.drawn) tile = random() % 3 == 0;
         const auto middle = [&](std::uint32_t row) { return (row / band * band + std::min(down, (row / band + 1) * band)) / 2; };
         shown.at(0, middle(0)) = 1;
         const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
-        REQUIRE(costs.rays() == across * down * block_rays);
+        REQUIRE(costs.rays() == across * down * tile_rays);
         std::uint64_t sum = 0;
         for (std::uint32_t row = 0; row < down; ++row) {
-            CHECK(costs.before(row * across * block_rays) == sum);
+            CHECK(costs.before(row * across * tile_rays) == sum);
             for (std::uint32_t column = 0; column < across; ++column)
-                sum += block_rays * (shown.at(column, middle(row)) ? RayCosts::of_shown : 1);
+                sum += tile_rays * (shown.at(column, middle(row)) ? RayCosts::of_shown : 1);
         }
         CHECK(costs.total() == sum);
         for (int i = 0; i < 50; ++i) {
-            const std::uint64_t first = random() % (across * down) * block_rays, cost = random() % (sum + 10);
+            const std::uint64_t first = random() % (across * down) * tile_rays, cost = random() % (sum + 10);
             const std::uint64_t end = costs.end(first, cost);
             REQUIRE(end > first);
             REQUIRE(end <= costs.rays());
-            REQUIRE(end % block_rays == 0);
+            REQUIRE(end % tile_rays == 0);
             if (end < costs.rays()) REQUIRE(costs.before(end) + RayCosts::of_shown >= std::min(costs.before(first) + cost, sum));
-            const std::uint64_t more = across * block_rays * RayCosts::of_shown;  // a row, at most
+            const std::uint64_t more = across * tile_rays * RayCosts::of_shown;  // a row, at most
             REQUIRE(costs.before(end) <= costs.before(first) + cost + more);
-            if (end >= first + 5 * across * block_rays && end < costs.rays()) REQUIRE(end % (across * block_rays) == 0);
+            if (end >= first + 5 * across * tile_rays && end < costs.rays()) REQUIRE(end % (across * tile_rays) == 0);
         }
     }
 }
 
 TEST_CASE("rays of a picture that shows nothing yet cost the same, and those of a list") {
     Shown shown(10, 10);
-    shown.drawn[0] = 1;  // outside of the window
+    shown.drawn[0] = 1;  // outside of the screen
     const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
     CHECK(costs.total() == costs.rays() * RayCosts::of_shown);
     CHECK(costs.before(1234) == 1234 * RayCosts::of_shown);
@@ -94,7 +94,7 @@ TEST_CASE("rays of a picture that shows nothing yet cost the same, and those of 
         CHECK(list.total() == rays * RayCosts::of_shown);
         CHECK(list.before(rays - 1) == (rays - 1) * RayCosts::of_shown);
         CHECK(list.end(0, list.total()) == rays);
-        CHECK(list.end(0, 1) == std::min<std::uint64_t>(rays, block_rays));
+        CHECK(list.end(0, 1) == std::min<std::uint64_t>(rays, tile_rays));
     }
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("devices' parts cost about as much, where most rays see nothing, too")
     const std::vector<RayRange> taken = all_of(parts);
     CHECK(taken.size() >= 10);
     CHECK(taken.size() <= 16);
-    const std::uint64_t fair = costs.total() / 10, row = 512 * block_rays * RayCosts::of_shown;
+    const std::uint64_t fair = costs.total() / 10, row = 512 * tile_rays * RayCosts::of_shown;
     for (const RayRange& part : taken) CHECK(costs.before(part.end) - costs.before(part.first) <= fair + fair / 4 + row);
     CHECK(taken[0].first == 0);
     CHECK(costs.before(taken[1].first) >= costs.total() / 2 - row);  // the other half's first

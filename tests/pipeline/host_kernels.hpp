@@ -79,25 +79,25 @@ inline std::vector<float> picture_of(const kernel::Frame& frame, const std::vect
         if (i == 4) planes.back().background = std::numeric_limits<float>::infinity();
         std::fill_n(planes.back().pixels, size, planes.back().background);
     }
-    const std::size_t across = (frame.width + BLOCK - 1) / BLOCK, down = (frame.height + BLOCK - 1) / BLOCK;
+    const std::size_t across = (frame.width + TILE - 1) / TILE, down = (frame.height + TILE - 1) / TILE;
     std::vector<std::uint8_t> drawn(across * down);
     put_rays(frame, numbers, values.data(), {planes, drawn});
     return picture;
 }
 
 /// What kernel 0 leaves behind.
-struct HostBlocks {
+struct HostTiles {
     std::vector<unsigned char> costs;
-    std::vector<kernel::BlockNode> lists;
+    std::vector<kernel::TileNode> lists;
 };
-inline HostBlocks cull(const CompiledScene& scene, const kernel::Frame& frame) {
+inline HostTiles cull(const CompiledScene& scene, const kernel::Frame& frame) {
     using namespace kernel;
-    HostBlocks blocks;
-    blocks.costs.resize(frame.ray_count / (BLOCK * BLOCK));
-    blocks.lists.resize(blocks.costs.size() * LISTED_NODES);
-    for (global_id = 0; global_id < blocks.costs.size(); ++global_id)
-        cull_blocks(&frame, scene.nodes.data(), blocks.costs.data(), blocks.lists.data(), nullptr);
-    return blocks;
+    HostTiles tiles;
+    tiles.costs.resize(frame.ray_count / (TILE * TILE));
+    tiles.lists.resize(tiles.costs.size() * LISTED_NODES);
+    for (global_id = 0; global_id < tiles.costs.size(); ++global_id)
+        cull_tiles(&frame, scene.nodes.data(), tiles.costs.data(), tiles.lists.data(), nullptr);
+    return tiles;
 }
 
 /// Runs all kernels; `rays` empty: the frame's camera.
@@ -126,8 +126,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         }
         return sum;
     };
-    const HostBlocks blocks = frame.listed ? HostBlocks{} : cull(scene, frame);
-    const BlockNode* lists = frame.listed ? nullptr : blocks.lists.data();
+    const HostTiles tiles = frame.listed ? HostTiles{} : cull(scene, frame);
+    const TileNode* lists = frame.listed ? nullptr : tiles.lists.data();
     std::vector<RayCount> places(count + 1);
     each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
@@ -180,16 +180,16 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     frame.ray_count = static_cast<u32>(prepared.rays);
     frame.picked = 1;
     std::vector<u32> numbers = all_numbers(frame);
-    const HostBlocks blocks = cull(scene, frame);
+    const HostTiles tiles = cull(scene, frame);
     std::vector<u32> overflown(frame.ray_count);
-    TileTally tally{};
-    std::erase_if(numbers, [&](u32 number) { return !blocks.costs[number / (BLOCK * BLOCK)]; });
+    BatchReport tally{};
+    std::erase_if(numbers, [&](u32 number) { return !tiles.costs[number / (TILE * TILE)]; });
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
                    scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
-                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), blocks.lists.data(),
+                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), tiles.lists.data(),
                    reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return tally.overflows;

@@ -21,7 +21,7 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
         const auto kernels = make_double_kernels(compiled, Quartic::bracketed);
         for (const double perspective : {0.0, 40.0}) {
             View view;
-            view.width = 50;  // not a multiple of the block
+            view.width = 50;  // not a multiple of the tile
             view.height = 37;
             view.camera = scene.camera;
             view.camera.perspective = perspective;

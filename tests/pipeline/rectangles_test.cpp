@@ -1,4 +1,4 @@
-// What a GPU's tile brings of a picture: all that must be there, nothing of another tile's, in few copies.
+// What a GPU's batch brings of a picture: all that must be there, nothing of another batch's, in few copies.
 #include "pipeline/rectangles.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ using namespace csgrt;
 namespace {
 
 struct Picture {
-    Picture(std::uint32_t width, std::uint32_t height) : across((width + BLOCK - 1) / BLOCK), down((height + BLOCK - 1) / BLOCK) {
+    Picture(std::uint32_t width, std::uint32_t height) : across((width + TILE - 1) / TILE), down((height + TILE - 1) / TILE) {
         frame.width = width;
         frame.height = height;
         pixels.resize(std::size_t{width} * height + 16);
-        frame.window = {0, 0, width, height};
+        frame.screen = {0, 0, width, height};
         drawn.assign(std::size_t{across} * down, 0);
         auto* const begin = pixels.data();
         // As large memory begins: 16 bytes into a line of the cache.
@@ -32,8 +32,8 @@ struct Picture {
     ChannelPlane plane;
 };
 
-/// Of the tile's blocks, those that show something.
-std::span<const std::uint8_t> of_tile(const std::vector<std::uint8_t>& shown, std::uint32_t first, std::uint32_t end) {
+/// Of the batch's tiles, those that show something.
+std::span<const std::uint8_t> of_batch(const std::vector<std::uint8_t>& shown, std::uint32_t first, std::uint32_t end) {
     return std::span(shown).subspan(first, end - first);
 }
 
@@ -52,50 +52,50 @@ std::vector<int> covered_by(const Picture& picture, const std::vector<Rectangle>
 
 }  // namespace
 
-TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no other tile's") {
+TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no other batch's") {
     std::mt19937 random(5);
     const auto below = [&](std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); };
     for (int round = 0; round < 300; ++round) {
         const std::uint32_t width = 1 + below(400), height = 1 + below(300);
         Picture picture(width, height);
-        kernel::Window& window = picture.frame.window;
-        if (round % 2) {  // whole blocks, cut off at the picture's edges
+        kernel::ScreenBounds& screen = picture.frame.screen;
+        if (round % 2) {  // whole tiles, cut off at the picture's edges
             const std::uint32_t left = below(picture.across), top = below(picture.down);
-            window = {left * BLOCK, top * BLOCK, std::min(width, (left + 1 + below(picture.across - left)) * BLOCK),
-                      std::min(height, (top + 1 + below(picture.down - top)) * BLOCK)};
+            screen = {left * TILE, top * TILE, std::min(width, (left + 1 + below(picture.across - left)) * TILE),
+                      std::min(height, (top + 1 + below(picture.down - top)) * TILE)};
         }
-        const std::uint32_t across = kernel::blocks_across(window),
-                            blocks = across * ((window.bottom - window.top + BLOCK - 1) / BLOCK);
-        const std::uint32_t first = below(blocks), end = first + 1 + below(blocks - first);
-        INFO("round " << round << ": " << width << " x " << height << ", of it " << window.left << " to " << window.right << ", "
-                      << window.top << " to " << window.bottom << ", blocks " << first << " to " << end);
-        std::vector<std::uint8_t> shown(blocks);
+        const std::uint32_t across = kernel::tiles_across(screen),
+                            tiles = across * ((screen.bottom - screen.top + TILE - 1) / TILE);
+        const std::uint32_t first = below(tiles), end = first + 1 + below(tiles - first);
+        INFO("round " << round << ": " << width << " x " << height << ", of it " << screen.left << " to " << screen.right << ", "
+                      << screen.top << " to " << screen.bottom << ", tiles " << first << " to " << end);
+        std::vector<std::uint8_t> shown(tiles);
         const std::uint32_t one_of = 1 + below(40);
-        for (std::uint8_t& block : shown) block = below(one_of) == 0;
-        for (std::uint8_t& block : picture.drawn) block = below(one_of) == 0;
+        for (std::uint8_t& tile : shown) tile = below(one_of) == 0;
+        for (std::uint8_t& tile : picture.drawn) tile = below(one_of) == 0;
         const std::vector<std::uint8_t> before = picture.drawn;
         const auto times =
-            covered_by(picture, find_rectangles(picture.frame, first, end, of_tile(shown, first, end), picture.target()));
+            covered_by(picture, find_rectangles(picture.frame, first, end, of_batch(shown, first, end), picture.target()));
         CHECK(picture.drawn == before);
-        hold_shown(picture.frame, first, end, of_tile(shown, first, end), picture.target());
+        hold_shown(picture.frame, first, end, of_batch(shown, first, end), picture.target());
         const Rectangle lines = lines_of(picture.frame, first, end);
-        CHECK(lines.left == window.left);
-        CHECK(lines.right == window.right);
-        CHECK(lines.top == window.top + first / across * BLOCK);
-        CHECK(lines.bottom == std::min(window.bottom, window.top + (end - 1) / across * BLOCK + BLOCK));
+        CHECK(lines.left == screen.left);
+        CHECK(lines.right == screen.right);
+        CHECK(lines.top == screen.top + first / across * TILE);
+        CHECK(lines.bottom == std::min(screen.bottom, screen.top + (end - 1) / across * TILE + TILE));
         bool all = true, once = true, own = true, told = true;
         for (std::uint32_t y = 0; y < height; ++y)
             for (std::uint32_t x = 0; x < width; ++x) {
-                const std::uint32_t held = y / BLOCK * picture.across + x / BLOCK;
-                const bool is_within = x >= window.left && x < window.right && y >= window.top && y < window.bottom;
-                const std::uint32_t block =
-                    is_within ? (y - window.top) / BLOCK * across + (x - window.left) / BLOCK : UINT32_MAX;
+                const std::uint32_t held = y / TILE * picture.across + x / TILE;
+                const bool is_within = x >= screen.left && x < screen.right && y >= screen.top && y < screen.bottom;
+                const std::uint32_t tile =
+                    is_within ? (y - screen.top) / TILE * across + (x - screen.left) / TILE : UINT32_MAX;
                 const int covered = times[std::size_t{y} * width + x];
-                const bool is_own = block >= first && block < end;
-                all &= !is_own || !(shown[block] || before[held]) || covered > 0;
+                const bool is_own = tile >= first && tile < end;
+                all &= !is_own || !(shown[tile] || before[held]) || covered > 0;
                 once &= covered <= 1;
                 own &= is_own || covered == 0;
-                told &= picture.drawn[held] == (is_own ? shown[block] : before[held]);
+                told &= picture.drawn[held] == (is_own ? shown[tile] : before[held]);
             }
         CHECK(all);
         CHECK(once);
@@ -106,29 +106,29 @@ TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no o
 
 TEST_CASE("rectangles join where that spares copies, and begin with lines of the cache") {
     Picture picture(4096, 4096);
-    const std::uint32_t blocks = picture.across * picture.down;
-    std::vector<std::uint8_t> shown(blocks, 0);
+    const std::uint32_t tiles = picture.across * picture.down;
+    std::vector<std::uint8_t> shown(tiles, 0);
     const auto found = [&] {
-        return find_rectangles(picture.frame, 0, blocks, shown, picture.target());
+        return find_rectangles(picture.frame, 0, tiles, shown, picture.target());
     };
     CHECK(found().empty());
     for (std::uint32_t row = 100; row < 110; ++row)  // a slanted bar
         for (std::uint32_t column = row; column < row + 20; ++column) shown[row * picture.across + column] = 1;
     const auto bar = found();
     REQUIRE(bar.size() == 1);
-    CHECK(bar[0].top == 100 * BLOCK);
-    CHECK(bar[0].bottom == 110 * BLOCK);
-    CHECK(bar[0].left <= 100 * BLOCK);
-    CHECK(bar[0].left > 100 * BLOCK - 16);
-    CHECK(bar[0].right >= 129 * BLOCK);
-    CHECK(bar[0].right < 129 * BLOCK + 16);
+    CHECK(bar[0].top == 100 * TILE);
+    CHECK(bar[0].bottom == 110 * TILE);
+    CHECK(bar[0].left <= 100 * TILE);
+    CHECK(bar[0].left > 100 * TILE - 16);
+    CHECK(bar[0].right >= 129 * TILE);
+    CHECK(bar[0].right < 129 * TILE + 16);
     CHECK(reinterpret_cast<std::uintptr_t>(picture.plane.pixels + bar[0].left) % 64 == 0);
     CHECK(reinterpret_cast<std::uintptr_t>(picture.plane.pixels + bar[0].right) % 64 == 0);
     for (std::uint32_t column = 0; column < 512; ++column) shown[400 * picture.across + column] = 1;  // far below, all of a row
     const auto both = found();
     REQUIRE(both.size() == 2);
     CHECK(both[1].columns() == 4096);
-    CHECK(both[1].lines() == BLOCK);
+    CHECK(both[1].lines() == TILE);
 }
 
 TEST_CASE("rectangles leave out what is between two things that are far apart, not what is between near ones") {
@@ -145,8 +145,8 @@ TEST_CASE("rectangles leave out what is between two things that are far apart, n
     show(100, 110);
     const auto two = found();
     REQUIRE(two.size() == 2);
-    CHECK(two[0].right < 30 * BLOCK + 16);
-    CHECK(two[1].left > 100 * BLOCK - 16);
+    CHECK(two[0].right < 30 * TILE + 16);
+    CHECK(two[1].left > 100 * TILE - 16);
     show(300, 301);
     CHECK(found().size() == 3);
 }

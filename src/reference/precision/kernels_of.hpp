@@ -143,7 +143,7 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.every_partition = f.every_partition;
     frame.picked = f.picked;
     frame.channels = f.channels;
-    frame.window = {f.window.left, f.window.top, f.window.right, f.window.bottom};
+    frame.screen = {f.screen.left, f.screen.top, f.screen.right, f.screen.bottom};
     frame.lines = f.lines;
     std::copy(std::begin(f.rank_ends), std::end(f.rank_ends), std::begin(frame.rank_ends));
     frame.candidate_capacity = f.candidate_capacity;

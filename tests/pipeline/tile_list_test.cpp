@@ -1,6 +1,6 @@
-// Before a tile whose pixels come by lines: its blocks in order, and the background of those that see nothing.
+// Before a batch whose pixels come by lines: its tiles in order, and the background of those that see nothing.
 #include "device/compiling_device.hpp"
-#include "pipeline/block_list.hpp"
+#include "pipeline/tile_list.hpp"
 
 #include <algorithm>
 #include <random>
@@ -12,72 +12,72 @@
 
 using namespace csgrt;
 
-TEST_CASE("a tile's blocks are listed once each, those that cost most first, the dearest in parts") {
+TEST_CASE("a batch's tiles are listed once each, those that cost most first, the dearest in parts") {
     Device device(test::compiling_device());
-    BlockList list(device);
+    TileList list(device);
     list.build();
     std::mt19937 random(3);
-    TileBuffers buffers(device);
+    BatchBuffers buffers(device);
     struct Listed {
-        std::uint32_t blocks, dearest, most_in_parts;  // dearest: one in so many; 0: none
+        std::uint32_t tiles, dearest, most_in_parts;  // dearest: one in so many; 0: none
         bool is_parted;
     };
-    for (const auto& [blocks, dearest, most_in_parts, is_parted] :
+    for (const auto& [tiles, dearest, most_in_parts, is_parted] :
          {Listed{1, 0, 0, false}, {5, 0, 9, false}, {64, 0, 9, false}, {65, 1, 99, false}, {1000, 20, 49, false}, {1000, 20, 50, true},
           {5000, 50, 100, true}, {5000, 50, 99, false}, {5000, 50, 0, false}, {5000, 2, 5000, false}}) {
-        INFO(blocks << " blocks, one in " << dearest << " dear, at most " << most_in_parts << " in parts");
-        std::vector<unsigned char> costs(blocks);
-        for (std::uint32_t i = 0; i < blocks; ++i) {
+        INFO(tiles << " tiles, one in " << dearest << " dear, at most " << most_in_parts << " in parts");
+        std::vector<unsigned char> costs(tiles);
+        for (std::uint32_t i = 0; i < tiles; ++i) {
             const bool is_dear = dearest > 0 && i % dearest == 0;
             costs[i] = static_cast<unsigned char>(is_dear ? 128 + random() % 128 : random() % 3 ? 0 : random() % 128);
         }
         buffers.costs = Buffer(device, "costs", costs);
-        const Tile tile{70 * block_rays, blocks * block_rays};
-        buffers.tally.reserve(tile.tally_bytes());
-        buffers.tally.queue_fill(0, tile.tally_bytes());
-        for (const Event& event : list.list(tile, buffers, most_in_parts)) wait_for(event);
-        const auto tally = buffers.tally.read<kernel::TileTally>(1).front();
-        const auto entries = buffers.rays.read<std::uint32_t>(blocks);
-        const auto bytes = buffers.tally.read<std::uint8_t>(sizeof tally + blocks);
+        const RayBatch batch{70 * tile_rays, tiles * tile_rays};
+        buffers.tally.reserve(batch.tally_bytes());
+        buffers.tally.queue_fill(0, batch.tally_bytes());
+        for (const Event& event : list.list(batch, buffers, most_in_parts)) wait_for(event);
+        const auto tally = buffers.tally.read<kernel::BatchReport>(1).front();
+        const auto entries = buffers.rays.read<std::uint32_t>(tiles);
+        const auto bytes = buffers.tally.read<std::uint8_t>(sizeof tally + tiles);
         CHECK(tally.overflows == 0);
         CHECK(std::all_of(bytes.begin() + sizeof tally, bytes.end(), [](std::uint8_t shows) { return shows == 0; }));
-        REQUIRE(tally.entries <= blocks);
-        std::vector<unsigned> listed(blocks);  // a bit a quarter
+        REQUIRE(tally.entries <= tiles);
+        std::vector<unsigned> listed(tiles);  // a bit a quarter
         bool ordered = true, any_parts = false;
         int before = 255;
         for (std::uint32_t i = 0; i < tally.entries; ++i) {
-            const std::uint32_t block = (entries[i] & ((1u << PART_SHIFT) - 1)) - 70, part = entries[i] >> PART_SHIFT;
-            REQUIRE(block < blocks);
-            const int cost = costs[block];
+            const std::uint32_t tile = (entries[i] & ((1u << PART_SHIFT) - 1)) - 70, part = entries[i] >> PART_SHIFT;
+            REQUIRE(tile < tiles);
+            const int cost = costs[tile];
             const unsigned quarters = part == 0 ? 15 : 1u << (part - PARTS);
-            CHECK((listed[block] & quarters) == 0);
-            listed[block] |= quarters;
+            CHECK((listed[tile] & quarters) == 0);
+            listed[tile] |= quarters;
             any_parts |= part > 0;
             CHECK((part == 0 || (cost >= 128 && part >= PARTS && part < 2 * PARTS)));
             ordered &= cost > 0 && (cost <= before || (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
             before = cost;
         }
         bool once = true;
-        for (std::uint32_t i = 0; i < blocks; ++i) once &= listed[i] == (costs[i] > 0 ? 15u : 0u);
+        for (std::uint32_t i = 0; i < tiles; ++i) once &= listed[i] == (costs[i] > 0 ? 15u : 0u);
         CHECK(once);
         CHECK(ordered);
         CHECK(any_parts == is_parted);
     }
 }
 
-TEST_CASE("blocks that see nothing are background, and the others are left alone") {
+TEST_CASE("tiles that see nothing are background, and the others are left alone") {
     Device device(test::compiling_device());
-    BlockList list(device);
+    TileList list(device);
     list.build();
     kernel::Frame frame{};
     frame.width = 100;
     frame.height = 61;
-    for (const kernel::Window window : {kernel::Window{0, 0, 100, 61}, kernel::Window{16, 8, 100, 56}, kernel::Window{24, 0, 64, 61}}) {
-        INFO("window from " << window.left << ", " << window.top);
-        frame.window = window;
-        const std::uint32_t across = kernel::blocks_across(window), all = across * kernel::blocks_down(window);
+    for (const kernel::ScreenBounds screen : {kernel::ScreenBounds{0, 0, 100, 61}, kernel::ScreenBounds{16, 8, 100, 56}, kernel::ScreenBounds{24, 0, 64, 61}}) {
+        INFO("screen from " << screen.left << ", " << screen.top);
+        frame.screen = screen;
+        const std::uint32_t across = kernel::tiles_across(screen), all = across * kernel::tiles_down(screen);
         const std::uint32_t first = across + 2, end = all - 1;  // begins and ends within a row
-        const Tile tile{first * block_rays, (end - first) * block_rays};
+        const RayBatch batch{first * tile_rays, (end - first) * tile_rays};
         const Rectangle lines = lines_of(frame, first, end);
         frame.lines = static_cast<std::uint32_t>(lines.lines());
         std::vector<unsigned char> costs(end - first);
@@ -86,12 +86,12 @@ TEST_CASE("blocks that see nothing are background, and the others are left alone
         kernel::PlaneValues background{};
         for (int p = 0; p < 3; ++p) background.of[p] = 10.0f + static_cast<float>(p);
         const Buffer picture(device, "lines", std::vector<float>(3 * lines.size(), -1));
-        wait_for(list.put_background(frame, tile, on_device, background, 3, picture));
+        wait_for(list.put_background(frame, batch, on_device, background, 3, picture));
         const auto pixels = picture.read<float>(3 * lines.size());
         std::vector<float> expected(pixels.size(), -1);
-        for (std::uint32_t ray = tile.first; ray < tile.first + tile.rays; ++ray) {
-            const kernel::pixel_position at = kernel::pixel_of(ray, window);
-            if (!at.inside || costs[ray / block_rays - first]) continue;
+        for (std::uint32_t ray = batch.first; ray < batch.first + batch.rays; ++ray) {
+            const kernel::pixel_position at = kernel::pixel_of(ray, screen);
+            if (!at.inside || costs[ray / tile_rays - first]) continue;
             for (std::size_t p = 0; p < 3; ++p)
                 expected[p * lines.size() + (at.y - lines.top) * lines.columns() + at.x - lines.left] = background.of[p];
         }

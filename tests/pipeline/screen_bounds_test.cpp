@@ -1,4 +1,4 @@
-// The window of a picture: no ray outside of it meets anything, by the reference, which shoots them all; and it spares most of the rest.
+// The screen of a picture: no ray outside of it meets anything, by the reference, which shoots them all; and it spares most of the rest.
 #include "compile/screen_bounds.hpp"
 
 #include <random>
@@ -14,7 +14,7 @@ using namespace csgrt;
 
 namespace {
 
-/// Pixels outside of the window that a segment is seen at, and how much of the picture the window is.
+/// Pixels outside of the screen that a segment is seen at, and how much of the picture the screen is.
 struct Outcome {
     std::size_t missed = 0;
     double part = 0;
@@ -22,9 +22,9 @@ struct Outcome {
 
 Outcome look(const CompiledScene& compiled, const ReferenceKernels& kernels, const View& view) {
     const PreparedFrame prepared = prepare_frame(compiled, view);
-    const kernel::Window& w = prepared.frame.window;
-    CHECK(w.left % BLOCK == 0);
-    CHECK(w.top % BLOCK == 0);
+    const kernel::ScreenBounds& w = prepared.frame.screen;
+    CHECK(w.left % TILE == 0);
+    CHECK(w.top % TILE == 0);
     CHECK(w.right <= prepared.frame.width);
     CHECK(w.bottom <= prepared.frame.height);
     ReferenceCounts counts;
@@ -57,7 +57,7 @@ View random_view(std::mt19937& random, const Vec3& center, double size) {
 
 }  // namespace
 
-TEST_CASE("no ray outside of the window meets anything") {
+TEST_CASE("no ray outside of the screen meets anything") {
     const Precision precision = GENERATE(Precision::double_, Precision::single, Precision::single_world);
     const double away = GENERATE(0.0, 3e6);  // millimetres
     const Scene scene = moved_by(bench::scene_of_parts(30), away);
@@ -76,14 +76,14 @@ TEST_CASE("no ray outside of the window meets anything") {
     if (away == 0 && !test::sanitized) CHECK(small > views / 8);
 }
 
-TEST_CASE("the window is all of the picture if something is unbounded or around the eye, and none of it if there is nothing") {
+TEST_CASE("the screen is all of the picture if something is unbounded or around the eye, and none of it if there is nothing") {
     View view;
     view.width = 50;
     view.height = 30;
-    const auto window_of = [&](const Scene& scene) {
+    const auto screen_bounds = [&](const Scene& scene) {
         const CompiledScene compiled = compile(scene, {});
         const PreparedFrame prepared = prepare_frame(compiled, view);
-        const kernel::Window w = prepared.frame.window;
+        const kernel::ScreenBounds w = prepared.frame.screen;
         CHECK(prepared.rays == (w.right - w.left + 7) / 8 * ((w.bottom - w.top + 7) / 8) * 64);
         return std::vector<std::uint32_t>{w.left, w.top, w.right, w.bottom};
     };
@@ -93,18 +93,18 @@ TEST_CASE("the window is all of the picture if something is unbounded or around 
     scene.objects.push_back(Solid{"ground", Half{{{0, 0, 1}, -3}}, {}});
     scene.top = {"ball"};
     view.camera.view_size = 30.0;
-    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // 2 pixels across, in the middle, and a margin of 2
+    CHECK(screen_bounds(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // 2 pixels across, in the middle, and a margin of 2
     view.camera.center = Vec3{100, 0, 0};
     view.camera.azimuth = view.camera.elevation = 0;
-    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // behind the eye
+    CHECK(screen_bounds(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // behind the eye
     view.camera.center = Vec3{0, 100, 0};
-    CHECK(window_of(scene) == none);
+    CHECK(screen_bounds(scene) == none);
     view.camera.center.reset();
     view.camera.perspective = 60;
-    CHECK(window_of(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});
+    CHECK(screen_bounds(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});
     view.camera.view_size = 1.0;
-    CHECK(window_of(scene) == all);
+    CHECK(screen_bounds(scene) == all);
     view.camera.view_size = 30.0;
     scene.top = {"ball", "ground"};
-    CHECK(window_of(scene) == all);
+    CHECK(screen_bounds(scene) == all);
 }

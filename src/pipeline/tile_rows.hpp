@@ -1,4 +1,4 @@
-// Where a tile's blocks are in the picture: rows of the window's, the first and the last of which may be parts of rows.
+// Where a batch's tiles are in the picture: rows of the screen's, the first and the last of which may be parts of rows.
 #pragma once
 
 #include <algorithm>
@@ -34,17 +34,17 @@ inline std::size_t count_held(std::span<const std::uint8_t> bytes) {
     return count;
 }
 
-class BlockRows {
+class TileRows {
 public:
-    /// Blocks of a row, begin ... end - 1, from the window's left edge.
+    /// Tiles of a row, begin ... end - 1, from the screen's left edge.
     struct Extent {
         std::size_t begin = 0, end = 0;
         bool is_empty() const { return begin == end; }
     };
 
-    /// The window's blocks from number `first` to `end`.
-    BlockRows(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end)
-        : window_(frame.window), across_(kernel::blocks_across(window_)), picture_across_((frame.width + BLOCK - 1) / BLOCK),
+    /// The screen's tiles from number `first` to `end`.
+    TileRows(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end)
+        : screen_(frame.screen), across_(kernel::tiles_across(screen_)), picture_across_((frame.width + TILE - 1) / TILE),
           first_(first), end_(end), first_row_(first / across_), count_((end + across_ - 1) / across_ - first_row_) {}
 
     std::size_t count() const { return count_; }
@@ -52,24 +52,24 @@ public:
         const std::size_t start = (first_row_ + row) * across_;
         return {std::max(first_, start) - start, std::min(end_, start + across_) - start};
     }
-    /// A block's place among the tile's.
-    std::size_t place(std::size_t row, std::size_t block) const { return (first_row_ + row) * across_ + block - first_; }
-    /// The target's account of a row: not 0 for blocks that hold anything but background.
+    /// A tile's place among the batch's.
+    std::size_t place(std::size_t row, std::size_t tile) const { return (first_row_ + row) * across_ + tile - first_; }
+    /// The target's account of a row: not 0 for tiles that hold anything but background.
     std::span<std::uint8_t> held(std::size_t row, const RenderTarget& target) const {
         const Extent all = whole(row);
-        return target.drawn.subspan((window_.top / BLOCK + first_row_ + row) * picture_across_ + window_.left / BLOCK + all.begin,
+        return target.drawn.subspan((screen_.top / TILE + first_row_ + row) * picture_across_ + screen_.left / TILE + all.begin,
                                     all.end - all.begin);
     }
 
-    /// The picture's column that a block of the window begins with, and the line that a row does.
-    std::size_t column(std::size_t block) const { return std::min<std::size_t>(window_.left + block * BLOCK, window_.right); }
+    /// The picture's column that a tile of the screen begins with, and the line that a row does.
+    std::size_t column(std::size_t tile) const { return std::min<std::size_t>(screen_.left + tile * TILE, screen_.right); }
     std::size_t top(std::size_t row) const {
-        return std::min<std::size_t>(window_.top + (first_row_ + row) * BLOCK, window_.bottom);
+        return std::min<std::size_t>(screen_.top + (first_row_ + row) * TILE, screen_.bottom);
     }
-    std::size_t row_of(std::size_t line) const { return (line - window_.top) / BLOCK - first_row_; }
+    std::size_t row_of(std::size_t line) const { return (line - screen_.top) / TILE - first_row_; }
 
 private:
-    kernel::Window window_;
+    kernel::ScreenBounds screen_;
     std::size_t across_, picture_across_, first_, end_, first_row_, count_;
 };
 
