@@ -15,7 +15,7 @@
 #include "base/fnv1a.hpp"
 #include "kernel_host/geometry.hpp"
 #include "base/parallel.hpp"
-#include "pipeline/device_takeover.hpp"
+#include "render/device_takeover.hpp"
 #include "reference/reference.hpp"
 #include "scene/range.hpp"
 

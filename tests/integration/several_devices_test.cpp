@@ -8,7 +8,7 @@
 
 #include "bench/parts.hpp"
 #include "device/device_plan.hpp"
-#include "pipeline/pipelines.hpp"
+#include "pipeline/scheduling/device_group.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"

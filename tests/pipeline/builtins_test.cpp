@@ -7,7 +7,7 @@
 #include "device/choice.hpp"
 #include "device/program.hpp"
 #include "integration/every_type.hpp"
-#include "pipeline/stages.hpp"
+#include "pipeline/passes/stages.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;

@@ -1,7 +1,7 @@
 // The way in which pixels come from a GPU, on any device: it makes the same picture as from a processor.
 #include "device/compiling_device.hpp"
 #include "device/device_plan.hpp"
-#include "pipeline/pipeline.hpp"
+#include "pipeline/scheduling/pipeline.hpp"
 
 #include <algorithm>
 
@@ -9,10 +9,10 @@
 
 #include "bench/parts.hpp"
 #include "catch.hpp"
-#include "pipeline/tile_list.hpp"
-#include "pipeline/first_hits.hpp"
-#include "pipeline/known_picture.hpp"
-#include "pipeline/pipelines.hpp"
+#include "pipeline/passes/tile_list.hpp"
+#include "pipeline/passes/first_hits.hpp"
+#include "pipeline/readback/registered_memory.hpp"
+#include "pipeline/scheduling/device_group.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"

@@ -1,6 +1,6 @@
 // What tiles of a picture may see: the device against the same kernel compiled for the host.
 #include "device/compiling_device.hpp"
-#include "pipeline/cull.hpp"
+#include "pipeline/passes/cull.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,5 +1,5 @@
 // A GPU takes over from the native device between two frames: the same bits before and after. PoCL stands for the GPU.
-#include "pipeline/device_takeover.hpp"
+#include "render/device_takeover.hpp"
 
 #include <algorithm>
 #include <atomic>

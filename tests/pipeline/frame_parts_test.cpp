@@ -1,12 +1,12 @@
 // What devices take of a frame, or of a list: all rays, each once, in parts that cost about as much.
-#include "pipeline/frame_parts.hpp"
+#include "pipeline/scheduling/frame_parts.hpp"
 
 #include <algorithm>
 #include <random>
 #include <vector>
 
 #include "catch.hpp"
-#include "pipeline/stages.hpp"
+#include "pipeline/passes/stages.hpp"
 
 using namespace csgrt;
 

@@ -11,7 +11,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "kernel_host/geometry.hpp"
-#include "pipeline/picture.hpp"
+#include "pipeline/readback/picture.hpp"
 
 namespace csgrt::kernel {
 

@@ -1,5 +1,5 @@
 // Tiles of pixels put into planes, in both ways in which memory is written.
-#include "pipeline/picture.hpp"
+#include "pipeline/readback/picture.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // What a GPU's batch brings of a picture: all that must be there, nothing of another batch's, in few copies.
-#include "pipeline/rectangles.hpp"
+#include "pipeline/readback/rectangles.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,13 +1,13 @@
 // Before a batch whose pixels come by lines: its tiles in order, and the background of those that see nothing.
 #include "device/compiling_device.hpp"
-#include "pipeline/tile_list.hpp"
+#include "pipeline/passes/tile_list.hpp"
 
 #include <algorithm>
 #include <random>
 
 #include "catch.hpp"
 #include "kernel_host/geometry.hpp"
-#include "pipeline/rectangles.hpp"
+#include "pipeline/readback/rectangles.hpp"
 #include "integration/same_answers.hpp"
 
 using namespace csgrt;

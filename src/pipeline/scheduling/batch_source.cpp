@@ -1,0 +1,52 @@
+#include "pipeline/scheduling/batch_source.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+namespace {
+
+// The range's first batch, of at most `most` rays: whole tiles, or parts of one; and whole rows of the screen's tiles if they are
+// many, for what a GPU copies of them is in few pieces then.
+std::uint64_t end_of_batch(const RayRange& range, std::uint64_t most, std::uint64_t row) {
+    const std::uint64_t end = std::min(range.first + most, range.end), in_tile = range.first % tile_rays;
+    if (row == 0) return end;
+    if (in_tile != 0) return std::min(end, range.first - in_tile + tile_rays);
+    if (end == range.end || most < tile_rays) return end;
+    const std::uint64_t unit = most >= 4 * row ? row : tile_rays;
+    return std::max(end / unit * unit, range.first + tile_rays);
+}
+
+}  // namespace
+
+bool BatchSource::is_empty() {
+    while (!has_ended_ && left_.empty()) {
+        const RayRange range = take_();
+        has_ended_ = range.first == range.end;
+        if (has_ended_) break;
+        left_.push_back(range);
+        size_ = most_();
+    }
+    return left_.empty();
+}
+
+RayBatch BatchSource::next() {
+    if (is_empty()) return {};
+    RayRange& range = left_.back();
+    const std::uint64_t first = std::exchange(range.first, end_of_batch(range, size_, row_));
+    const RayBatch batch{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(range.first - first)};
+    if (range.first == range.end) left_.pop_back();
+    return batch;
+}
+
+void BatchSource::halve(const RayBatch& batch, std::uint64_t budget) {
+    if (batch.rays == 1)
+        throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" + std::to_string(budget >> 20) +
+                                               " MiB): raise --max-memory, or use --reference");
+    size_ = batch.rays / 2;
+    give_back(batch);
+}
+
+}  // namespace csgrt

@@ -1,0 +1,59 @@
+// The memory of pictures, and what of it is background already.
+#include <algorithm>
+#include <utility>
+
+#include <csgrt/renderer.hpp>
+
+#include "kernel_host/kernels.hpp"
+#include "pipeline/readback/registered_memory.hpp"
+
+namespace csgrt {
+
+Framebuffer::Framebuffer() = default;
+Framebuffer::~Framebuffer() = default;
+
+Framebuffer::Framebuffer(Framebuffer&& other) noexcept = default;
+
+Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
+    known_ = nullptr;  // before the image
+    image_ = std::exchange(other.image_, {});
+    background_ = std::exchange(other.background_, {});
+    drawn_ = std::exchange(other.drawn_, {});
+    drawn_by_ = std::exchange(other.drawn_by_, 0);
+    known_ = std::exchange(other.known_, nullptr);
+    return *this;
+}
+
+Framebuffer::Framebuffer(const Framebuffer& other)
+    : image_(other.image_), background_(other.background_), drawn_(other.drawn_) {}
+
+Framebuffer& Framebuffer::operator=(const Framebuffer& other) { return *this = Framebuffer(other); }
+
+Image Framebuffer::take() {
+    known_ = nullptr;
+    return std::exchange(*this, {}).image_;
+}
+
+/// Makes it a picture of that form; new memory is background.
+void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background) {
+    const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
+    const std::size_t tiles = tiles_along(width) * tiles_along(height);
+    const bool fits =  // what was moved away keeps its size, but no tiles
+        image_.width == width && image_.height == height && image_.names == names && drawn_.size() == tiles;
+    if (!fits) {
+        *this = {};  // before there is more memory; and whole, if there is none
+        const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        Channels channels(pixels, background);
+        image_.width = width;
+        image_.height = height;
+        image_.names = std::move(names);
+        image_.channels = std::move(channels);
+    }
+    if (!fits)
+        drawn_.assign(tiles, 0);
+    else if (background != background_)
+        std::fill(drawn_.begin(), drawn_.end(), std::uint8_t{1});
+    background_ = std::move(background);
+}
+
+}  // namespace csgrt
