@@ -18,7 +18,7 @@ static Counted counted;
 #define TREE_SHIFT (++counted.words, 29u)
 #include "kernel_host/geometry.hpp"
 #define collect(...) (++counted.solids, collect(__VA_ARGS__))
-#include "tests/pipeline/host_kernels.hpp"
+#include "tests/kernels/host_kernels.hpp"
 
 namespace csgrt::bench {
 

@@ -118,6 +118,11 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 # ---- The script ----
+# Arguments that kernels take in groups: names of macros, each followed by what it stands for.
+file(READ ${FOLDER}/shared/scene_args.h groups)
+string(REGEX REPLACE " *\\\\\n *" " " groups "${groups}")
+string(REGEX MATCHALL "#define [A-Z]+_ARGS [^\n]+" groups "${groups}")
+
 # kernels_of(FILE OUT): "NAME(PARAMETERS)" of each kernel, which may stand on several lines.
 function(kernels_of file out)
     file(READ ${FOLDER}/${file} text)
@@ -125,6 +130,12 @@ function(kernels_of file out)
     string(REGEX MATCHALL "__kernel void [a-z_0-9]+\\([^)]*\\)" found "${text}")
     set(kernels "")
     foreach(kernel IN LISTS found)
+        foreach(pass 1 2)  # a group may hold another
+            foreach(group IN LISTS groups)
+                string(REGEX MATCH "^#define ([A-Z]+_ARGS) (.*)$" all "${group}")
+                string(REPLACE ${CMAKE_MATCH_1} "${CMAKE_MATCH_2}" kernel "${kernel}")
+            endforeach()
+        endforeach()
         string(REGEX REPLACE "[ \n]+" " " kernel "${kernel}")
         string(REPLACE "__kernel void " "" kernel "${kernel}")
         list(APPEND kernels "${kernel}")

@@ -3,10 +3,10 @@
 #include "traversal/beam.h"
 
 // Nothing is counted yet, and no tile shows anything.
-static void clear_tally(__global BatchReport* tally, u32 tiles, u32 id) {
+static void clear_report(__global BatchReport* report, u32 tiles, u32 id) {
     u32 k;
-    for (k = id; k < sizeof(BatchReport) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)tally)[k] = 0;
-    if (id < tiles) ((__global unsigned char*)(tally + 1))[id] = 0;
+    for (k = id; k < sizeof(BatchReport) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)report)[k] = 0;
+    if (id < tiles) ((__global unsigned char*)(report + 1))[id] = 0;
 }
 
 // From the root down, level by level, as long as there is room: a node gives way to those of its two children that the
@@ -83,11 +83,11 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
 
 // A work-item is a tile: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. `lists` 0: they are not wanted.
 __kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global TileNode* lists, __global BatchReport* tally) {
+                          __global TileNode* lists, __global BatchReport* report) {
     const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);
     u32 cost = 0;
     beam b;
-    if (frame->lines) clear_tally(tally, tiles, id);
+    if (frame->rows) clear_report(report, tiles, id);
     if (id >= tiles) return;
     b = make_beam(frame, frame->first_ray / (TILE * TILE) + id);
     if (lists) {

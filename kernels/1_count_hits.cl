@@ -10,12 +10,14 @@
 #include "traversal/camera.h"
 #include "geometry/collect.h"
 #include "shared/capacity.h"
+#include "shared/scene_args.h"
 #include "traversal/candidates.h"
 
 // Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
 // in tiles.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
-                              __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
+                              __global const RayRecord* rays, __global const u32* listed, __global RayCount* places,
+                              __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0), number;
     RayCount count;
     ray3 r;
@@ -25,13 +27,14 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
         candidates += places[id].segments;
     }
     count.segments = count.words = 0;
-    number = number_of(frame, rays, id);
+    number = number_of(frame, listed, id);
     if (lists) lists = list_of(frame, lists, number);
     if (ray_of(frame, rays, number, &r)) count.segments = walk(frame, nodes, lists, r, id, candidates);
     if (!candidates) places[id] = count;
 }
 
-static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global Candidate* candidate,
+static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global const u32* listed,
+                           __global Candidate* candidate,
                            __global End* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
@@ -41,7 +44,7 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
 #ifdef CSGRT_PACKETS  // some are counted, then
     if (c.count != UNCOUNTED) return;
 #endif
-    if (!ray_of(frame, rays, number_of(frame, rays, c.ray), &r)) return;
+    if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
     t_min = t_min_along(frame, r);
     solid = g.solids[c.solid];
     r = ray_at(solid, r);
@@ -54,13 +57,11 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
 }
 
 // A candidate's only segment is kept in `found`, so that kernel 2 need not find it again; more are too rare for the room.
-__kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                         __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
-                         __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
+__kernel void count_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays, __global const u32* listed, __global const RayCount* places,
                          __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0);
     if (id < candidates_of(frame, places))
-        count_segments(frame, make_geometry(solids, reals, planes, plane_refs, words, inner_nodes), rays, candidates + id,
+        count_segments(frame, GEOMETRY, rays, listed, candidates + id,
                        found + 2 * (size_t)id);
 }
 

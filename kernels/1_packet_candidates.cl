@@ -3,6 +3,7 @@
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
 #include "shared/capacity.h"
+#include "shared/scene_args.h"
 #include "geometry/collect.h"
 #include "packet/packet.h"
 
@@ -40,12 +41,12 @@ static u32 next_packet_leaf(packet_walk* w, u32* hit) {
 }
 
 __kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
-                                      __global const RayRecord* rays, __global RayCount* places) {
+                                      __global const u32* listed, __global RayCount* places) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     pixel_position first;
     u32 counts[PACKET], number, k;
     if (id >= frame->ray_count) return;
-    number = first_of_packet(number_of(frame, rays, id));
+    number = first_of_packet(number_of(frame, listed, id));
     first = pixel_of(number, frame->screen);
     for (k = 0; k < PACKET; ++k) counts[k] = 0;
     if (first.inside) {
@@ -101,14 +102,12 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 which) {
     }
 }
 
-__kernel void list_packet_candidates(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                                     __global const PlaneRecord* planes, __global const PlaneRef* plane_refs,
-                                     __global const u32* words, __global const BvhNode* inner_nodes,
+__kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS,
                                      __global const BvhNode* nodes, __global const TileNode* lists,
-                                     __global const RayRecord* rays, __global const RayCount* places,
+                                     __global const u32* listed, __global const RayCount* places,
                                      __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
-    const Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    const Geometry g = GEOMETRY;
     packet_world_ray from_eye;
     packet_list list;
     packet_walk w;
@@ -122,7 +121,7 @@ __kernel void list_packet_candidates(__global const Frame* frame, __global const
         any |= places[ray + 1].segments != list.next[k];
     }
     if (!any) return;
-    number = first_of_packet(number_of(frame, rays, id));
+    number = first_of_packet(number_of(frame, listed, id));
     first = pixel_of(number, frame->screen);
     within = rays_inside(frame, first);
     from_eye = rays_through(frame, first);

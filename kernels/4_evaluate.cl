@@ -4,6 +4,7 @@
 // and of one rank the first in the model. A rule that looked at the partition before would depend on the direction of the ray.
 #include "boolean/claim.h"
 #include "shared/capacity.h"
+#include "shared/scene_args.h"
 
 // `c` holds the scene.
 static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
@@ -25,15 +26,13 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     return owner;
 }
 
-__kernel void evaluate(__global const Frame* frame, __global const SolidRecord* solids, __global const StartRecord* starts,
-                       __global const u32* leaves, __global const u32* trees, __global const RayCount* offsets,
+__kernel void evaluate(__global const Frame* frame, EVALUATION_ARGS, __global const RayCount* offsets,
                        __global const End* all_ends, __global const u32* all_bits, __global PartitionNode* nodes) {
     const u32 id = (u32)get_global_id(0);
     cover c;
     if (id >= 2 * segments_of(frame, offsets) || nodes[id].in_end == NONE) return;
     c.solids = solids;
     c.starts = starts;
-    c.leaves = leaves;
     c.trees = trees;
     nodes[id].owner = owner_of(frame->rank_ends, c, id, nodes[id].owner, offsets, all_ends, all_bits);
 }

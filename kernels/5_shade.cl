@@ -1,27 +1,23 @@
 // Kernel 5: the first claimed partition -> a pixel.
 #include "shared/capacity.h"
+#include "shared/scene_args.h"
 #include "shading/pixel.h"
 
-__kernel void shade(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                    __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
-                    __global const BvhNode* inner_nodes,
-                    __global const RegionRecord* regions, __global const MaterialRecord* materials,
-                    __global const LightRecord* lights, __global const RayCount* offsets,
-                    __global const End* ends, __global const PartitionNode* nodes,
-                    __global RayTally* tallies, __global const RayRecord* rays,
-                    __global BatchReport* report, __global float* picture) {
+__kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS, __global const u32* listed,
+                    __global const RayCount* offsets, __global const End* ends, __global const PartitionNode* nodes,
+                    __global RayTally* tallies, __global BatchReport* report, __global float* picture) {
     u32 id = (u32)get_global_id(0), seen = NONE, number;
     RayTally tally;
     Pixel pixel;
     pixel_position at;
     ray3 r;
     if (id >= frame->ray_count) return;
-    if (id == 0 && frame->lines) {  // weaving has left what stands behind the rays' tallies
+    if (id == 0 && frame->rows) {  // behind the rays' tallies stands the count of candidates: weaving left it
         report->candidates = tallies[frame->ray_count].partitions;
         report->total = offsets[frame->ray_count];
     }
     if (!segments_fit(frame, offsets)) return;
-    number = number_of(frame, rays, id);
+    number = number_of(frame, listed, id);
     at = pixel_of(number, frame->screen);
     if (!at.inside) return;
     r = geometry_ray(frame, camera_ray(frame, at));
@@ -45,8 +41,8 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         PartitionNode partition = nodes[seen];
         End end = ends[partition.in_end];
         u32 region = partition.owner & ~OVERLAP;
-        Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
-        pixel = seen_pixel(frame, lights, materials[regions[region].material], g, r, end, partition.in_end & 1u, region);
+        Geometry g = GEOMETRY;
+        pixel = seen_pixel(frame, lights, materials[region], g, r, end, partition.in_end & 1u, region);
     }
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = tally.partitions;

@@ -12,37 +12,32 @@ FN u32 number_in_part(__global const u32* entries, u32 id) {
            within % LOCKSTEP;
 }
 
-__kernel void first_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
-                         __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
-                         __global const BvhNode* inner_nodes, __global const BvhNode* nodes,
-                         __global const RegionRecord* regions, __global const StartRecord* starts, __global const u32* leaves,
-                         __global const u32* trees, __global const MaterialRecord* materials,
-                         __global const LightRecord* lights, __global const TileNode* tile_nodes,
-                         __global const RayRecord* rays, __global BatchReport* tally, __global u32* overflown,
-                         __global float* picture) {
+#include "shared/scene_args.h"
+
+__kernel void first_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes, REGION_ARGS, APPEARANCE_ARGS,
+                         __global const TileNode* tile_nodes, __global const u32* listed, __global BatchReport* report,
+                         __global u32* overflown, __global float* picture) {
     const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
     u32 number, lost, sees;
     pixel_position at;
     scene_tables s;
     appearance_tables a;
-    if (id >= frame->ray_count || (frame->lines && id / (TILE * TILE) >= tally->entries)) return;
-    number = frame->lines ? number_in_part((__global const u32*)rays, id) : number_of(frame, rays, id);
+    if (id >= frame->ray_count || (frame->rows && id / (TILE * TILE) >= report->entries)) return;
+    number = frame->rows ? number_in_part(listed, id) : number_of(frame, listed, id);
     if (number == COUNT_MAX) return;
     number = FIRST_OF_ITEM(number);
     at = pixel_of(number, frame->screen);
     if (!at.inside) return;
-    s.g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
+    s.g = GEOMETRY;
     s.nodes = nodes;
     s.starts = starts;
-    s.leaves = leaves;
     s.trees = trees;
 #if SHAPED_LIGHTS
     s.seen_end = frame->rank_ends[RANK_AIR];
 #endif
-    a.regions = regions;
     a.materials = materials;
     a.lights = lights;
     lost = draw(frame, s, a, list_of(frame, tile_nodes, number), at, picture + place_of(frame, at, FIRST_OF_ITEM(id)), &sees);
-    if (sees) mark_shown(frame, tally, number);
-    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&tally->overflows)] = number + RAY_OF_ITEM(lowest(lost));
+    if (sees) mark_shown(frame, report, number);
+    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&report->overflows)] = number + RAY_OF_ITEM(lowest(lost));
 }

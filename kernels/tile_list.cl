@@ -9,14 +9,14 @@ static u32 class_of(u32 cost) {
 }
 
 // costs: kernel 0's, of `count` tiles. An item a tile.
-__kernel void count_tiles(__global const unsigned char* costs, u32 count, __global BatchReport* tally) {
+__kernel void count_tiles(__global const unsigned char* costs, u32 count, __global BatchReport* report) {
     __local u32 tiles[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
     if (item < COST_CLASSES) tiles[item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
     if (id < count) atomic_inc(tiles + class_of(costs[id]));
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < COST_CLASSES && tiles[item]) atomic_add(tally->tiles + item, tiles[item]);
+    if (item < COST_CLASSES && tiles[item]) atomic_add(report->tiles + item, tiles[item]);
 }
 
 // Entries of a tile of that class.
@@ -31,13 +31,13 @@ static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
 
 // The numbers of the batch's tiles that see anything, from `first` on, in `numbers`: those of the same class in any order. A device
 // that ends with the longest waits for it; so the dearest come first, and in parts if they are no more than `most_in_parts`.
-__kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global BatchReport* tally,
+__kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global BatchReport* report,
                           __global u32* numbers) {
     __local u32 all[COST_CLASSES], tiles[COST_CLASSES], places[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
     u32 own = 0, before = 0, in_parts, k;
     if (item < COST_CLASSES) {
-        all[item] = tally->tiles[item];
+        all[item] = report->tiles[item];
         tiles[item] = 0;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -50,8 +50,8 @@ __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 cou
     if (item < COST_CLASSES) {
         u32 place = 0;
         for (k = item + 1; k < COST_CLASSES; ++k) place += all[k] * parts_of(k, in_parts);
-        if (id == 0) tally->entries = place;
-        if (tiles[item]) places[item] = place + atomic_add(tally->listed + item, tiles[item]) * parts_of(item, in_parts);
+        if (id == 0) report->entries = place;
+        if (tiles[item]) places[item] = place + atomic_add(report->listed + item, tiles[item]) * parts_of(item, in_parts);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (own > 0) {
@@ -61,14 +61,14 @@ __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 cou
     }
 }
 
-// Fills what no ray will, of a picture of whole lines of the screen. A group of TILE * TILE items a tile.
-__kernel void put_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 lines, u32 planes,
-                             PlaneValues background, __global float* picture) {
+// The background of tiles without rays, in a row-major picture of the screen's whole rows. A group of TILE * TILE items a tile.
+__kernel void write_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 rows, u32 channels,
+                               ChannelValues background, __global float* picture) {
     pixel_position at;
-    u32 p;
+    u32 c;
     if (costs[get_group_id(0)]) return;
     at = pixel_of(first_ray + (u32)get_global_id(0), screen);
     if (!at.inside) return;
-    picture += place_in_lines(screen, first_ray, at);
-    for (p = 0; p < planes; ++p) picture[(size_t)p * lines * width_of(screen)] = background.of[p];
+    picture += row_major_place(screen, first_ray, at);
+    for (c = 0; c < channels; ++c) picture[(size_t)c * rows * width_of(screen)] = background.of[c];
 }

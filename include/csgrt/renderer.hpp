@@ -140,13 +140,12 @@ struct Statistics {
     } ms;
 };
 
-class KnownPicture;
+class RegisteredMemory;
 
 /// A picture that is drawn again and again, as a viewer does. Of a frame like the last one (size, channels, background) only
 /// the blocks of pixels are written that show something, or did before: what no solid is near costs nothing. From the second
-/// such frame of one Renderer on its GPUs copy into the picture's memory, of as many of its channels as each has room for beside its
-/// own, with no more than 64 bytes a pixel in all: it is made known to their drivers, which takes a tenth of a second a gigabyte. A
-/// copy of a Framebuffer is not known to them.
+/// such frame of one Renderer on its GPUs copy straight into the picture's memory, which is registered with their drivers. That takes
+/// a tenth of a second a gigabyte, and as much of the GPU's memory as the picture has. A copy of a Framebuffer is not registered.
 class CSGRT_API Framebuffer {
 public:
     Framebuffer();
@@ -167,9 +166,9 @@ private:
 
     Image image_;
     std::vector<float> background_;    ///< a channel
-    std::vector<std::uint8_t> drawn_;  ///< a block of pixels: 0 if it holds nothing but the background
+    std::vector<std::uint8_t> covered_;  ///< of each tile of 8 x 8 pixels: 0 if it holds nothing but the background
     std::uint64_t drawn_by_ = 0;       ///< Renderer of the last frame
-    std::shared_ptr<KnownPicture> known_;  ///< to its devices; must not outlast the image
+    std::shared_ptr<RegisteredMemory> registered_;  ///< with its devices; must not outlive the image
 };
 
 /// A compiled scene on one device, or on several that share the work. Not copyable; one thread at a time. A GPU is made

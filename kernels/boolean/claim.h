@@ -20,7 +20,6 @@ typedef struct {
     u32 marked;  // may any have them?
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;
-    GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
 } cover;
 
@@ -151,7 +150,7 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
             u32 low = c.solids[solid].first_leaf, high = low + c.solids[solid].leaf_count, last = high;
             while (low < high) {  // to the first at or after `from`
                 u32 middle = (low + high) >> 1;
-                if (c.leaves[middle] < from) {
+                if (c.trees[middle] < from) {
                     low = middle + 1;
                 } else {
                     high = middle;
@@ -159,7 +158,7 @@ FN void fill_cursor(leaf_cursor* w, cover c, u32 from, u32 end) {
             }
             if (is_missed(c, segment)) continue;
             for (; low < last; ++low) {
-                u32 node = c.leaves[low];
+                u32 node = c.trees[low];
                 if (node >= end || !keep(w, node)) break;
             }
         }

@@ -37,7 +37,6 @@ typedef struct {
     Geometry g;
     GLOBAL const BvhNode* nodes;
     GLOBAL const StartRecord* starts;
-    GLOBAL const u32* leaves;
     GLOBAL const u32* trees;
 #if SHAPED_LIGHTS
     u32 seen_end;  // the number behind the last region that pictures show
@@ -124,7 +123,6 @@ FN u32 first_claim(const front* w, scene_tables s) {
         c.marked = w->marked;
         c.solids = s.g.solids;
         c.starts = s.starts;
-        c.leaves = s.leaves;
         c.trees = s.trees;
         list_covered(c, &covered);
         region = find_claim_beside(c, starting, &covered, 0).least;

@@ -42,18 +42,18 @@ FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
 }
 
 FN span clip_to_face(span s, Geometry g, u32 index, ray3 r, u32 surface) {
-    PlaneRef ref = g.plane_refs[index];
+    PlaneRef ref = g.words[index];
     return clip(s, g.planes[ref >> 1], ref & 1u, r, surface);
 }
 
 // Where the ray meets the plane: the same t, to the last bit, as clip's. Not finite if it runs along it.
 FN real face_distance(Geometry g, u32 index, ray3 r) {
-    PlaneRecord plane = g.planes[g.plane_refs[index] >> 1];
+    PlaneRecord plane = g.planes[g.words[index] >> 1];
     return -plane_above(plane, r) / dot3(narrow(plane_normal(plane)), r.d);
 }
 
 FN vec3 face_normal(Geometry g, u32 index) {
-    PlaneRef ref = g.plane_refs[index];
+    PlaneRef ref = g.words[index];
     vec3 n = narrow(plane_normal(g.planes[ref >> 1]));
     return (ref & 1u) ? scale(n, REAL(-1)) : n;
 }

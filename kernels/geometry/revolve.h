@@ -42,14 +42,14 @@ FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 p
 FN u32 revolve_cut_faces(GLOBAL const real* p) { return p[REVOLVE_CUT] == REAL(REVOLVE_WHOLE) ? 0u : REVOLVE_FACES; }
 
 FN int runs_within(Geometry g, u32 index, ray3 r) {
-    PlaneRecord plane = g.planes[g.plane_refs[index] >> 1];
+    PlaneRecord plane = g.planes[g.words[index] >> 1];
     return plane_above(plane, r) == 0 && dot3(narrow(plane_normal(plane)), r.d) == 0;
 }
 
 // Nothing lies between the two sides of one plane, not even a ray that runs within it. A ray that runs within two planes runs along
 // the edge where they meet, and is not between them either.
 FN int nothing_between(Geometry g, u32 index, ray3 r) {
-    PlaneRef first = g.plane_refs[index], second = g.plane_refs[index + 1];
+    PlaneRef first = g.words[index], second = g.words[index + 1];
     return (first ^ second) == 1u || (first != second && runs_within(g, index, r) && runs_within(g, index + 1, r));
 }
 
@@ -73,12 +73,12 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     }
     if (between.touched) c.missed = missed_of_planes(g, solid.first_plane, REVOLVE_FACES, r);
     for (i = 0; i < flat_lines; ++i)
-        if (runs_in(g.planes[g.plane_refs[solid.first_plane + faces + i] >> 1], r)) touched = solid.first_plane + faces + i;
+        if (runs_in(g.planes[g.words[solid.first_plane + faces + i] >> 1], r)) touched = solid.first_plane + faces + i;
     // A ray in such a plane touches the flat face, which lies before it or behind it along the axis: the solid is met beside it.
     do {
         k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
         if (touched != NONE) {
-            const int face_above = faces_above(g.planes[g.plane_refs[touched] >> 1]) == !(g.plane_refs[touched] & 1u);
+            const int face_above = faces_above(g.planes[g.words[touched] >> 1]) == !(g.words[touched] & 1u);
             a.oz = oz + REAL(side) * (REAL(8) * local_rounding(p, r));
             k.c.missed |= face_above == (side > 0) ? MISSED_BELOW : MISSED_ABOVE;
         }

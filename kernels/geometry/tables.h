@@ -8,7 +8,6 @@ typedef struct {
     GLOBAL const SolidRecord* solids;
     GLOBAL const real* reals;
     GLOBAL const PlaneRecord* planes;
-    GLOBAL const PlaneRef* plane_refs;
     GLOBAL const u32* words;
     GLOBAL const BvhNode* inner_nodes;  // hierarchies inside solids of many parts
 #ifndef __OPENCL_VERSION__
@@ -49,12 +48,11 @@ FN ray3 ray_at(SolidRecord solid, ray3 r) {
 }
 
 FN Geometry make_geometry(GLOBAL const SolidRecord* solids, GLOBAL const real* reals, GLOBAL const PlaneRecord* planes,
-                          GLOBAL const PlaneRef* plane_refs, GLOBAL const u32* words, GLOBAL const BvhNode* inner_nodes) {
+                          GLOBAL const u32* words, GLOBAL const BvhNode* inner_nodes) {
     Geometry g;
     g.solids = solids;
     g.reals = reals;
     g.planes = planes;
-    g.plane_refs = plane_refs;
     g.words = words;
     g.inner_nodes = inner_nodes;
 #ifndef __OPENCL_VERSION__

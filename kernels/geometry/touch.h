@@ -25,7 +25,7 @@ FN u32 missed_side(vec3 n) { return n.x + n.y * ABOVE_Y + n.z * ABOVE_Z >= 0 ? M
 FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
     u32 i, missed = 0;
     for (i = first; i < first + count; ++i) {
-        const PlaneRef ref = g.plane_refs[i];
+        const PlaneRef ref = g.words[i];
         const PlaneRecord plane = g.planes[ref >> 1];
         if (runs_in(plane, r)) missed |= faces_above(plane) == !(ref & 1u) ? MISSED_ABOVE : MISSED_BELOW;
     }

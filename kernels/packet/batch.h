@@ -32,7 +32,7 @@ FN void fetch_solid(scene_tables s, u32 index) {
     fetch(s.g.reals + solid->first_real);
     fetch(s.g.reals + solid->first_real + 8);
     fetch(s.g.reals + solid->first_real + 16);
-    fetch(s.g.plane_refs + solid->first_plane);
+    fetch(s.g.words + solid->first_plane);
 }
 
 // What that points to.
@@ -40,16 +40,11 @@ FN void fetch_parts(scene_tables s, u32 index) {
     GLOBAL const SolidRecord* const solid = s.g.solids + index;
     if (solid->start_count) fetch(s.trees + s.starts[solid->first_start].first_word);
     if (solid->plane_count) {
-        GLOBAL const PlaneRef* const refs = s.g.plane_refs + solid->first_plane;
+        GLOBAL const PlaneRef* const refs = s.g.words + solid->first_plane;
         fetch(s.g.planes + (refs[0] >> 1));
         fetch(s.g.planes + (refs[solid->plane_count / 2] >> 1));
         fetch(s.g.planes + (refs[solid->plane_count - 1] >> 1));
     }
-}
-
-// Of the rays that see something (`hit`), what their regions, which were asked for, are made of.
-FN void fetch_materials(const packet* p, appearance_tables a, u32 hit) {
-    for (; hit; hit &= hit - 1u) fetch(a.materials + a.regions[p->fronts[lowest(hit)].region].material);
 }
 
 FN void start_batch(solid_batch* b) { b->count = 0; }
@@ -84,7 +79,6 @@ typedef struct {
 } solid_batch;
 
 #define fetch_node(s, node) ((void)0)
-#define fetch_materials(p, a, hit) ((void)0)
 #define start_batch(b) ((void)0)
 #define is_enough(b) 1
 #define take_batch(p, s, b) 0u

@@ -32,8 +32,7 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     u32 hit, lost;
     packet p;
     start_packet(&p, f, first);
-    hit = first_hits_of(&p, f, s, a.regions, list, within, &lost);
-    fetch_materials(&p, a, hit);
+    hit = first_hits_of(&p, f, s, a.materials, list, within, &lost);
     put_pixels(&p, f, s.g, a, picture, within & ~lost, hit);
     *seen = hit;
     return lost;

@@ -20,7 +20,7 @@ FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, solid_batch*
 }
 
 // Of the rays of `which`, those whose first seen partition is known; `lost`: those that hold more than there is room for.
-FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __global const RegionRecord* regions,
+FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __global const MaterialRecord* materials,
                      __global const TileNode* next, u32 which, u32* lost) {
     const u32 near_scene = bits_of(p->slabs.hits_sphere);
     u32 hit = 0, k;
@@ -40,7 +40,7 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             front* w = p->fronts + lowest(going);
             if (advance(w, s, p->tolerance, p->t_min, horizon)) {
                 hit |= going & (0u - going);
-                fetch(regions + w->region);
+                fetch(materials + w->region);
             }
             p->due[lowest(going)] = due_at(w, p->tolerance, p->offset);
         }

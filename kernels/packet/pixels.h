@@ -86,7 +86,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     packet_view view;
     for (k = 0; k < PACKET; ++k) {
         const front* w = p->fronts + (hit >> k & 1u ? k : lowest(hit));
-        const MaterialRecord m = a.materials[a.regions[w->region].material];
+        const MaterialRecord m = a.materials[w->region];
         t[k] = w->seen.t;
         region[k] = (float)(w->region + 1);
         solid[k] = (float)(w->seen.solid + 1);
@@ -122,8 +122,8 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
 // The pixels of `which`; those of `hit` see something. Left a call: measured (bench/NOTES.md).
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture,
                             u32 which, u32 hit) {
-    const size_t size = plane_of(f);
-    const u32 line = f->lines ? width_of(f->screen) : TILE;
+    const size_t size = channel_size(f);
+    const u32 line = f->rows ? width_of(f->screen) : TILE;
     const int8 seen = of_bits(hit);
     packet_view v;
     u32 k;

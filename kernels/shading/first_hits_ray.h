@@ -19,7 +19,7 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     *seen = found == RAY_HITS;
     if (found == RAY_OVERFLOWS) return 1;
     if (found == RAY_HITS) {
-        const MaterialRecord material = a.materials[a.regions[w.region].material];
+        const MaterialRecord material = a.materials[w.region];
         pixel = seen_pixel(f, a.lights, material, s.g, r, w.seen, w.from_within, w.region);
     } else {
         pixel = background_pixel(f);

@@ -9,7 +9,7 @@
 // A solid's parameters are `real`s from SolidRecord.first_real on; what they mean stands in geometry/<solid>.h.
 // Solids of any size keep the rest in `words` (u32) from first_word on, which several may share: positions in `words`,
 // `reals` and `inner_nodes` of what they are made of.
-// Its planes (faces, end caps) are PlaneRefs from first_plane on, into the one world-space table of planes.
+// Its planes (faces, end caps) are PlaneRefs in `words` from first_plane on, into the one world-space table of planes.
 
 #define SOLID_ELL 0
 #define SOLID_TGC 1
@@ -46,9 +46,9 @@ typedef struct {
     u32 type;
     u32 first_real;
     u32 first_word;                  // into words, for solids of any size: counts, indices
-    u32 first_plane, plane_count;    // into plane_refs
+    u32 first_plane, plane_count;    // PlaneRefs in words
     u32 first_start, start_count;    // into starts
-    u32 first_leaf, leaf_count;      // into leaves: where it stands in terms of more than SCANNED_WORDS, ascending
+    u32 first_leaf, leaf_count;      // into trees: where it stands in terms of more than SCANNED_WORDS, ascending
     u32 begins;                      // BEGINS_x: where it may be that a term begins to be true
     u32 alone;                       // what claims where it alone covers: as PartitionNode.owner, or ALONE_UNKNOWN
     SOLID_CENTER
@@ -94,7 +94,6 @@ typedef u32 PlaneRef;
 typedef struct {
     u32 first_word, word_count;  // into trees
     u32 flags;
-    u32 material;
 } RegionRecord;
 
 // Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the first in the
@@ -191,6 +190,11 @@ typedef struct {
 
 // ---- Rays ----
 
+// The rays of a batch are listed by their tiles' numbers, by pixels' own numbers, or they are rays that the host gave.
+#define WORK_TILES 0u
+#define WORK_PIXELS 1u
+#define WORK_RAYS 2u
+
 // Pixels of a picture: columns left ... right - 1 and lines top ... bottom - 1. It begins with a tile of TILE * TILE pixels.
 typedef struct {
     u32 left, top, right, bottom;
@@ -209,23 +213,22 @@ typedef struct {
     float background[3];
     u32 width, height;
     u32 perspective;       // 0 or 1
-    u32 listed;            // 1: the rays are a list, not a picture's
+    u32 work;              // WORK_x: which rays the kernels are run for
     u32 first_ray, ray_count;  // this batch
     u32 solid_count, unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: only the first hits are wanted
-    u32 picked;            // 1: the batch's rays are those whose numbers are listed; 0: the tiles of them are
     u32 channels;          // of the picture: CHANNEL_x bits
     ScreenBounds screen;         // the picture's pixels that can show anything; none of the others has a ray
-    u32 lines;             // that the batch's picture has, see place_of() in traversal/camera.h; 0: a float of each ray
+    u32 rows;              // of the batch's picture if it is row-major; 0: it has a float a ray, in the rays' order
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
 } Frame;
 
-// A float for each plane of a picture.
-#define MOST_PLANES 13
+// A float for each channel of a picture.
+#define MOST_CHANNELS 13
 typedef struct {
-    float of[MOST_PLANES];
-} PlaneValues;
+    float of[MOST_CHANNELS];
+} ChannelValues;
 
 // Rays are numbered in tiles of 8 x 8 pixels, so that the work-items of a group look at neighbours.
 #define TILE 8u

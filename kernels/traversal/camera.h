@@ -19,21 +19,21 @@ FN pixel_position pixel_of(u32 ray, ScreenBounds w) {
     return p;
 }
 
-// Where a pixel stands in whole lines of the screen's, from the top of a batch's first tile on.
-FN size_t place_in_lines(ScreenBounds w, u32 first_ray, pixel_position at) {
+// A pixel's place in a row-major picture of the screen's whole rows, from the top of a batch's first tile on.
+FN size_t row_major_place(ScreenBounds w, u32 first_ray, pixel_position at) {
     const u32 top = w.top + first_ray / (TILE * TILE) / tiles_across(w) * TILE;
     return (size_t)(at.y - top) * width_of(w) + (at.x - w.left);
 }
 
-// Where a ray's pixel stands in a plane of the batch's picture, and how many floats that has.
+// The place of a ray's pixel in a channel of the batch's picture, and how many floats a channel has.
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
-    return f->lines ? place_in_lines(f->screen, f->first_ray, at) : id;
+    return f->rows ? row_major_place(f->screen, f->first_ray, at) : id;
 }
-FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * width_of(f->screen) : f->ray_count; }
+FN size_t channel_size(GLOBAL const Frame* f) { return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count; }
 
 // Tells the host that the ray's tile shows something. Any number of them may say so at once.
-FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* tally, u32 number) {
-    if (f->lines) ((GLOBAL unsigned char*)(tally + 1))[(number - f->first_ray) / (TILE * TILE)] = 1;
+FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* report, u32 number) {
+    if (f->rows) ((GLOBAL unsigned char*)(report + 1))[(number - f->first_ray) / (TILE * TILE)] = 1;
 }
 
 FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) { return view_ray(f, (wide)at.x, (wide)at.y); }
@@ -46,7 +46,7 @@ FN wide3 frame_center(GLOBAL const Frame* f) { return make_wide3(f->center[0], f
 FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
     ray3 r;
     wide3 from = wide_subtract(w.o, frame_center(f));
-    if (f->listed) {
+    if (f->work == WORK_RAYS) {
         wide longest = wide_max(wide_abs(w.d.x), wide_max(wide_abs(w.d.y), wide_abs(w.d.z)));
         w.d = wide_scale(w.d, (wide)1 / longest);
         w.d = wide_scale(w.d, (wide)1 / wide_sqrt(wide_dot(w.d, w.d)));
@@ -77,16 +77,15 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
-// The number of the batch's ray `id`. Of a picture the numbers are listed in place of rays: one by one, or by tiles, which are whole.
-FN u32 number_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 id) {
-    GLOBAL const u32* numbers = (GLOBAL const u32*)rays;
-    if (f->listed) return id;
-    return f->picked ? numbers[id] : numbers[id / (TILE * TILE)] * (TILE * TILE) + id % (TILE * TILE);
+// The number of the batch's ray `id`. `listed`: numbers of tiles or of pixels, see WORK_x.
+FN u32 number_of(GLOBAL const Frame* f, GLOBAL const u32* listed, u32 id) {
+    if (f->work == WORK_RAYS) return id;
+    return f->work == WORK_PIXELS ? listed[id] : listed[id / (TILE * TILE)] * (TILE * TILE) + id % (TILE * TILE);
 }
 
-// The ray of a number: from the list of rays if there is one, else through a pixel. Returns 0 if there is no such ray.
+// The ray of a number: one that the host gave, or through a pixel. 0: there is no such ray.
 FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r) {
-    if (f->listed) {
+    if (f->work == WORK_RAYS) {
         RayRecord record = rays[number];
         world_ray w;
         w.o = make_wide3(record.ox, record.oy, record.oz);
@@ -108,7 +107,7 @@ FN real tolerance_along(GLOBAL const Frame* f, ray3 r) {
 #else
     vec3 d = r.d;
     real longest = real_max(real_abs(d.x), real_max(real_abs(d.y), real_abs(d.z)));
-    if (!f->listed) return f->tolerance;
+    if (f->work != WORK_RAYS) return f->tolerance;
     d = scale(d, REAL(1) / longest);  // the squares of 1e-200 and of 1e200 are no numbers
     return f->tolerance / (longest * real_sqrt(dot3(d, d)));
 #endif

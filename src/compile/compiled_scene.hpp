@@ -28,20 +28,18 @@ struct CompiledScene {
     std::vector<kernel::SolidRecord> solids;
     std::vector<double> reals;
     std::vector<kernel::PlaneRecord> planes;
-    std::vector<kernel::PlaneRef> plane_refs;
-    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> words;  ///< of solids; behind them PlaneRefs
     std::vector<kernel::BvhNode> inner_nodes;
     std::vector<kernel::StartRecord> starts;
-    std::vector<std::uint32_t> leaves;
-    std::vector<kernel::RegionRecord> regions;
-    std::vector<std::uint32_t> trees;
-    std::vector<kernel::MaterialRecord> materials;
+    std::vector<std::uint32_t> trees;  ///< words; behind them where solids stand in large terms
+    std::vector<kernel::MaterialRecord> materials;  ///< one a region
     std::vector<kernel::LightRecord> lights;  ///< the scene's own; none: the view supplies one
     std::vector<kernel::BvhNode> nodes;
     std::uint32_t unbounded_count = 0;
     std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
 
     // Stays on the host.
+    std::vector<kernel::RegionRecord> regions;
     std::vector<FlatTree> flat_trees;     ///< one a region
     std::vector<RegionInfo> region_info;  ///< one a region
     std::vector<SolidInfo> solid_info;    ///< one a solid

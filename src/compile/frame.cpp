@@ -236,7 +236,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
 PreparedFrame prepare_rays(const CompiledScene& scene, std::uint32_t count, double tolerance) {
     PreparedFrame result;
     fill_scene(scene, tolerance, result.frame);
-    result.frame.listed = 1;
+    result.frame.work = WORK_RAYS;
     result.frame.t_min = -std::numeric_limits<double>::infinity();
     result.frame.width = count;
     result.frame.height = 1;

@@ -8,7 +8,6 @@ std::uint64_t hash_of_geometry(const CompiledScene& scene) {
     Fnv1a hash;
     hash.add_all(scene.reals);
     hash.add_all(scene.planes);
-    hash.add_all(scene.plane_refs);
     hash.add_all(scene.words);
     hash.add_all(scene.inner_nodes);
     hash.add_all(scene.nodes);
@@ -20,8 +19,6 @@ std::uint64_t hash_of(const CompiledScene& scene, std::uint64_t geometry) {
     hash.add(geometry);
     hash.add_all(scene.solids);
     hash.add_all(scene.starts);
-    hash.add_all(scene.leaves);
-    hash.add_all(scene.regions);
     hash.add_all(scene.trees);
     hash.add_all(scene.materials);
     hash.add(static_cast<std::uint64_t>(scene.lights.size()));

@@ -41,7 +41,7 @@ struct PackedChunk {
     std::uint32_t solid_types = 0;
 };
 
-/// Finds the planes that several share: fills planes and plane_refs of `compiled`, and the solids' ranges of them.
+/// Finds the planes that several share: fills planes of `compiled`, appends references to its words, and the solids' ranges of them.
 /// `empty`: a table without planes.
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common,
                   CompiledScene& compiled);

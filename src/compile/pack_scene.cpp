@@ -47,15 +47,15 @@ void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix
     std::visit(packer, shape);
     kernel::SolidRecord& record = packer.record;
     surfaces.share(record, packer.axes_in_world, box, scene);
-    const std::size_t first = scene.plane_refs.size();
+    const std::size_t first = scene.words.size();
     std::unordered_set<kernel::PlaneRef> seen;
     for (const Plane& face : faces) {
         const kernel::PlaneRef ref = planes.add(face, box);
-        if (seen.insert(ref).second || !packer.is_polyhedron) scene.plane_refs.push_back(ref);
+        if (seen.insert(ref).second || !packer.is_polyhedron) scene.words.push_back(ref);
     }
-    for (const Plane& cut : cuts) scene.plane_refs.push_back(planes.add(transform_plane(matrix, cut), box));
+    for (const Plane& cut : cuts) scene.words.push_back(planes.add(transform_plane(matrix, cut), box));
     record.first_plane = static_cast<std::uint32_t>(first);
-    record.plane_count = static_cast<std::uint32_t>(scene.plane_refs.size() - first);
+    record.plane_count = static_cast<std::uint32_t>(scene.words.size() - first);
     scene.solids.push_back(record);
 }
 

@@ -10,7 +10,6 @@ inline kernel::Geometry tables(const CompiledScene& scene, Quartic quartic = Qua
     return {scene.solids.data(),
             scene.reals.data(),
             scene.planes.data(),
-            scene.plane_refs.data(),
             scene.words.data(),
             scene.inner_nodes.data(),
             static_cast<kernel::u32>(quartic)};

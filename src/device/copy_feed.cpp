@@ -13,7 +13,7 @@ constexpr std::size_t piece = std::size_t{1} << 21;  // floats
 constexpr std::size_t most_underway = 2 * piece * sizeof(float);
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
-    return copy.begin + (copy.planes - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
+    return copy.begin + (copy.channels - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
 }
 
 }  // namespace
@@ -83,17 +83,17 @@ void CopyFeed::give(const std::shared_ptr<Job>& job) {
     underway_.push_back({Event(), job, 0, true});
 }
 
-// Several planes, or part of one, or of a line.
+// Several channels, or part of one, or of a line.
 void CopyFeed::give_pieces(const std::shared_ptr<Job>& job, const Copy& copy) {
-    const std::size_t plane = copy.columns * copy.lines;
-    const std::size_t planes = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, plane));
+    const std::size_t channel = copy.columns * copy.lines;
+    const std::size_t channels = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, channel));
     const std::size_t lines = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, copy.columns));
-    for (std::size_t p = 0; p < copy.planes; p += planes)
-        for (std::size_t y = 0; y < copy.lines; y += planes > 1 ? copy.lines : lines)
+    for (std::size_t p = 0; p < copy.channels; p += channels)
+        for (std::size_t y = 0; y < copy.lines; y += channels > 1 ? copy.lines : lines)
             for (std::size_t x = 0; x < copy.columns; x += lines > 1 ? copy.columns : piece) {
                 Copy part = copy;
-                part.planes = std::min(planes, copy.planes - p);
-                part.lines = planes > 1 ? copy.lines : std::min(lines, copy.lines - y);
+                part.channels = std::min(channels, copy.channels - p);
+                part.lines = channels > 1 ? copy.lines : std::min(lines, copy.lines - y);
                 part.columns = lines > 1 ? copy.columns : std::min(piece, copy.columns - x);
                 part.begin += p * copy.slice + y * copy.pitch + x;
                 part.target += p * copy.target_slice + y * copy.target_pitch + x;
@@ -113,11 +113,11 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
 Event CopyFeed::queue(const Device& device, const Buffer& buffer, const Copy& copy) {
     constexpr std::size_t size = sizeof(float);
     if (copy.size() == 0) return {};
-    if (copy.lines == 1 && copy.planes == 1)
+    if (copy.lines == 1 && copy.channels == 1)
         return buffer.copy_read(copy.target, copy.columns * size, copy.begin * size);
     const std::size_t from[3] = {copy.begin % copy.pitch * size, copy.begin / copy.pitch, 0}, to[3] = {0, 0, 0},
-                      region[3] = {copy.columns * size, copy.lines, copy.planes};
-    const bool is_flat = copy.planes == 1;
+                      region[3] = {copy.columns * size, copy.lines, copy.channels};
+    const bool is_flat = copy.channels == 1;
     cl_event event = nullptr;
     check(device.cl().EnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region, copy.pitch * size,
                                   is_flat ? 0 : copy.slice * size, copy.target_pitch * size, is_flat ? 0 : copy.target_slice * size,

@@ -18,15 +18,15 @@ namespace csgrt {
 
 class CopyFeed {
 public:
-    /// Floats that stand apart as those of a picture's rectangle do: of each plane its lines, one beneath the other.
+    /// Floats that stand apart as those of a picture's rectangle do: of each channel its lines, one beneath the other.
     struct Copy {
-        std::size_t columns, lines = 1, planes = 1;
-        /// Where the first one is in the buffer; from line to line, and from plane to plane, of which the first divides the second.
+        std::size_t columns, lines = 1, channels = 1;
+        /// Where the first one is in the buffer; from line to line, and from channel to channel, of which the first divides the second.
         std::size_t begin = 0, pitch = 0, slice = 0;
         float* target = nullptr;  ///< and on the host
         std::size_t target_pitch = 0, target_slice = 0;
 
-        std::size_t size() const { return columns * lines * planes; }
+        std::size_t size() const { return columns * lines * channels; }
     };
 
     /// Queues the copy, as one command of the device's copy queue. Does not wait.

@@ -16,7 +16,7 @@ namespace csgrt {
 struct FoundDevice;
 
 /// A context and profiling queues on one device. Buffers, programs and kernels refer to it and must not outlive it.
-/// Commands run in the order in which they are queued, but those of the copy queue and of lanes; several may be queued before one wait.
+/// Commands run in the order in which they are queued, but those of the copy queue and of other queues; several may be queued before one wait.
 class Device {
 public:
     /// Picks by `choice`: "" (a GPU if there is one, else the first), "cpu", "gpu", "accelerator", a number as in
@@ -34,18 +34,18 @@ public:
     cl_device_id id() const noexcept { return id_; }
     cl_context context() const noexcept { return context_.get(); }
     /// Takes what is queued from now on.
-    cl_command_queue queue() const noexcept { return queues_[lane_].get(); }
+    cl_command_queue queue() const noexcept { return queues_[current_].get(); }
     /// Another one, for what comes to the host beside kernels.
     cl_command_queue copy_queue() const noexcept { return copy_queue_.get(); }
 
-    /// Until it is gone another queue takes what is queued: those of different lanes may run side by side.
-    class Lane;
-    static constexpr std::size_t lanes = 2;
+    /// While it lives, queue() is another one. Commands of different queues may run side by side.
+    class OnQueue;
+    static constexpr std::size_t queues = 2;
 
-    /// Hands what is queued, but for copies and other lanes, to the device without waiting.
+    /// Hands what is queued, but for copies and other queues, to the device without waiting.
     void flush() const;
     void flush_copies() const;  ///< the same of copies
-    /// Waits until all that is done, of every lane. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
+    /// Waits until all that is done, of every queue. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
     void finish() const;
 
     /// Bytes that all buffers together may take, and that one buffer may take. Devices misreport both, and change their
@@ -66,19 +66,19 @@ private:
     const OpenCl* cl_ = nullptr;
     cl_device_id id_ = nullptr;
     Context context_;
-    std::array<Queue, lanes> queues_;
+    std::array<Queue, queues> queues_;
     Queue copy_queue_;
-    std::size_t lane_ = 0;
+    std::size_t current_ = 0;
     std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
     std::map<std::string, std::uint64_t> allocations_;
 };
 
-class Device::Lane {
+class Device::OnQueue {
 public:
-    Lane(Device& device, std::size_t lane) noexcept : device_(device) { device_.lane_ = lane; }
-    Lane(const Lane&) = delete;
-    Lane& operator=(const Lane&) = delete;
-    ~Lane() { device_.lane_ = 0; }
+    OnQueue(Device& device, std::size_t queue) noexcept : device_(device) { device_.current_ = queue; }
+    OnQueue(const OnQueue&) = delete;
+    OnQueue& operator=(const OnQueue&) = delete;
+    ~OnQueue() { device_.current_ = 0; }
 
 private:
     Device& device_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -20,15 +21,16 @@ struct LocalMemory {
 class Kernel {
 public:
     /// Queues `items` work-items in groups of `group`; the last group is filled up, so the kernel must look whether
-    /// its number is below `items`. The arguments stand in the order of the kernel's own: a Buffer, LocalMemory, or a
-    /// plain value of the very type that the kernel has (cl_uint, cl_double, a struct of kernels/shared/layout.h).
+    /// its number is below `items`. The arguments stand in the order of the kernel's own: a Buffer, a tuple of several,
+    /// LocalMemory, or a plain value of the very type that the kernel has (cl_uint, cl_double, a struct of
+    /// kernels/shared/layout.h).
     /// Does not wait. 0 items: nothing is queued, and the event is empty.
     /// Throws Error (device_fault, out_of_memory) that names the kernel.
     template <class... Arguments>
     Event launch(std::size_t items, std::size_t group, const Arguments&... arguments) {
-        check_count(sizeof...(arguments));
         cl_uint position = 0;
-        (set(position++, arguments), ...);
+        (add(position, arguments), ...);
+        check_count(position);
         return queue(items, group);
     }
 
@@ -40,6 +42,14 @@ private:
     friend class Program;
     Kernel(const Device& device, cl_program program, std::string name);
 
+    template <class T>
+    void add(cl_uint& position, const T& argument) {
+        set(position++, argument);
+    }
+    template <class... Buffers>
+    void add(cl_uint& position, const std::tuple<Buffers...>& group) {
+        std::apply([&](const auto&... buffers) { (add(position, buffers), ...); }, group);
+    }
     void set(cl_uint position, const Buffer& buffer);
     void set(cl_uint position, LocalMemory local);
     template <class T>

@@ -19,7 +19,7 @@ inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
 
 static_assert(sizeof(SolidRecord) == 44);
 static_assert(sizeof(PlaneRecord) == 32);
-static_assert(sizeof(RegionRecord) == 16);
+static_assert(sizeof(RegionRecord) == 12);
 static_assert(sizeof(MaterialRecord) == 32);
 static_assert(sizeof(LightRecord) == 80);
 static_assert(sizeof(BvhNode) == 32 && offsetof(BvhNode, high) == 16);
@@ -32,6 +32,6 @@ static_assert(sizeof(RayTally) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
 static_assert(sizeof(TileNode) == 8);
-static_assert(sizeof(PlaneValues) == sizeof(Pixel));
+static_assert(sizeof(ChannelValues) == sizeof(Pixel));
 
 }  // namespace csgrt::kernel

@@ -208,7 +208,7 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, cons
                 pixel = kernel::background_pixel(&frame);
             } else {
                 const ClaimedPartition& hit = claims.partitions[claims.first_seen];
-                const kernel::MaterialRecord& material = scene_.materials[scene_.regions[hit.region].material];
+                const kernel::MaterialRecord& material = scene_.materials[hit.region];
                 pixel = kernels_.hit_pixel(frame, prepared.lights, hit.region, material, ray, hit.in, hit.in_leaves);
             }
             pixel.depth = static_cast<std::uint32_t>(claims.ends.size() / 2);

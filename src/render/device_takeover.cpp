@@ -73,7 +73,7 @@ bool DeviceTakeover::has_ended() const {
     return job_.valid() && job_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
 }
 
-Pipelines& DeviceTakeover::drawer(bool every_partition) {
+DeviceGroup& DeviceTakeover::drawer(bool every_partition) {
     wanted_[every_partition] = true;
     if (has_ended()) collect();
     if (!is_over_ && !ready_[every_partition] && !job_.valid()) begin();
@@ -92,7 +92,7 @@ void DeviceTakeover::await(bool every_partition) {
     }
 }
 
-Pipelines& DeviceTakeover::first() {
+DeviceGroup& DeviceTakeover::first() {
     if (!first_) first_ = set_up_(plan_.first);
     return *first_;
 }

@@ -27,7 +27,7 @@ namespace csgrt {
 class DeviceTakeover {
 public:
     /// Sets devices up; the job calls it too.
-    using SetUp = std::function<std::unique_ptr<Pipelines>(const std::vector<FoundDevice>&)>;
+    using SetUp = std::function<std::unique_ptr<DeviceGroup>(const std::vector<FoundDevice>&)>;
 
     /// Sets the plan's first devices up and begins to look for the next. `waits`: these draw from the first call on, if
     /// there are any. Throws Error (out_of_memory, device_fault).
@@ -40,9 +40,9 @@ public:
     /// Who draws such a call, every partition or first hits, with its kernels compiled. Valid until the next call. Next
     /// devices that lack the mode's kernels get them from the job, and the first ones draw meanwhile. Throws what kept
     /// named devices from becoming ready, at this call and all later ones.
-    Pipelines& drawer(bool every_partition);
+    DeviceGroup& drawer(bool every_partition);
     /// Who would draw, were there a call now that all kernels are compiled for.
-    const Pipelines& present() const { return next_ ? *next_ : *first_; }
+    const DeviceGroup& present() const { return next_ ? *next_ : *first_; }
 
     /// The name of the devices that the job makes ready; "gpu" until one is found; empty: there is no job.
     std::string awaited() const;
@@ -52,7 +52,7 @@ public:
 private:
     using Ready = std::array<bool, 2>;  ///< by every_partition
     struct Made {
-        std::unique_ptr<Pipelines> pipelines;  ///< null: there are no such devices
+        std::unique_ptr<DeviceGroup> pipelines;  ///< null: there are no such devices
         Ready ready{};
     };
 
@@ -61,12 +61,12 @@ private:
     void begin();
     void collect();
     void await(bool every_partition);
-    Pipelines& first();
+    DeviceGroup& first();
 
     DevicePlan plan_;
     SetUp set_up_;
     bool waits_;
-    std::unique_ptr<Pipelines> first_, next_;
+    std::unique_ptr<DeviceGroup> first_, next_;
     Ready ready_{};  ///< modes that next_ draws
     bool is_over_;   ///< nobody takes over any more
     std::exception_ptr fault_;

@@ -15,22 +15,22 @@ Framebuffer::~Framebuffer() = default;
 Framebuffer::Framebuffer(Framebuffer&& other) noexcept = default;
 
 Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
-    known_ = nullptr;  // before the image
+    registered_ = nullptr;  // before the image
     image_ = std::exchange(other.image_, {});
     background_ = std::exchange(other.background_, {});
-    drawn_ = std::exchange(other.drawn_, {});
+    covered_ = std::exchange(other.covered_, {});
     drawn_by_ = std::exchange(other.drawn_by_, 0);
-    known_ = std::exchange(other.known_, nullptr);
+    registered_ = std::exchange(other.registered_, nullptr);
     return *this;
 }
 
 Framebuffer::Framebuffer(const Framebuffer& other)
-    : image_(other.image_), background_(other.background_), drawn_(other.drawn_) {}
+    : image_(other.image_), background_(other.background_), covered_(other.covered_) {}
 
 Framebuffer& Framebuffer::operator=(const Framebuffer& other) { return *this = Framebuffer(other); }
 
 Image Framebuffer::take() {
-    known_ = nullptr;
+    registered_ = nullptr;
     return std::exchange(*this, {}).image_;
 }
 
@@ -39,7 +39,7 @@ void Framebuffer::fit(int width, int height, std::vector<std::string> names, std
     const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
     const std::size_t tiles = tiles_along(width) * tiles_along(height);
     const bool fits =  // what was moved away keeps its size, but no tiles
-        image_.width == width && image_.height == height && image_.names == names && drawn_.size() == tiles;
+        image_.width == width && image_.height == height && image_.names == names && covered_.size() == tiles;
     if (!fits) {
         *this = {};  // before there is more memory; and whole, if there is none
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -50,9 +50,9 @@ void Framebuffer::fit(int width, int height, std::vector<std::string> names, std
         image_.channels = std::move(channels);
     }
     if (!fits)
-        drawn_.assign(tiles, 0);
+        covered_.assign(tiles, 0);
     else if (background != background_)
-        std::fill(drawn_.begin(), drawn_.end(), std::uint8_t{1});
+        std::fill(covered_.begin(), covered_.end(), std::uint8_t{1});
     background_ = std::move(background);
 }
 

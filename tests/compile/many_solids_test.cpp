@@ -33,7 +33,7 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
                    surfaces, shared);
     }
     CHECK((alone.reals == compiled.reals));
-    CHECK((alone.plane_refs == compiled.plane_refs));
+    CHECK((alone.words == compiled.words));
     CHECK(planes.records().size() == compiled.planes.size());
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("planes across an axis are shared as one by one, also with some that a
     const auto top_of = [&](std::size_t solid) {
         const kernel::SolidRecord& record = compiled.solids[solid];
         for (std::uint32_t k = 0; k < record.plane_count; ++k) {
-            const kernel::PlaneRef ref = compiled.plane_refs[record.first_plane + k];
+            const kernel::PlaneRef ref = compiled.words[record.first_plane + k];
             if ((ref & 1 ? -1 : 1) * compiled.planes[ref >> 1].nz > 0.5) return ref;
         }
         return kernel::PlaneRef{0xffffffff};

@@ -44,7 +44,7 @@ struct Packed {
     }
     /// n . p - d with the outward normal.
     long double above(std::size_t face, const Wide& p) const {
-        const kernel::PlaneRef ref = scene.plane_refs.at(solid().first_plane + face);
+        const kernel::PlaneRef ref = scene.words.at(solid().first_plane + face);
         const kernel::PlaneRecord& plane = scene.planes.at(ref >> 1);
         const long double value = glm::dot(Wide(plane.nx, plane.ny, plane.nz), p) - plane.d;
         return ref & 1u ? -value : value;

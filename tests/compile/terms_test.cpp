@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "compile/regions/linearize.hpp"
 #include "compile/regions/terms.hpp"
-#include "pipeline/host_kernels.hpp"
+#include "kernels/host_kernels.hpp"
 
 using namespace csgrt;
 
@@ -62,12 +62,11 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
         const std::uint32_t roles = write_roles(words, 0, end);
         // Where each solid stands.
         std::vector<kernel::SolidRecord> records(solids);
-        std::vector<std::uint32_t> leaves;
         for (std::uint32_t s = 0; s < solids; ++s) {
-            records[s].first_leaf = static_cast<std::uint32_t>(leaves.size());
+            records[s].first_leaf = static_cast<std::uint32_t>(words.size());
             for (std::uint32_t i = 0; i < end; ++i)
-                if (words[i] == (OP_LEAF << TREE_SHIFT | s)) leaves.push_back(i);
-            records[s].leaf_count = static_cast<std::uint32_t>(leaves.size()) - records[s].first_leaf;
+                if (words[i] == (OP_LEAF << TREE_SHIFT | s)) words.push_back(i);
+            records[s].leaf_count = static_cast<std::uint32_t>(words.size()) - records[s].first_leaf;
         }
         for (int shot = 0; shot < 20; ++shot) {
             // A segment of every solid; some cover the partition.
@@ -79,7 +78,7 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
                 covered[s] = random.below(4) < static_cast<std::uint32_t>(shot) % 5;
                 if (covered[s]) bits[s / 32] |= 1u << s % 32;
             }
-            const kernel::cover cover{ends.data(), bits.data(), solids, 0, 0, records.data(), nullptr, leaves.data(), words.data()};
+            const kernel::cover cover{ends.data(), bits.data(), solids, 0, 0, records.data(), nullptr, words.data()};
             kernel::covered_solids list;
             kernel::list_covered(cover, &list);
             const bool expected = value_of(tree, covered);
@@ -141,7 +140,7 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
         for (FlatTree& tree : trees) {
             add_tree(tree, 1 + random.below(20), solids, random);
             const LinearTree linear = linearize(tree, scene.trees);
-            scene.regions.push_back({linear.first_word, linear.word_count, 0, 0});
+            scene.regions.push_back({linear.first_word, linear.word_count, 0});
         }
         const auto regions = static_cast<std::uint32_t>(trees.size());
         for (std::uint32_t& end : scene.rank_ends) end = regions;

@@ -20,7 +20,7 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
 
     constexpr std::size_t columns = 1024, lines = 3000, pitch = 1100;
     std::vector<float> whole(values.size()), apart(pitch * lines, -1), wide(values.size(), -1), few(50, -1),
-        planes(2 * 2600 * 1000, -1), small(18, -1);
+        channels(2 * 2600 * 1000, -1), small(18, -1);
     std::vector<std::shared_future<void>> done;
     {
         CopyFeed feed(device);
@@ -34,13 +34,13 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
                                           .target_pitch = 2'500'000},
                                          {.columns = 9, .lines = 0},
                                          {.columns = 0, .lines = 5}}));
-        // Of two planes of 1,000 lines a part, line by line side by side; and of three small ones, one behind the other.
-        done.push_back(feed.add(buffer, {{.columns = 1300, .lines = 1000, .planes = 2, .begin = 17, .pitch = 2000, .slice = 2'000'000,
-                                          .target = planes.data(), .target_pitch = 2600, .target_slice = 2'600'000}}));
-        done.push_back(feed.add(buffer, {{.columns = 3, .lines = 2, .planes = 3, .begin = 1, .pitch = 10, .slice = 30,
+        // Of two channels of 1,000 lines a part, line by line side by side; and of three small ones, one behind the other.
+        done.push_back(feed.add(buffer, {{.columns = 1300, .lines = 1000, .channels = 2, .begin = 17, .pitch = 2000, .slice = 2'000'000,
+                                          .target = channels.data(), .target_pitch = 2600, .target_slice = 2'600'000}}));
+        done.push_back(feed.add(buffer, {{.columns = 3, .lines = 2, .channels = 3, .begin = 1, .pitch = 10, .slice = 30,
                                           .target = small.data(), .target_pitch = 3, .target_slice = 6}}));
         CHECK_THROWS_AS(feed.add(buffer, {{.columns = 5, .begin = 4'999'999, .target = whole.data()}}), std::logic_error);
-        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 2, .lines = 2, .planes = 2, .pitch = 2, .slice = 5'000'000,
+        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 2, .lines = 2, .channels = 2, .pitch = 2, .slice = 5'000'000,
                                            .target = whole.data(), .target_pitch = 2, .target_slice = 4}}),
                         std::logic_error);
         done[0].get();
@@ -54,11 +54,11 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
     for (std::size_t y = 0; y < lines; ++y)
         for (std::size_t x = 0; x < columns; ++x) expected[y * pitch + x] = values[(7 + y) * columns + x];
     CHECK(apart == expected);
-    std::vector<float> of_planes(planes.size(), -1), of_small;
+    std::vector<float> of_planes(channels.size(), -1), of_small;
     for (std::size_t p = 0; p < 2; ++p)
         for (std::size_t y = 0; y < 1000; ++y)
             for (std::size_t x = 0; x < 1300; ++x) of_planes[(p * 1000 + y) * 2600 + x] = values[17 + (p * 1000 + y) * 2000 + x];
-    CHECK(planes == of_planes);
+    CHECK(channels == of_planes);
     for (std::size_t p = 0; p < 3; ++p)
         for (std::size_t y = 0; y < 2; ++y)
             for (std::size_t x = 0; x < 3; ++x) of_small.push_back(values[1 + 30 * p + 10 * y + x]);

@@ -99,22 +99,22 @@ TEST_CASE("launches queue up behind each other and are waited for once", "[devic
     for (const Event& event : events) CHECK(milliseconds(event) >= 0);
 }
 
-TEST_CASE("what stands in different lanes is all done when a device has finished, and each keeps its order", "[device]") {
+TEST_CASE("what stands in different queues is all done when a device has finished, and each keeps its order", "[device]") {
     Device device(test::compiling_device());
     Program program(device, "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = 3 * x[i] + 1; }");
     Kernel grow = program.kernel("grow");
     std::vector<Buffer> x;
     std::vector<Event> events;
-    for (std::size_t lane = 0; lane < Device::lanes; ++lane) {
+    for (std::size_t queue = 0; queue < Device::queues; ++queue) {
         x.emplace_back(device, "x", 5000 * sizeof(cl_uint));
-        const Device::Lane taken(device, lane);
-        x[lane].queue_fill(static_cast<cl_uint>(lane), x[lane].size());
+        const Device::OnQueue taken(device, queue);
+        x[queue].queue_fill(static_cast<cl_uint>(queue), x[queue].size());
         device.flush();
     }
     for (int i = 0; i < 10; ++i)
-        for (std::size_t lane = 0; lane < Device::lanes; ++lane) {
-            const Device::Lane taken(device, lane);
-            events.push_back(grow.launch(5000, 32, x[lane], cl_uint{5000}));
+        for (std::size_t queue = 0; queue < Device::queues; ++queue) {
+            const Device::OnQueue taken(device, queue);
+            events.push_back(grow.launch(5000, 32, x[queue], cl_uint{5000}));
             device.flush();
         }
     wait_patiently(events.front());
@@ -125,8 +125,8 @@ TEST_CASE("what stands in different lanes is all done when a device has finished
         event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr);
         CHECK(status == CL_COMPLETE);
     }
-    for (std::size_t lane = 0; lane < Device::lanes; ++lane)  // 3^10 x + (3^10 - 1) / 2
-        CHECK(x[lane].read<cl_uint>(5000) == std::vector<cl_uint>(5000, 59049 * static_cast<cl_uint>(lane) + 29524));
+    for (std::size_t queue = 0; queue < Device::queues; ++queue)  // 3^10 x + (3^10 - 1) / 2
+        CHECK(x[queue].read<cl_uint>(5000) == std::vector<cl_uint>(5000, 59049 * static_cast<cl_uint>(queue) + 29524));
     QueuedRead read(device, "last");
     read.start(x[1], sizeof(cl_uint), 4999 * sizeof(cl_uint));
     read.fetch();

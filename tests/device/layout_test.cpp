@@ -18,7 +18,7 @@ using namespace csgrt;
     FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) FIELD(SolidRecord, begins) FIELD(SolidRecord, alone) \
     RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(PlaneRecord, nz) FIELD(PlaneRecord, d) \
     RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
-    FIELD(RegionRecord, material) RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
+    RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
     FIELD(StartRecord, needed) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
     FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
@@ -28,10 +28,10 @@ using namespace csgrt;
     RECORD(BvhNode) FIELD(BvhNode, low) FIELD(BvhNode, skip) FIELD(BvhNode, high) FIELD(BvhNode, leaf) RECORD(Frame) \
     FIELD(Frame, eye) FIELD(Frame, u) FIELD(Frame, v) FIELD(Frame, w) FIELD(Frame, center) FIELD(Frame, radius) \
     FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient) FIELD(Frame, background) FIELD(Frame, width) \
-    FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, listed) FIELD(Frame, first_ray) \
+    FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, work) FIELD(Frame, first_ray) \
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
-    FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, picked) FIELD(Frame, channels) \
-    FIELD(Frame, screen) FIELD(Frame, lines) FIELD(Frame, rank_ends) \
+    FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
+    FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
     FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(ScreenBounds) FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
@@ -43,7 +43,7 @@ using namespace csgrt;
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
     RECORD(RayTally) FIELD(RayTally, partitions) FIELD(RayTally, overlaps) RECORD(Pixel) \
     FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(Pixel, normal) FIELD(Pixel, region) FIELD(Pixel, solid) \
-    FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap) RECORD(PlaneValues) FIELD(PlaneValues, of)
+    FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap) RECORD(ChannelValues) FIELD(ChannelValues, of)
 // clang-format on
 
 namespace {

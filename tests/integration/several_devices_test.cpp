@@ -95,39 +95,39 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
 }
 
 TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
-    // Its memory is known to them, or not.
-    const bool is_known = GENERATE(false, true);
-    const Scene scene = is_known ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    // Its memory is registered to them, or not.
+    const bool is_registered = GENERATE(false, true);
+    const Scene scene = is_registered ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
     Settings settings;
     settings.device = one_pocl();
     Renderer one(scene, {}, settings);
     settings.device = both_pocls();
     const CompiledScene compiled = compile(scene, {});
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
-    Pipelines two(plan_devices(settings).first, compiled, *kernels, settings, Readback::lines);
+    DeviceGroup two(plan_devices(settings).first, compiled, *kernels, settings, Readback::asynchronous);
     View view;
     view.width = 301;
     view.height = 257;
     view.channels = channel::color | channel::ids;
     Channels pixels(301 * 257, std::vector<float>(6));
-    std::vector<ChannelPlane> planes;
+    std::vector<ChannelMemory> planes;
     const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);
     for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 3 ? any.frame.background[p] : 0});
     std::vector<std::uint8_t> drawn(38 * 33, 1);
-    std::shared_ptr<KnownPicture> known;
-    std::uint64_t known_bytes = 0;
+    std::shared_ptr<RegisteredMemory> registered;
+    std::uint64_t registered_bytes = 0;
     for (const bool every : {false, true, false})
         for (const double azimuth : {35.0, 100.0}) {
             view.every_partition = every;
             view.camera.azimuth = azimuth;
             PipelineCounts counts;
             two.render(prepare_frame(compiled, view, one.statistics().tolerance),
-                       {.planes = planes, .drawn = drawn, .known = known.get()}, nullptr, counts);
-            if (is_known && !known) {
+                       {.channels = planes, .covered = drawn, .registered = registered.get()}, nullptr, counts);
+            if (is_registered && !registered) {
                 const std::uint64_t before = two.device_bytes();
-                known = two.make_known(planes, pixels[0].size());
-                known_bytes = two.device_bytes() - before;
-                CHECK(known_bytes == 2 * 6 * pixels[0].size() * sizeof(float));
+                registered = two.register_memory(planes, pixels[0].size());
+                registered_bytes = two.device_bytes() - before;
+                CHECK(registered_bytes == 2 * 6 * pixels[0].size() * sizeof(float));
             }
             CHECK(counts.batches > 2);
             const Image image = one.render(view);
@@ -135,10 +135,10 @@ TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
             packed.channels = pixels;
             test::require_same(packed, image);
         }
-    if (!is_known) return;
+    if (!is_registered) return;
     const std::uint64_t before = two.device_bytes();
-    known.reset();
-    two.make_known({}, 0);
+    registered.reset();
+    two.register_memory({}, 0);
     const std::uint64_t left = before - two.device_bytes();
-    CHECK(left == known_bytes);
+    CHECK(left == registered_bytes);
 }

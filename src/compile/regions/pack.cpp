@@ -1,7 +1,6 @@
 #include "compile/regions/pack.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 #include <numeric>
 #include <string>
@@ -41,39 +40,6 @@ kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, do
     return m;
 }
 
-/// Materials, each once, in the order of first use.
-class MaterialTable {
-public:
-    MaterialTable(std::size_t most, std::vector<kernel::MaterialRecord>& materials)
-        : materials_(materials), slots_(std::bit_ceil(2 * most + 2), none) {}
-
-    std::uint32_t number(const kernel::MaterialRecord& m) {
-        std::uint64_t hash = m.shine;
-        for (const float x : {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.glow}) {
-            // -0 and 0 are one colour.
-            hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.0f)) * 0x9e3779b97f4a7c15u;
-            hash ^= hash >> 32;
-        }
-        std::size_t i = hash & (slots_.size() - 1);
-        while (slots_[i] != none && !equal(materials_[slots_[i]], m)) i = (i + 1) & (slots_.size() - 1);
-        if (slots_[i] == none) {
-            slots_[i] = static_cast<std::uint32_t>(materials_.size());
-            materials_.push_back(m);
-        }
-        return slots_[i];
-    }
-
-private:
-    static constexpr std::uint32_t none = 0xffffffff;
-    static bool equal(const kernel::MaterialRecord& a, const kernel::MaterialRecord& b) {
-        return a.r == b.r && a.g == b.g && a.b == b.b && a.specular == b.specular && a.diffuse == b.diffuse &&
-               a.ambient == b.ambient && a.shine == b.shine && a.glow == b.glow;
-    }
-
-    std::vector<kernel::MaterialRecord>& materials_;
-    std::vector<std::uint32_t> slots_;  // a power of two of them, at most half of them taken
-};
-
 }  // namespace
 
 void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes,
@@ -88,7 +54,7 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
     resize_cleared(compiled.regions, count);
     resize_cleared(compiled.region_info, count);
     resize_cleared(compiled.flat_trees, count);
-    std::vector<kernel::MaterialRecord> materials(count);
+    resize_cleared(compiled.materials, count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         RegionChunk& chunk = chunks[c];
@@ -104,8 +70,8 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
             }
             const LinearTree tree = linearize(region.tree, chunk.words);
             if (!tree.union_only) chunk.operators |= tree.operators;
-            compiled.regions[i] = {tree.first_word, tree.word_count, tree.union_only ? REGION_UNION_ONLY : 0u, 0};
-            materials[i] = material_of(region.info, region.brightness, compiled.ambient);
+            compiled.regions[i] = {tree.first_word, tree.word_count, tree.union_only ? REGION_UNION_ONLY : 0u};
+            compiled.materials[i] = material_of(region.info, region.brightness, compiled.ambient);
             compiled.region_info[i] = std::move(region.info);
             compiled.flat_trees[i] = std::move(region.tree);
         }
@@ -125,10 +91,6 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         check_tree_words(words);
     }
     compiled.instances = static_cast<std::uint32_t>(leaves);
-    compiled.materials.reserve(count);  // what grows is copied
-    MaterialTable table(count, compiled.materials);
-    for (std::size_t i = 0; i < count; ++i) compiled.regions[i].material = table.number(materials[i]);
-
     compiled.trees.resize(words);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         const RegionChunk& chunk = chunks[c];

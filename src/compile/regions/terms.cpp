@@ -239,10 +239,12 @@ void list_leaves(const std::vector<Term>& terms, CompiledScene& compiled) {
         }
     };
     for_each([](kernel::SolidRecord& solid, std::uint32_t) { ++solid.leaf_count; });
-    compiled.leaves.resize(lay_out(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count));
-    for_each([&](kernel::SolidRecord& solid, std::uint32_t node) {
-        compiled.leaves[solid.first_leaf + solid.leaf_count++] = node;
-    });
+    const std::size_t first = compiled.trees.size();
+    std::vector<std::uint32_t> leaves(
+        lay_out(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count));
+    for_each([&](kernel::SolidRecord& solid, std::uint32_t node) { leaves[solid.first_leaf + solid.leaf_count++] = node; });
+    for (kernel::SolidRecord& solid : compiled.solids) solid.first_leaf += static_cast<std::uint32_t>(first);
+    compiled.trees.insert(compiled.trees.end(), leaves.begin(), leaves.end());
 }
 
 }  // namespace

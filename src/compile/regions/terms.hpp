@@ -6,7 +6,7 @@
 namespace csgrt {
 
 /// Finds the terms of all regions' trees: which of them each solid starts (`starts`), where it stands in large ones
-/// (`leaves`), and the roles of solids in those that are not short, which are appended to `trees`; and
+/// (appended to `trees`), and the roles of solids in those that are not short, which are appended to `trees`; and
 /// where a term may begin (`begins`), and what claims where a solid alone covers (`alone`).
 void list_terms(CompiledScene& compiled);
 

@@ -18,7 +18,7 @@ namespace csgrt {
 /// holds): its other places use the same.
 using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 
-/// Appends a solid in its place to solids, reals and plane_refs of `scene`, and its faces to `planes`. `box` is the
+/// Appends a solid in its place to solids, reals and words of `scene`, and its faces to `planes`. `box` is the
 /// solid's own, or the scene's if it is not bounded. Its regions are not filled in.
 /// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,

@@ -155,7 +155,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
     for_each_chunk([&](std::size_t number) {
         for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
     });
-    std::size_t records = 0, refs = 0;
+    std::size_t records = 0, refs = compiled.words.size();  // references stand behind what solids wrote
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
     resize_cleared(compiled.planes, records);
@@ -204,9 +204,9 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         refs += of[number].size();
     }
     check_numbers(refs);
-    resize_cleared(compiled.plane_refs, refs);
+    compiled.words.resize(refs);
     for_each_chunk([&](std::size_t number) {
-        std::copy(of[number].begin(), of[number].end(), compiled.plane_refs.begin() + first_ref[number]);
+        std::copy(of[number].begin(), of[number].end(), compiled.words.begin() + first_ref[number]);
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)
             compiled.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
     });

@@ -1,25 +1,28 @@
 // The first hits of a batch, in one kernel. Nothing is stored but the picture.
 #pragma once
 
+#include "pipeline/counts.hpp"
 #include "pipeline/passes/cull.hpp"
 
 namespace csgrt {
 
-class FirstHits {
+class FirstHitPass {
 public:
-    FirstHits(Device& device, const CompiledScene& scene, const Settings& settings);
+    /// Compiles its kernels. Throws Error (device_fault).
+    FirstHitPass(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the batch's rays, whose tiles were culled before, into `picture`. Does not wait.
-    TimedKernels launch(const SceneBuffers& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
+    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. The report counts the rays whose
+    /// segments found no place, which are listed in `overflown`: nothing is drawn of them. Does not wait.
+    TimedKernels launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
 
-    Cull& cull() { return cull_; }
-    static constexpr std::uint64_t ray_bytes = 4;  ///< of the batch's buffers that it needs itself, at most
+    CullPass& cull() { return cull_; }
+    static constexpr std::uint64_t ray_bytes = sizeof(std::uint32_t);  ///< of `overflown`
 
 private:
     Device& device_;
     std::uint32_t rays_an_item_;
     Program program_;
-    Cull cull_;
+    CullPass cull_;
     Kernel first_hits_;
 };
 

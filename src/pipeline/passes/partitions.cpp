@@ -5,23 +5,20 @@
 
 namespace csgrt {
 namespace {
-constexpr std::uint32_t scan_block = 1024;  // entries that a group of scan.cl sums
-std::uint32_t blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
 
 std::vector<std::string> files_of(bool packets) {
-    std::vector<std::string> files = {Cull::file};
+    std::vector<std::string> files = {CullPass::file};
     if (packets) files.push_back("1_packet_candidates.cl");
-    files.insert(files.end(),
-                 {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
+    files.insert(files.end(), {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
     return files;
 }
+
 }  // namespace
 
-Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
+PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
     : device_(device),
-      scene_(scene),
       kernels_(kernels),
-      program_(device, assemble_program(files_of(in_packets(device, settings))), defines_of(device, scene, settings),
+      program_(device, assemble_program(files_of(traces_packets(device, settings))), program_options(device, scene, settings),
                settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
@@ -35,262 +32,178 @@ Exact::Exact(Device& device, const CompiledScene& scene, const HostKernels& kern
       weave_(program_.kernel("weave")),
       evaluate_(program_.kernel("evaluate")),
       shade_(program_.kernel("shade")),
-      places_(device, "candidates' places"),
-      counts_(device, "counts"),
-      candidates_(device, "candidates"),
-      found_(device, "candidates' segments, then partitions"),
-      ends_(device, "segments"),
-      bits_(device, "partitions' bits"),
-      sums_(device, "sums of counts"),
-      tally_sums_(device, "sums of tallies"),
+      memory_(device, kernels),
+      no_buffer_(device, "nothing"),
+      scan_sums_buffer_(device, "sums of counts"),
       read_(device, "sums of tallies"),
-      sum_(device, "sum of counts") {
-    if (in_packets(device, settings))
+      read_total_(device, "sum of counts") {
+    if (traces_packets(device, settings))
         packet_candidates_ = {program_.kernel("count_packet_candidates"), program_.kernel("list_packet_candidates")};
 }
 
-std::uint64_t Exact::held() const {
-    std::uint64_t sum = 0;
-    for (const Buffer* buffer : {&places_, &counts_, &tally_sums_, &candidates_, &found_, &ends_, &bits_})
-        sum += buffer->size();
-    return sum;
+// The first step of a scan: the entries become sums within their block, and each block's sum is written.
+void PartitionPass::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed) {
+    sums.reserve(scan_blocks_of(size) * sizeof(kernel::RayCount));
+    timed.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{scan_blocks_of(size)} * work_group, work_group, entries,
+                                                                  sums, cl_uint{size}));
 }
 
-void Exact::release() {
-    for (Buffer* buffer : {&places_, &counts_, &tally_sums_}) buffer->release();
-    release_counted();
-}
-
-void Exact::release_counted() {
-    for (Buffer* buffer : {&candidates_, &found_, &ends_, &bits_}) buffer->release();
-}
-
-void Exact::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed) {
-    sums.reserve(blocks_of(size) * sizeof(kernel::RayCount));
-    timed.emplace_back(&PipelineCounts::scan,
-                       scan_blocks_.launch(std::size_t{blocks_of(size)} * work_group, work_group, entries, sums, size));
-}
-
-void Exact::queue_scan(Buffer& counts, std::uint32_t rays, TimedKernels& timed) {
-    const std::uint32_t entries = rays + 1, tiles = blocks_of(entries);
-    sum_blocks(counts, entries, sums_, timed);
-    if (tiles > 1) {
-        timed.emplace_back(&PipelineCounts::scan, scan_sums_.launch(work_group, work_group, sums_, tiles));
-        timed.emplace_back(&PipelineCounts::scan, scan_add_.launch(entries, work_group, counts, sums_, entries));
+// Exclusive prefix sums over rays + 1 entries. The last entry need not be set: it is part of no sum.
+void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed) {
+    const cl_uint entries = rays + 1, blocks = scan_blocks_of(entries);
+    sum_blocks(counts, entries, scan_sums_buffer_, timed);
+    if (blocks > 1) {
+        timed.emplace_back(&PipelineCounts::scan, scan_sums_.launch(work_group, work_group, scan_sums_buffer_, blocks));
+        timed.emplace_back(&PipelineCounts::scan, scan_add_.launch(entries, work_group, counts, scan_sums_buffer_, entries));
     }
     device_.flush();
 }
 
-// A read that stands behind kernels keeps all copies waiting for them, those of other queues, too: NVIDIA's GPUs make copies to the
-// host one after another. So it is asked for only when they are done.
-kernel::RayCount Exact::sum_of(const Buffer& counts, const Run& run) {
-    wait_for(run.timed.back().second);
-    sum_.start(counts, sizeof(kernel::RayCount), run.rays * sizeof(kernel::RayCount));
-    sum_.fetch();
-    return sum_.wait<kernel::RayCount>(1).front();
+// NVIDIA's GPUs make copies to the host one after another: one that is queued behind kernels would hold up the copies of other
+// queues, too. So the copy is queued only when the kernels are done.
+kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed) {
+    wait_for(timed.back().second);
+    read_total_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
+    read_total_.fetch();
+    return read_total_.wait<kernel::RayCount>(1).front();
 }
 
-std::vector<std::pair<Buffer*, std::uint64_t>> Exact::bytes_of_rays(std::uint32_t rays) {
-    const std::uint64_t entries = std::uint64_t{rays} + 1;
-    return {{&places_, entries * sizeof(kernel::RayCount)},
-            {&counts_, entries * sizeof(kernel::RayCount)},
-            {&tally_sums_, blocks_of(rays) * sizeof(kernel::RayTally)}};
-}
-
-Exact::Needs Exact::room() const {
-    const auto holding = [](const Buffer& buffer, std::size_t bytes) {
-        return static_cast<std::uint32_t>(std::min<std::size_t>(buffer.size() / bytes, NONE / 2));
-    };
-    const std::size_t segment = 2 * kernels_.end_bytes();
-    return {.candidates = std::min(holding(candidates_, sizeof(kernel::Candidate)), holding(found_, segment)),
-            .total = {.segments = std::min(holding(ends_, segment), holding(found_, 2 * sizeof(kernel::PartitionNode))),
-                      .words = holding(bits_, sizeof(std::uint32_t))}};
-}
-
-// Room for candidates, and for what is found of each.
-bool Exact::reserve_candidates(std::uint32_t candidates) {
-    const std::uint64_t candidate_bytes = std::uint64_t{candidates} * sizeof(kernel::Candidate);
-    const std::uint64_t found_bytes = 2 * std::uint64_t{candidates} * kernels_.end_bytes();
-    if (candidates == COUNT_MAX || found_bytes > device_.max_buffer()) return false;
-    if (candidate_bytes <= candidates_.size() && found_bytes <= found_.size()) return true;
-    const std::uint64_t bytes = candidate_bytes + found_bytes, held = candidates_.size() + found_.size();
-    if (bytes > device_.available() + held) release_counted();
-    if (bytes > device_.available() + candidates_.size() + found_.size()) return false;
-    candidates_.reserve(candidate_bytes);
-    found_.reserve(found_bytes);
-    return true;
-}
-
-// Makes room for the segments and, beside the candidates' or in place of them, the partitions. Buffers only grow, unless that
-// would not fit.
-bool Exact::reserve_counted(const kernel::RayCount& total) {
-    if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
-    const std::uint64_t nodes = 2 * std::uint64_t{total.segments};
-    const std::pair<Buffer*, std::uint64_t> wanted[] = {{&ends_, nodes * kernels_.end_bytes()},
-                                                        {&bits_, std::uint64_t{total.words} * sizeof(std::uint32_t)}};
-    const std::uint64_t partitions = nodes * sizeof(kernel::PartitionNode), more = partitions > found_.size() ? partitions : 0;
-    std::uint64_t needed = more, grown = more, held = 0;
-    if (more > device_.max_buffer()) return false;
-    for (const auto& [buffer, bytes] : wanted) {
-        if (bytes > device_.max_buffer()) return false;
-        needed += bytes;
-        grown += std::max<std::uint64_t>(bytes, buffer->size());
-        held += buffer->size();
-    }
-    if (needed > device_.available() + held) return false;
-    if (grown > device_.available() + held)
-        for (const auto& [buffer, bytes] : wanted) buffer->release();
-    for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
-    return true;
-}
-
-std::optional<Exact::Needs> Exact::weave(const SceneBuffers& scene, const BatchBuffers& batch, std::uint32_t rays, Rays kind,
-                                         TimedKernels& timed) {
-    if (auto needs = try_weave({scene, batch, rays, kind, timed})) return needs;
-    for (const auto& [time, kernel] : timed) wait_for(kernel);  // a fault is not a lack of memory
-    release_counted();  // a smaller batch is not to be kept from its own
+std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, TimedKernels& timed) {
+    if (auto sizes = try_counted(input, timed)) return sizes;
+    for (const auto& [time, kernel] : timed) wait_for(kernel);  // throws if a fault, and not the memory, is the reason
+    memory_.release_counted();  // a smaller batch needs it
     return {};
 }
 
-std::optional<Exact::Needs> Exact::try_weave(const Run& run) {
-    const auto wanted = bytes_of_rays(run.rays);
-    std::uint64_t more = 0;
-    for (const auto& [buffer, bytes] : wanted) more += bytes > buffer->size() ? bytes : 0;
-    if (more > device_.available()) release_counted();
-    if (more > device_.available()) return {};
-    for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
-    Needs needs;
-    queue_places(run);
-    needs.candidates = sum_of(places_, run).segments;
-    if (!reserve_candidates(needs.candidates)) return {};
-    queue_counts(run, needs.candidates);
-    needs.total = total_ = sum_of(counts_, run);
-    if (!reserve_counted(total_)) return {};
-    queue_partitions(run, needs.candidates, 2 * std::size_t{total_.segments});
-    return needs;
+std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, TimedKernels& timed) {
+    PartitionSizes sizes;
+    if (!memory_.reserve_rays(input.rays)) return {};
+    place_candidates(input, timed);
+    sizes.candidates = read_total(memory_.candidate_places(), input.rays, timed).segments;
+    if (!memory_.reserve_candidates(sizes.candidates)) return {};
+    count_segments(input, sizes.candidates, timed);
+    sizes.total = counted_ = read_total(memory_.offsets(), input.rays, timed);
+    if (!memory_.reserve_segments(sizes.total)) return {};
+    make_partitions(input, sizes.candidates, sizes.total.segments, timed);
+    return sizes;
 }
 
-bool Exact::hold_rays(std::uint32_t rays) const {
-    for (const auto& [buffer, bytes] : const_cast<Exact*>(this)->bytes_of_rays(rays))
-        if (bytes > buffer->size()) return false;
-    return true;
-}
-
-std::optional<Exact::Needs> Exact::capacity_for(std::uint32_t rays) const {
-    if (!hold_rays(rays)) return {};
-    // The more of two: a picture may well have two batches that differ.
-    const auto expected = [&](double RayNeeds::*what) {
-        return static_cast<std::uint64_t>(std::max(needed_.*what, needed_before_.*what) * rays);
+std::optional<PartitionSizes> PartitionPass::capacity_for(std::uint32_t rays) const {
+    if (!memory_.holds_rays(rays)) return {};
+    // The larger of two: a picture may well have two batches that differ.
+    const auto expected = [&](double Average::*what) {
+        return static_cast<std::uint64_t>(std::max(average_.*what, average_before_.*what) * rays);
     };
-    const std::uint64_t candidates = expected(&RayNeeds::candidates), segments = expected(&RayNeeds::segments);
-    const Needs there = room();
-    // What earlier rays needed says little of these: where half of it is there, it may do.
-    if (there.candidates == 0 || there.total.segments == 0 || candidates / 2 > there.candidates ||
-        segments / 2 > there.total.segments || expected(&RayNeeds::words) / 2 > there.total.words)
+    const PartitionSizes capacity = memory_.capacity();
+    // Earlier rays say little about these: half of what they would need may do.
+    if (capacity.candidates == 0 || capacity.total.segments == 0 || expected(&Average::candidates) / 2 > capacity.candidates ||
+        expected(&Average::segments) / 2 > capacity.total.segments || expected(&Average::words) / 2 > capacity.total.words)
         return {};
-    return there;
+    return capacity;
 }
 
-void Exact::weave_ahead(const SceneBuffers& scene, const BatchBuffers& batch, std::uint32_t rays, const Needs& capacity,
-                        TimedKernels& timed) {
-    const Run run{scene, batch, rays, Rays::tiles, timed};
-    queue_places(run);
-    queue_counts(run, capacity.candidates);
-    queue_partitions(run, capacity.candidates, 2 * std::size_t{capacity.total.segments});
+void PartitionPass::trace_queued(const Input& input, const PartitionSizes& capacity, TimedKernels& timed) {
+    place_candidates(input, timed);
+    count_segments(input, capacity.candidates, timed);
+    make_partitions(input, capacity.candidates, capacity.total.segments, timed);
     device_.flush();
 }
 
-void Exact::queue_places(const Run& run) {
-    const SceneBuffers& s = run.scene;
-    const BatchBuffers& batch = run.batch;
-    const Buffer none(device_, "nothing");
-    const Buffer& lists = run.kind == Rays::tiles ? batch.lists : none;
-    constexpr std::size_t group = work_group;
-    run.timed.emplace_back(
-        &PipelineCounts::count_hits,
-        by_packets(run) ? packet_candidates_->count.launch(run.rays / packet_rays, group, batch.frame, s.nodes, lists, batch.rays, places_)
-                        : find_candidates_.launch(run.rays, group, batch.frame, s.nodes, lists, batch.rays, places_, none));
-    queue_scan(places_, run.rays, run.timed);
+// Kernel 1, first step: how many candidates each ray has, and so where they stand.
+void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
+    const BatchBuffers& batch = input.batch;
+    const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
+    Buffer& places = memory_.candidate_places();
+    timed.emplace_back(&PipelineCounts::count_hits,
+                       in_packets(input)
+                           ? packet_candidates_->count.launch(input.rays / packet_rays, work_group, batch.frame, input.scene.nodes(),
+                                                              tile_nodes, batch.tiles, places)
+                           : find_candidates_.launch(input.rays, work_group, batch.frame, input.scene.nodes(), tile_nodes, batch.rays,
+                                                     batch.numbers(input.work), places, no_buffer_));
+    scan(places, input.rays, timed);
 }
 
-// `candidates`: as many, or as many as there is room for.
-void Exact::queue_counts(const Run& run, std::size_t candidates) {
-    const SceneBuffers& s = run.scene;
-    const BatchBuffers& batch = run.batch;
-    const Buffer none(device_, "nothing");
-    const Buffer& lists = run.kind == Rays::tiles ? batch.lists : none;
-    const std::size_t group = work_group, listed = candidates ? run.rays : 0;
-    const auto timed = [&](Event event) { run.timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
-    timed(by_packets(run)
-              ? packet_candidates_->list.launch(listed / packet_rays, group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                                s.inner_nodes, s.nodes, lists, batch.rays, places_, candidates_, found_)
-              : find_candidates_.launch(listed, group, batch.frame, s.nodes, lists, batch.rays, places_, candidates_));
+// Kernel 1, the rest: the candidates, and how many segments each has. `candidates`: as many work-items.
+void PartitionPass::count_segments(const Input& input, std::uint32_t candidates, TimedKernels& timed) {
+    const BatchBuffers& batch = input.batch;
+    const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
+    const Buffer& numbers = batch.numbers(input.work);
+    const std::size_t listing_rays = candidates ? input.rays : 0;
+    const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
+    add(in_packets(input)
+            ? packet_candidates_->list.launch(listing_rays / packet_rays, work_group, batch.frame, input.scene.geometry(),
+                                              input.scene.nodes(), tile_nodes, batch.tiles, memory_.candidate_places(),
+                                              memory_.candidates(), memory_.found())
+            : find_candidates_.launch(listing_rays, work_group, batch.frame, input.scene.nodes(), tile_nodes, batch.rays, numbers,
+                                      memory_.candidate_places(), memory_.candidates()));
     device_.flush();
-    timed(count_hits_.launch(candidates, group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes, batch.rays,
-                             places_, candidates_, found_));
-    timed(sum_hits_.launch(run.rays, work_group, batch.frame, places_, candidates_, counts_));
-    queue_scan(counts_, run.rays, run.timed);
+    add(count_hits_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
+                           memory_.candidate_places(), memory_.candidates(), memory_.found()));
+    add(sum_hits_.launch(input.rays, work_group, batch.frame, memory_.candidate_places(), memory_.candidates(), memory_.offsets()));
+    scan(memory_.offsets(), input.rays, timed);
 }
 
-// `candidates`, `nodes`: as many, or as many as there is room for.
-void Exact::queue_partitions(const Run& run, std::size_t candidates, std::size_t nodes) {
-    const SceneBuffers& s = run.scene;
-    const BatchBuffers& batch = run.batch;
-    const auto timed = [&](double PipelineCounts::*time, Event event) { run.timed.emplace_back(time, std::move(event)); };
-    timed(&PipelineCounts::store_segments,
-          store_segments_.launch(nodes ? candidates : 0, work_group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words,
-                                         s.inner_nodes, batch.rays, places_, candidates_, found_, counts_, ends_, bits_));
+// Kernels 2 to 4. `candidates`, `segments`: as many work-items, or twice as many where an item is an end.
+void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates, std::uint32_t segments, TimedKernels& timed) {
+    const BatchBuffers& batch = input.batch;
+    const Buffer& numbers = batch.numbers(input.work);
+    const std::size_t ends = 2 * std::size_t{segments};
+    const auto add = [&](double PipelineCounts::*time, Event event) { timed.emplace_back(time, std::move(event)); };
+    add(&PipelineCounts::store_segments,
+        store_segments_.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
+                               memory_.candidate_places(), memory_.candidates(), memory_.found(), memory_.offsets(), memory_.ends(),
+                               memory_.bits()));
     device_.flush();
-    Buffer& partitions = found_;  // what it held is stored; a larger one takes its place when the kernel has ended
-    partitions.reserve(nodes * sizeof(kernel::PartitionNode));
-    timed(&PipelineCounts::weave, order_ends_.launch(nodes, work_group, batch.frame, counts_, ends_, bits_, partitions));
-    timed(&PipelineCounts::weave, weave_.launch(run.rays, work_group, batch.frame, batch.rays, counts_, ends_, partitions, bits_, places_));
-    timed(&PipelineCounts::evaluate, evaluate_.launch(nodes, work_group, batch.frame, s.solids, s.starts, s.leaves, s.trees, counts_,
-                                                              ends_, bits_, partitions));
+    memory_.reserve_partitions(segments);  // the driver keeps the memory that it replaces until kernel 2 has ended
+    add(&PipelineCounts::weave,
+        order_ends_.launch(ends, work_group, batch.frame, memory_.offsets(), memory_.ends(), memory_.bits(), memory_.partitions()));
+    add(&PipelineCounts::weave,
+        weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.ends(), memory_.partitions(),
+                      memory_.bits(), memory_.ray_tallies()));
+    add(&PipelineCounts::evaluate, evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), memory_.offsets(),
+                                                    memory_.ends(), memory_.bits(), memory_.partitions()));
 }
 
-void Exact::add_needs(const Needs& needs, std::uint32_t rays, PipelineCounts& counts) {
-    const std::uint64_t nodes = 2 * std::uint64_t{needs.total.segments};
-    counts.segments += needs.total.segments;
-    counts.hits += nodes;
-    counts.partitions_allocated += nodes;
-    counts.segment_bytes += nodes * kernels_.end_bytes() +
-                            needs.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
-    counts.partition_bytes += nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needs.total.words} * sizeof(std::uint32_t);
-    needed_before_ = std::exchange(needed_, {.candidates = double(needs.candidates) / rays,
-                                             .segments = double(needs.total.segments) / rays,
-                                             .words = double(needs.total.words) / rays});
+TracedPartitions PartitionPass::read(std::uint32_t rays) {
+    const std::size_t ends = 2 * std::size_t{counted_.segments};
+    return {.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1),
+            .ends = kernels_.ends(memory_.ends().read<std::byte>(ends * kernels_.end_bytes())),
+            .nodes = memory_.partitions().read<kernel::PartitionNode>(ends),
+            .bits = memory_.bits().read<std::uint32_t>(counted_.words)};
 }
 
-void Exact::shade(const SceneBuffers& s, const BatchBuffers& batch, const Buffer& picture, std::uint32_t rays, TimedKernels& timed) {
+void PartitionPass::shade(const Input& input, const Buffer& picture, TimedKernels& timed) {
     timed.emplace_back(&PipelineCounts::shade,
-                       shade_.launch(rays, work_group, batch.frame, s.solids, s.reals, s.planes, s.plane_refs, s.words, s.inner_nodes,
-                                     s.regions, s.materials, s.lights, counts_, ends_, found_, places_, batch.rays,
-                                     batch.tally, picture));
+                       shade_.launch(input.rays, work_group, input.batch.frame, input.scene.geometry(), input.scene.appearance(),
+                                     input.batch.numbers(input.work), memory_.offsets(), memory_.ends(), memory_.partitions(),
+                                     memory_.ray_tallies(), input.batch.report, picture));
 }
 
-// The first step of a scan leaves the sums of tiles, so that not every ray's tally has to come to the host.
-void Exact::tally(std::uint32_t rays, TimedKernels& timed) {
-    sum_blocks(places_, rays, tally_sums_, timed);
-    tallies_ = blocks_of(rays);
-    read_.start(tally_sums_, tallies_ * sizeof(kernel::RayTally));
+// Only the blocks' sums come to the host, not every ray's tally.
+void PartitionPass::sum_tallies(std::uint32_t rays, TimedKernels& timed) {
+    sum_blocks(memory_.ray_tallies(), rays, memory_.tally_sums(), timed);
+    tally_count_ = scan_blocks_of(rays);
+    read_.start(memory_.tally_sums(), tally_count_ * sizeof(kernel::RayTally));
 }
 
-void Exact::fetch() { read_.fetch(); }
-
-void Exact::settle(std::uint32_t rays, bool tallied, TimedKernels& timed, PipelineCounts& counts) {
-    if (tallied) tally(rays, timed);
-    device_.finish();
-    fetch();
-    if (tallied) add_tallies(counts);
-    add_times(timed, counts);
-}
-
-void Exact::add_tallies(PipelineCounts& counts) {
-    for (const kernel::RayTally& tally : read_.wait<kernel::RayTally>(tallies_)) {
+void PartitionPass::add_tallies(PipelineCounts& counts) {
+    for (const kernel::RayTally& tally : read_.wait<kernel::RayTally>(tally_count_)) {
         counts.partitions_used += tally.partitions;
         counts.overlaps += tally.overlaps;
     }
+}
+
+void PartitionPass::add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts) {
+    const std::uint64_t nodes = 2 * std::uint64_t{needed.total.segments};
+    counts.segments += needed.total.segments;
+    counts.hits += nodes;
+    counts.partitions_allocated += nodes;
+    counts.segment_bytes +=
+        nodes * kernels_.end_bytes() + needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
+    counts.partition_bytes += nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needed.total.words} * sizeof(std::uint32_t);
+    average_before_ = std::exchange(average_, {.candidates = double(needed.candidates) / rays,
+                                               .segments = double(needed.total.segments) / rays,
+                                               .words = double(needed.total.words) / rays});
 }
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// What the kernels leave of a batch's rays -> the planes of an image.
+// Pixels on the host -> the channels of an image.
 #pragma once
 
 #include <cstdint>
@@ -9,46 +9,46 @@
 
 namespace csgrt {
 
-class KnownPicture;
+class RegisteredMemory;
 
-/// One channel of an image: width x height floats, by row from the top left, and its value where nothing is seen.
-struct ChannelPlane {
+/// One channel of an image: width x height floats, row by row from the top left, and its value where nothing is seen.
+struct ChannelMemory {
     float* pixels = nullptr;
     float background = 0;
 };
 
 /// What a frame is drawn into.
 struct RenderTarget {
-    std::span<const ChannelPlane> planes;
-    std::span<std::uint8_t> drawn;  ///< a tile of the picture: 0 if it holds nothing but the background, else 1
-    unsigned threads = 0;           ///< that put pixels into it; 0: all
-    const KnownPicture* known = nullptr;  ///< their memory, as devices know it
+    std::span<const ChannelMemory> channels;
+    std::span<std::uint8_t> covered;  ///< of each tile of the picture: 0 if it holds nothing but background, else 1
+    unsigned threads = 0;             ///< that write pixels; 0: all
+    const RegisteredMemory* registered = nullptr;  ///< the channels' memory, as far as devices copy into it
 };
 
-/// Fills the pixels of the screen's tiles from number `first` to `end`. `drawn`: those that were drawn, in any order; `values`: for
-/// each plane the floats of their rays, tile by tile. The others get the background, where the target does not hold it.
+/// Writes the pixels of the screen's tiles from number `first` to `end`. `drawn`: the tiles that were drawn, in any order;
+/// `values`: for each channel the floats of their rays, tile by tile. The others become background if they were covered.
 void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                 const float* values, const RenderTarget& target);
 
-/// Fills the tiles outside of the frame's screen that hold anything with the background.
+/// Writes the background into the covered tiles outside of the frame's screen bounds.
 void clear_around(const kernel::Frame& frame, const RenderTarget& target);
 
 /// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.
 struct Rectangle {
     std::size_t left = 0, right = 0, top = 0, bottom = 0;
-    std::size_t begin = 0;  ///< among floats of rectangles: of each plane its lines
+    std::size_t begin = 0;  ///< among floats of rectangles: of each channel its lines
 
     std::size_t columns() const { return right - left; }
     std::size_t lines() const { return bottom - top; }
     std::size_t size() const { return columns() * lines(); }
 };
 
-/// Fills rectangles' pixels. `arrived`, if there is one, is called with i before what the i-th plane of them all holds is read, by
-/// several threads.
+/// Writes rectangles' pixels. `arrived`, if there is one, is called before the values of part i are read: part i is channel
+/// i % channels of rectangle i / channels. Several threads call it.
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
                     const RenderTarget& target, const std::function<void(std::size_t)>& arrived = nullptr);
 
-/// Fills the pixels of single rays: `values` has for each plane a float a ray.
+/// Writes the pixels of single rays: `values` has for each channel a float a ray.
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,
               const RenderTarget& target);
 

@@ -16,7 +16,7 @@ TileRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t left
         return eight == 0;
     };
     std::size_t end = bytes.size();
-    const std::size_t begin = next_held(bytes, 0, end);
+    const std::size_t begin = next_covered(bytes, 0, end);
     while (end >= begin + 8 && are_zero(end - 8)) end -= 8;
     while (end > begin && bytes[end - 1] == 0) --end;
     return begin == end ? TileRows::Extent{} : TileRows::Extent{left + begin, left + end};
@@ -66,13 +66,13 @@ public:
     Needed(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
            const RenderTarget& target)
         : rows_(frame, first, end), across_(kernel::tiles_across(frame.screen)), tiles_(rows_.count() * across_) {
-        const std::size_t behind = reinterpret_cast<std::uintptr_t>(target.planes.front().pixels) % 64 / sizeof(float);
+        const std::size_t behind = reinterpret_cast<std::uintptr_t>(target.channels.front().pixels) % 64 / sizeof(float);
         aligned_ = (16 - behind) % 16;
         for (std::size_t row = 0; row < rows_.count(); ++row) {
             const TileRows::Extent all = rows_.whole(row);
-            const std::uint8_t *own = shown.data() + rows_.place(row, all.begin), *held = rows_.held(row, target).data();
+            const std::uint8_t *own = shown.data() + rows_.place(row, all.begin), *covered = rows_.covered(row, target).data();
             std::uint8_t* const needed = tiles_.data() + row * across_ + all.begin;
-            for (std::size_t i = 0; i < all.end - all.begin; ++i) needed[i] = own[i] | held[i];
+            for (std::size_t i = 0; i < all.end - all.begin; ++i) needed[i] = own[i] | covered[i];
         }
     }
 
@@ -165,16 +165,16 @@ std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t
     return Needed(frame, first, end, shown, target).rectangles();
 }
 
-void hold_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
+void mark_covered(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
                 const RenderTarget& target) {
     const TileRows rows(frame, first, end);
     for (std::size_t row = 0; row < rows.count(); ++row) {
-        const auto held = rows.held(row, target);
-        std::ranges::copy(shown.subspan(rows.place(row, rows.whole(row).begin), held.size()), held.begin());
+        const auto covered = rows.covered(row, target);
+        std::ranges::copy(shown.subspan(rows.place(row, rows.whole(row).begin), covered.size()), covered.begin());
     }
 }
 
-Rectangle lines_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end) {
+Rectangle rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end) {
     const TileRows rows(frame, first, end);
     return {frame.screen.left, frame.screen.right, rows.top(0), rows.top(rows.count())};
 }

@@ -1,4 +1,4 @@
-// What a GPU's batch brings of a picture: few rectangles of few pixels.
+// What of a batch's pixels a GPU copies: few rectangles of few pixels.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace csgrt {
 
-/// Rectangles of the screen's tiles from number `first` to `end` that hold all that is shown, and what the target holds from before and
-/// is background now. `shown`: of each of these tiles, not 0 if it shows something.
+/// Rectangles that cover, of the screen's tiles from number `first` to `end`, those that show something and those that were covered
+/// before. `shown`: of each of these tiles a byte, not 0 if it shows something.
 std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
                                        std::span<const std::uint8_t> shown, const RenderTarget& target);
 
-/// Tells the target that of these tiles it holds only what is shown.
-void hold_shown(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
+/// Of these tiles the target is covered where they show something.
+void mark_covered(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
                 const RenderTarget& target);
 
-/// Lines of the screen that these tiles have: whole ones, of which the batch has some, maybe, in part.
-Rectangle lines_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end);
+/// The whole rows of pixels within the screen bounds that these tiles touch.
+Rectangle rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end);
 
 }  // namespace csgrt

@@ -4,10 +4,10 @@
 
 namespace csgrt {
 
-void KnownPicture::make_known(const Device& device) {
+void RegisteredMemory::add(const Device& device) {
     try {
-        known_.try_emplace(device.context(), device, data_, bytes_);
-    } catch (const Error&) {  // the driver refused
+        registered_.try_emplace(device.context(), device, data_, bytes_);
+    } catch (const Error&) {  // the driver refuses
     }
 }
 

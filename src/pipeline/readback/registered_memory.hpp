@@ -1,29 +1,27 @@
-// The memory of a picture that is drawn again and again, registered with the GPUs that draw it, which then copy into it.
+// The memory of a picture that is drawn again and again, registered with GPUs, which then copy pixels straight into it.
 #pragma once
 
 #include <cstddef>
 #include <map>
-#include <span>
 
 #include "device/buffer.hpp"
 
 namespace csgrt {
 
-class KnownPicture {
+class RegisteredMemory {
 public:
-    /// Of `bytes`, which hold all its channels.
-    KnownPicture(void* data, std::size_t bytes) : data_(data), bytes_(bytes) {}
+    /// All channels of a picture, `bytes` from `data` on. The memory must outlive this.
+    RegisteredMemory(void* data, std::size_t bytes) : data_(data), bytes_(bytes) {}
 
-    /// Registers it with a device. A driver may refuse: then the device's pixels come by other memory. Takes a tenth of a second a
-    /// gigabyte.
-    void make_known(const Device& device);
-    bool is_known_to(const Device& device) const { return known_.contains(device.context()); }
-    std::size_t bytes() const { return bytes_; }
+    /// Registers the memory with a device, which takes a tenth of a second a gigabyte. A driver may refuse: then the device's
+    /// pixels come by staging memory.
+    void add(const Device& device);
+    bool has(const Device& device) const { return registered_.contains(device.context()); }
 
 private:
     void* data_;
     std::size_t bytes_;
-    std::map<cl_context, KnownMemory> known_;  ///< what is known holds on to its context: no other comes to stand there
+    std::map<cl_context, KnownMemory> registered_;  ///< each keeps its context, so that no other gets its address
 };
 
 }  // namespace csgrt

@@ -1,153 +1,160 @@
 #include "pipeline/readback/ring.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "pipeline/readback/registered_memory.hpp"
 
 namespace csgrt {
 
-PictureLines::PictureLines(Device& device) : device_(device), copies_(device) {
-    for (std::size_t i = 0; i < most_lines; ++i) lines_.push_back({Buffer(device, "lines"), {}});
+ReadbackRing::ReadbackRing(Device& device) : device_(device), copies_(device) {
+    for (std::size_t i = 0; i < depth; ++i) pictures_.push_back({Buffer(device, "pictures of batches"), {}});
 }
 
-PictureLines::Lines* PictureLines::take(std::size_t bytes, std::size_t count) {
-    const auto last = lines_.begin() + static_cast<std::ptrdiff_t>(count);
-    const auto rank = [](const Lines& lines) { return std::pair(lines.is_held, lines.put); };
-    Lines& lines = *std::min_element(lines_.begin(), last, [&](const Lines& a, const Lines& b) { return rank(a) < rank(b); });
-    if (lines.is_held) return nullptr;
-    if (bytes > lines.buffer.size()) {
-        wait(lines);
-        if (bytes > std::min(device_.available() + lines.buffer.size(), device_.max_buffer())) return nullptr;
-        lines.buffer.reserve(bytes);
+// One whose pixels are copied, so that a frame of one batch uses one picture; else the one that was collected first.
+ReadbackRing::DevicePicture* ReadbackRing::acquire(std::size_t bytes) {
+    const auto rank = [](const DevicePicture& picture) {
+        const bool is_copied =
+            !picture.copied.valid() || picture.copied.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        return std::tuple(picture.is_in_use, !is_copied, is_copied ? 0 : picture.used);
+    };
+    DevicePicture& picture = *std::ranges::min_element(pictures_, {}, rank);
+    if (picture.is_in_use) return nullptr;
+    if (bytes > picture.buffer.size()) {
+        wait(picture);
+        if (bytes > std::min(device_.available() + picture.buffer.size(), device_.max_buffer())) return nullptr;
+        picture.buffer.reserve(bytes);
     }
-    lines.is_held = true;
-    return &lines;
+    picture.is_in_use = true;
+    return &picture;
 }
 
-void PictureLines::put(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
-                       const RenderTarget& target) {
+void ReadbackRing::wait(DevicePicture& picture) {
+    if (picture.copied.valid()) std::exchange(picture.copied, {}).get();
+}
+
+void ReadbackRing::collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown,
+                           DevicePicture& picture, bool is_last, const RenderTarget& target) {
     const std::uint32_t first = batch.first_tile(), end = batch.end_tile();
-    lines.is_held = false;
-    lines.put = ++batches_put_;
-    if (target.planes.empty()) return;
+    picture.is_in_use = false;
+    picture.used = ++collected_;
+    if (target.channels.empty()) return;
     std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, shown, target);
-    hold_shown(frame, first, end, shown, target);
+    mark_covered(frame, first, end, shown, target);
     if (rectangles.empty()) return;
-    const Rectangle all = lines_of(frame, first, end);
-    const bool is_known = target.known && target.known->is_known_to(device_);
+    const Rectangle all = rows_of(frame, first, end);
+    const bool is_registered = target.registered && target.registered->has(device_);
     std::vector<CopyFeed::Copy> copies;
     std::size_t floats = 0;
     for (Rectangle& r : rectangles) {
         r.begin = floats;
-        floats += r.size() * target.planes.size();
-        copies.push_back({.columns = r.columns(), .lines = r.lines(), .planes = target.planes.size(),
+        floats += r.size() * target.channels.size();
+        copies.push_back({.columns = r.columns(), .lines = r.lines(), .channels = target.channels.size(),
                           .begin = (r.top - all.top) * all.columns() + r.left - all.left, .pitch = all.columns(), .slice = all.size(),
-                          .target = target.planes.front().pixels + r.top * frame.width + r.left, .target_pitch = frame.width,
+                          .target = target.channels.front().pixels + r.top * frame.width + r.left, .target_pitch = frame.width,
                           .target_slice = std::size_t{frame.width} * frame.height});
     }
-    if (is_known) {
-        lines.copied = copies_.add(lines.buffer, std::move(copies));
+    if (is_registered) {
+        picture.copied = copies_.add(picture.buffer, std::move(copies));
         return;
     }
     const std::size_t pixels = std::size_t{frame.width} * frame.height;
-    const bool are_many = pixels > 2 * std::size_t{batch.rays};  // batches: others may have more to copy
-    Slot& slot = free_slot(std::max(floats, are_many ? batch.rays * target.planes.size() : 0) * sizeof(float));
+    const bool has_many_batches = pixels > 2 * std::size_t{batch.rays};  // another of which may have more to copy
+    Staging& staging = free_staging(std::max(floats, has_many_batches ? batch.rays * target.channels.size() : 0) * sizeof(float));
     for (std::size_t i = 0; i < copies.size(); ++i) {
-        copies[i].target = static_cast<float*>(slot.memory->data()) + rectangles[i].begin;
+        copies[i].target = static_cast<float*>(staging.memory->data()) + rectangles[i].begin;
         copies[i].target_pitch = rectangles[i].columns();
         copies[i].target_slice = rectangles[i].size();
     }
     if (is_last)
-        copy_while_waiting(frame, rectangles, copies, target, slot, lines.buffer);
+        copy_at_once(frame, rectangles, copies, target, staging, picture.buffer);
     else
-        copy_by_host(frame, std::move(rectangles), std::move(copies), target, slot, lines);
+        copy_by_thread(frame, std::move(rectangles), std::move(copies), target, staging, picture);
 }
 
-/// Memory that a GPU copies to at full speed takes half a millisecond a megabyte to get.
-PictureLines::Slot& PictureLines::free_slot(std::size_t bytes) {
-    Slot& slot = slots_[next_];
-    if (slot.done.valid()) slot.done.get();
-    if (!slot.memory || slot.memory->size() < bytes) {
-        slot.memory.reset();
-        slot.memory.emplace(device_, "picture", bytes);
+// To get such memory takes half a millisecond a megabyte.
+ReadbackRing::Staging& ReadbackRing::free_staging(std::size_t bytes) {
+    Staging& staging = staging_[next_];
+    if (staging.done.valid()) staging.done.get();
+    if (!staging.memory || staging.memory->size() < bytes) {
+        staging.memory.reset();
+        staging.memory.emplace(device_, "staging memory", bytes);
     }
-    return slot;
+    return staging;
 }
 
-void PictureLines::copy_by_host(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::vector<CopyFeed::Copy> copies,
-                                const RenderTarget& target, Slot& slot, Lines& lines) {
-    const auto* const values = static_cast<const float*>(slot.memory->data());
-    const auto copied = lines.copied = copies_.add(lines.buffer, std::move(copies));
+void ReadbackRing::copy_by_thread(const kernel::Frame& frame, std::vector<Rectangle> rectangles,
+                                  std::vector<CopyFeed::Copy> copies, const RenderTarget& target, Staging& staging, DevicePicture& picture) {
+    const auto* const values = static_cast<const float*>(staging.memory->data());
+    const auto copied = picture.copied = copies_.add(picture.buffer, std::move(copies));
     const auto put_all = [=, rectangles = std::move(rectangles)] {
         copied.get();
         put_rectangles(frame, rectangles, values, target);
     };
     try {
-        slot.done = std::async(std::launch::async, put_all);
-        next_ = (next_ + 1) % slots_.size();
+        staging.done = std::async(std::launch::async, put_all);
+        next_ = (next_ + 1) % staging_.size();
     } catch (const std::system_error&) {  // no more threads
         put_all();
     }
 }
 
-// Planes are put as soon as they are there.
-void PictureLines::copy_while_waiting(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
-                                      std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Slot& slot,
-                                      const Buffer& lines) {
-    const auto* const values = static_cast<const float*>(slot.memory->data());
+// The host copies a channel of a rectangle as soon as it is there.
+void ReadbackRing::copy_at_once(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
+                                std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Staging& staging,
+                                const Buffer& picture) {
+    const auto* const values = static_cast<const float*>(staging.memory->data());
     constexpr std::size_t piece = std::size_t{1} << 18;  // floats that are worth a copy of their own
     struct Pieces {
         std::vector<Event> events;
-        std::vector<std::size_t> of;  ///< of each rectangle, of each plane
+        std::vector<std::size_t> event_of;  ///< of each rectangle's channels
         ~Pieces() {
             for (const Event& event : events) wait_until_done(event);
         }
     } pieces;
     for (const CopyFeed::Copy& copy : copies) {
-        const std::size_t planes = std::max<std::size_t>(1, piece / (copy.columns * copy.lines));
-        for (std::size_t p = 0; p < copy.planes; p += planes) {
+        const std::size_t channels = std::max<std::size_t>(1, piece / (copy.columns * copy.lines));
+        for (std::size_t c = 0; c < copy.channels; c += channels) {
             CopyFeed::Copy part = copy;
-            part.planes = std::min(planes, copy.planes - p);
-            part.begin += p * copy.slice;
-            part.target += p * copy.target_slice;
-            for (std::size_t i = 0; i < part.planes; ++i) pieces.of.push_back(pieces.events.size());
-            pieces.events.push_back(CopyFeed::queue(device_, lines, part));
+            part.channels = std::min(channels, copy.channels - c);
+            part.begin += c * copy.slice;
+            part.target += c * copy.target_slice;
+            for (std::size_t i = 0; i < part.channels; ++i) pieces.event_of.push_back(pieces.events.size());
+            pieces.events.push_back(CopyFeed::queue(device_, picture, part));
             device_.flush_copies();
         }
     }
-    put_rectangles(frame, rectangles, values, target, [&](std::size_t i) { wait_for(pieces.events[pieces.of[i]]); });
+    put_rectangles(frame, rectangles, values, target, [&](std::size_t i) { wait_for(pieces.events[pieces.event_of[i]]); });
 }
 
-void PictureLines::finish() {
-    for (Slot& slot : slots_)
-        if (slot.done.valid()) slot.done.get();
-    for (Lines& lines : lines_) wait(lines);
+void ReadbackRing::finish() {
+    for (Staging& staging : staging_)
+        if (staging.done.valid()) staging.done.get();
+    for (DevicePicture& picture : pictures_) wait(picture);
 }
 
-void PictureLines::abandon() noexcept {
-    for (Slot& slot : slots_) slot.done = {};
-    for (Lines& lines : lines_) {
-        if (lines.copied.valid()) lines.copied.wait();
-        lines.copied = {};
-        lines.is_held = false;
+void ReadbackRing::abandon() noexcept {
+    for (Staging& staging : staging_) staging.done = {};
+    for (DevicePicture& picture : pictures_) {
+        if (picture.copied.valid()) picture.copied.wait();
+        picture.copied = {};
+        picture.is_in_use = false;
     }
 }
 
-std::uint64_t PictureLines::held() const {
+std::uint64_t ReadbackRing::held() const {
     std::uint64_t sum = 0;
-    for (const Lines& lines : lines_) sum += lines.buffer.size();
+    for (const DevicePicture& picture : pictures_) sum += picture.buffer.size();
     return sum;
 }
 
-void PictureLines::release(const Lines* but) {
+void ReadbackRing::release(const DevicePicture* kept) {
     finish();
-    for (Lines& lines : lines_) {
-        if (&lines == but) continue;
-        lines.is_held = false;
-        lines.buffer.release();
-    }
+    for (DevicePicture& picture : pictures_)
+        if (&picture != kept) picture.buffer.release();
 }
 
 }  // namespace csgrt

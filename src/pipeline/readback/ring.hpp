@@ -1,75 +1,73 @@
-// Pixels of a GPU's batch, whole lines of the picture -> rectangles of it, which the GPU copies while it is at the next batches: into
-// the memory of those planes of the picture that is known to it (the host has no part in it then, whose memory is what several GPUs
-// wait for), else to memory that is, from which the host copies them.
+// Pixels of a GPU's batches on their way into the picture, while the GPU draws the next batches.
+//
+// A batch is drawn into a row-major picture on the device. Rectangles of it that show something, or did so before, are copied
+// into the target: by the GPU itself where the target's memory is registered with it, else into staging memory, from which the
+// host copies them.
 #pragma once
 
 #include <array>
 #include <future>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "device/copy_feed.hpp"
+#include "pipeline/batch.hpp"
 #include "pipeline/readback/rectangles.hpp"
-#include "pipeline/passes/stages.hpp"
 
 namespace csgrt {
 
-class PictureLines {
+class ReadbackRing {
 public:
-    /// Lines on the device: each plane's of a batch, and until when they are on their way into the picture.
-    struct Lines {
+    /// The rows of a batch's picture on the device, channel by channel.
+    struct DevicePicture {
         Buffer buffer;
-        std::shared_future<void> copied;
-        bool is_held = false;    ///< by a batch that is not put yet
-        std::uint64_t put = 0;   ///< the batch that was put last, by its number; 0: none
+        std::shared_future<void> copied;  ///< valid while its pixels are on their way
+        bool is_in_use = false;           ///< by a batch that is not collected yet
+        std::uint64_t used = 0;           ///< when it was collected last, as a number of batches
     };
 
-    static constexpr std::size_t most_lines = 8;  ///< Lines
+    explicit ReadbackRing(Device& device);
 
-    explicit PictureLines(Device& device);
+    /// Memory for a batch's picture, until collect() or cancel(). Nothing if batches use all of it or the device has no more.
+    DevicePicture* acquire(std::size_t bytes);
+    static void cancel(DevicePicture& picture) noexcept { picture.is_in_use = false; }
+    /// Returns when the pixels that were in it are copied, so that kernels may write it. Throws what kept them from it.
+    static void wait(DevicePicture& picture);
 
-    /// Memory for a batch's lines, which holds it until it is put: of `count` the one whose batch was put first. Null: batches hold all of
-    /// them, or there is no room on the device.
-    Lines* take(std::size_t bytes, std::size_t count);
-    /// Returns when the lines that were there are in the picture.
-    static void wait(Lines& lines) {
-        if (lines.copied.valid()) std::exchange(lines.copied, {}).get();
-    }
-
-    /// Puts the batch's tiles, which are drawn, into the target: what is `shown` (a byte a tile) and background. It may
-    /// return before all that is done, which the target must outlast; of the last batch of the device's in a frame only what it copies
-    /// into memory that it knows may come later.
-    void put(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown, Lines& lines, bool is_last,
-             const RenderTarget& target);
-    /// Returns when all is done. Throws what kept it from being done.
+    /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: of each tile a byte, not 0 if it shows
+    /// something. May return before the copies are made: the target must live until finish() or abandon(). Of a frame's last
+    /// batch only copies into registered memory are left then.
+    void collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown, DevicePicture& picture,
+                 bool is_last, const RenderTarget& target);
+    /// Returns when all copies are made. Throws what kept one from being made.
     void finish();
-    /// The same, but what was thrown is not told.
+    /// The same, but throws nothing, and no batch uses a picture any more.
     void abandon() noexcept;
 
     std::uint64_t held() const;  ///< bytes on the device
-    void release(const Lines* but = nullptr);  ///< gives its memory there back, once all is done; no batch but that of `but` has any
+    /// Gives the device's memory back, but for `kept`, when all copies are made.
+    void release(const DevicePicture* kept = nullptr);
 
 private:
-    /// Memory that the device copies to at full speed.
-    struct Slot {
+    static constexpr std::size_t depth = Device::queues + 1;  ///< batches that are drawn, and one that is copied
+    /// Host memory that the device copies to at full speed.
+    struct Staging {
         std::optional<PinnedMemory> memory;
-        std::future<void> done;  ///< when it is destroyed, nothing works on the memory
+        std::future<void> done;  ///< its destructor waits until nothing works on the memory
     };
-    Slot& free_slot(std::size_t bytes);
-    void copy_by_host(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::vector<CopyFeed::Copy> copies,
-                      const RenderTarget& target, Slot& slot, Lines& lines);
-    void copy_while_waiting(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
-                            std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Slot& slot,
-                            const Buffer& lines);
+    Staging& free_staging(std::size_t bytes);
+    void copy_by_thread(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::vector<CopyFeed::Copy> copies,
+                        const RenderTarget& target, Staging& staging, DevicePicture& picture);
+    void copy_at_once(const kernel::Frame& frame, std::span<const Rectangle> rectangles, std::span<const CopyFeed::Copy> copies,
+                      const RenderTarget& target, const Staging& staging, const Buffer& picture);
 
     Device& device_;
-    std::vector<Lines> lines_;
-    std::uint64_t batches_put_ = 0;
-    CopyFeed copies_;  ///< to be gone before the lines
-    std::array<Slot, 2> slots_;
-    std::size_t next_ = 0;  ///< the slot that has waited longest
+    std::vector<DevicePicture> pictures_;
+    std::uint64_t collected_ = 0;  ///< batches
+    CopyFeed copies_;              ///< is destroyed before the pictures
+    std::array<Staging, 2> staging_;
+    std::size_t next_ = 0;  ///< the staging memory that was used longest ago
 };
 
 }  // namespace csgrt

@@ -12,7 +12,7 @@
 namespace csgrt {
 
 /// The first byte from `begin` on that is not 0, or `end`: eight are looked at at once.
-inline std::size_t next_held(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
+inline std::size_t next_covered(std::span<const std::uint8_t> bytes, std::size_t begin, std::size_t end) {
     for (; begin + 8 <= end; begin += 8) {
         std::uint64_t eight = 0;
         std::memcpy(&eight, bytes.data() + begin, sizeof eight);
@@ -23,7 +23,7 @@ inline std::size_t next_held(std::span<const std::uint8_t> bytes, std::size_t be
 }
 
 /// How many bytes, each 0 or 1, are 1.
-inline std::size_t count_held(std::span<const std::uint8_t> bytes) {
+inline std::size_t count_covered(std::span<const std::uint8_t> bytes) {
     std::size_t count = 0, i = 0;
     for (; i + 8 <= bytes.size(); i += 8) {
         std::uint64_t eight = 0;
@@ -55,9 +55,9 @@ public:
     /// A tile's place among the batch's.
     std::size_t place(std::size_t row, std::size_t tile) const { return (first_row_ + row) * across_ + tile - first_; }
     /// The target's account of a row: not 0 for tiles that hold anything but background.
-    std::span<std::uint8_t> held(std::size_t row, const RenderTarget& target) const {
+    std::span<std::uint8_t> covered(std::size_t row, const RenderTarget& target) const {
         const Extent all = whole(row);
-        return target.drawn.subspan((screen_.top / TILE + first_row_ + row) * picture_across_ + screen_.left / TILE + all.begin,
+        return target.covered.subspan((screen_.top / TILE + first_row_ + row) * picture_across_ + screen_.left / TILE + all.begin,
                                     all.end - all.begin);
     }
 

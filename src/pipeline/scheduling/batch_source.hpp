@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipeline/scheduling/frame_parts.hpp"
-#include "pipeline/passes/stages.hpp"
+#include "pipeline/batch.hpp"
 
 namespace csgrt {
 

@@ -16,13 +16,13 @@ namespace {
 // waits for in each (bench/NOTES.md).
 constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 5;
 
-constexpr const char* known_name = "picture of the host's";
+constexpr const char* registered_name = "registered memory";
 
 }  // namespace
 
 static std::atomic<std::uint64_t> next_number{1};
 
-Pipelines::Pipelines(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
+DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
                      const Settings& settings, Readback readback)
     : number_(next_number++) {
     const auto start = Clock::now();
@@ -35,15 +35,15 @@ Pipelines::Pipelines(const std::vector<FoundDevice>& devices, const CompiledScen
 
 // One device alone takes all rays as batches of its own, unless it copies the first ones' pixels while it draws others; of every
 // partition it has large ones.
-std::uint64_t Pipelines::parts_of(const RayCosts& costs, bool every_partition) const {
+std::uint64_t DeviceGroup::parts_of(const RayCosts& costs, bool every_partition) const {
     constexpr std::uint64_t large = RayCosts::of_shown << 22;
     const bool is_alone = pipelines_.size() == 1;
-    if (is_alone && !pipelines_.front()->copies_beside()) return 1;
+    if (is_alone && !pipelines_.front()->is_asynchronous()) return 1;
     return !every_partition ? parts_of_first_hits : is_alone ? 1 + costs.total() / large : parts_of_partitions;
 }
 
 // A thread for each device. What the first of the devices threw is thrown, once all threads have stopped.
-void Pipelines::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work) {
+void DeviceGroup::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work) {
     const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
     const bool is_one = parts_each == 1 || rays <= tile_rays;
     const std::size_t devices = is_one ? 1 : pipelines_.size();
@@ -61,7 +61,7 @@ void Pipelines::share(const RayCosts& costs, bool every_partition, const Progres
         if (progress && !progress(rays == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(rays)))
             throw Error(Status::interrupted, "interrupted");
     };
-    const Pipeline::Told told = [&](std::uint64_t more) {
+    const Told told = [&](std::uint64_t more) {
         const std::lock_guard lock(mutex);
         done += more;
         tell();
@@ -85,38 +85,38 @@ void Pipelines::share(const RayCosts& costs, bool every_partition, const Progres
         if (error) std::rethrow_exception(error);
 }
 
-void Pipelines::prepare(bool every_partition) {
+void DeviceGroup::prepare(bool every_partition) {
     for_chunks(pipelines_.size(), 1, static_cast<unsigned>(pipelines_.size()),
                [&](std::size_t i, std::size_t, std::size_t) { pipelines_[i]->prepare(every_partition); });
 }
 
-void Pipelines::forget() {
+void DeviceGroup::drop_claims() {
     std::erase_if(claims_, [](const Claim& claim) {
-        if (!claim.picture.expired()) return false;
-        claim.device->release(known_name, claim.bytes);
+        if (!claim.registered.expired()) return false;
+        claim.device->release(registered_name, claim.bytes);
         return true;
     });
 }
 
-std::shared_ptr<KnownPicture> Pipelines::make_known(std::span<const ChannelPlane> planes, std::size_t pixels) {
-    forget();
-    const std::size_t bytes = planes.size() * pixels * sizeof(float);
+std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const ChannelMemory> channels, std::size_t pixels) {
+    drop_claims();
+    const std::size_t bytes = channels.size() * pixels * sizeof(float);
     if (bytes == 0) return nullptr;
-    const auto known = std::make_shared<KnownPicture>(planes.front().pixels, bytes);
+    auto registered = std::make_shared<RegisteredMemory>(channels.front().pixels, bytes);
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         Device& device = *devices_[i];
-        if (!pipelines_[i]->copies_beside() || bytes > std::min(device.available() / 2, device.max_buffer())) continue;
-        known->make_known(device);
-        if (!known->is_known_to(device)) continue;
-        device.claim(known_name, bytes);
-        claims_.push_back({known, &device, bytes});
+        if (!pipelines_[i]->is_asynchronous() || bytes > std::min(device.available() / 2, device.max_buffer())) continue;
+        registered->add(device);
+        if (!registered->has(device)) continue;
+        device.claim(registered_name, bytes);
+        claims_.push_back({registered, &device, bytes});
     }
-    return known;
+    return registered;
 }
 
-void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
+void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                        PipelineCounts& counts) {
-    forget();
+    drop_claims();
     RenderTarget shared = target;  // until nothing more comes into it
     shared.threads = std::max(1u, thread_count(0) / static_cast<unsigned>(pipelines_.size()));
     struct Abandon {
@@ -126,37 +126,37 @@ void Pipelines::render(const PreparedFrame& prepared, const RenderTarget& target
         }
     } if_thrown{pipelines_};
     share(RayCosts(prepared.frame, target), prepared.frame.every_partition, progress, counts,
-          [&](Pipeline& pipeline, const TakeRays& take, const Pipeline::Told& told, PipelineCounts& own) {
+          [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
               pipeline.render(prepared, take, shared, told, own);
           });
     clear_around(prepared.frame, target);  // while the last batches' pixels are on their way
     for (const auto& pipeline : pipelines_) pipeline->finish();
 }
 
-std::vector<RayPartitions> Pipelines::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
+std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
                                             const Progress& progress, PipelineCounts& counts) {
-    forget();
+    drop_claims();
     std::vector<RayPartitions> answers(rays.size());
     share(RayCosts(rays.size()), true, progress, counts,
-          [&](Pipeline& pipeline, const TakeRays& take, const Pipeline::Told& told, PipelineCounts& own) {
+          [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
               pipeline.shoot(prepared, rays, take, answers.data(), told, own);
           });
     return answers;
 }
 
-std::string Pipelines::name() const {
+std::string DeviceGroup::name() const {
     std::string all;
     for (const auto& device : devices_) all += (all.empty() ? "" : " + ") + device->info().name;
     return all;
 }
 
-std::uint64_t Pipelines::device_bytes() const {
+std::uint64_t DeviceGroup::device_bytes() const {
     std::uint64_t sum = 0;
     for (const auto& device : devices_) sum += device->allocated();
     return sum;
 }
 
-double Pipelines::build_ms() const {
+double DeviceGroup::build_ms() const {
     double longest = 0;
     for (const auto& pipeline : pipelines_) longest = std::max(longest, pipeline->build_ms());
     return setup_ms_ + longest;

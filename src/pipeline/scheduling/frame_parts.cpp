@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/readback/tile_rows.hpp"
-#include "pipeline/passes/stages.hpp"
+#include "pipeline/batch.hpp"
 
 namespace csgrt {
 
@@ -22,14 +22,14 @@ RayCosts::RayCosts(const kernel::Frame& frame, const RenderTarget& target) {
     sums_.push_back(0);
     if (rays_ == 0) return;
     const TileRows rows(frame, 0, across * down);
-    std::vector<std::uint64_t> held;  // of a band's middle row
+    std::vector<std::uint64_t> covered;  // of a band's middle row
     std::uint64_t all = 0;
     for (std::size_t first = 0; first < down; first += rows_a_band) {
-        held.push_back(count_held(rows.held((first + std::min<std::size_t>(first + rows_a_band, down)) / 2, target)));
-        all += held.back();
+        covered.push_back(count_covered(rows.covered((first + std::min<std::size_t>(first + rows_a_band, down)) / 2, target)));
+        all += covered.back();
     }
-    for (std::size_t band = 0; band < held.size(); ++band) {
-        const std::uint64_t shown = all == 0 ? across : held[band];
+    for (std::size_t band = 0; band < covered.size(); ++band) {
+        const std::uint64_t shown = all == 0 ? across : covered[band];
         sums_.push_back(sums_.back() + rays_of(band) / row_ * (row_ + (of_shown - 1) * tile_rays * shown));
     }
 }

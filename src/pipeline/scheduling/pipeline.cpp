@@ -1,166 +1,57 @@
 #include "pipeline/scheduling/pipeline.hpp"
 
 #include <algorithm>
-#include <utility>
-
-#include "base/clock.hpp"
 
 namespace csgrt {
-namespace {
 
-constexpr std::uint64_t most_rays = 1u << 24;  // of one batch: launches stay short
-
-// Rays of a row of the screen's tiles.
-std::uint64_t row_of(const kernel::Frame& frame) { return std::uint64_t{kernel::tiles_across(frame.screen)} * tile_rays; }
-
-}  // namespace
-
-Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-                   Readback readback, std::uint64_t most_rays_of_picture)
-    : device_(device),
-      scene_(scene),
-      kernels_(kernels),
-      settings_(settings),
-      most_rays_(most_rays_of_picture),
-      buffers_(device, scene, kernels.tables()),
-      batch_(device),
-      picture_(device, "picture") {
-    // The host's own processors need no copy, and have no time beside the kernels.
-    if (readback == Readback::lines || device.info().type != "cpu") by_lines_.emplace(device);
+Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, Readback readback,
+                   std::uint64_t most_rays)
+    : passes_(device, scene, kernels, settings),
+      most_rays_(most_rays),
+      synchronous_(passes_, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
+    // A processor shares the host's memory, and has no time beside its kernels.
+    if (readback == Readback::asynchronous || device.info().type != "cpu") asynchronous_.emplace(passes_, synchronous_);
 }
-
-Exact& Pipeline::exact() {
-    if (!exact_) {
-        const auto start = Clock::now();
-        exact_.emplace(device_, scene_, kernels_, settings_);
-        build_ms_ += milliseconds_since(start);
-    }
-    return *exact_;
-}
-
-FirstHits& Pipeline::first_hits() {
-    if (!first_hits_) {
-        const auto start = Clock::now();
-        first_hits_.emplace(device_, scene_, settings_);
-        build_ms_ += milliseconds_since(start);
-    }
-    return *first_hits_;
-}
-
-Cull& Pipeline::cull(const kernel::Frame& frame) { return frame.every_partition ? exact().cull() : first_hits().cull(); }
 
 void Pipeline::prepare(bool every_partition) {
-    every_partition ? static_cast<void>(exact()) : static_cast<void>(first_hits());
-    if (!by_lines_ || by_lines_->list.is_built()) return;
-    const auto start = Clock::now();
-    by_lines_->list.build();
-    build_ms_ += milliseconds_since(start);
+    every_partition ? static_cast<void>(passes_.partitions()) : static_cast<void>(passes_.first_hits());
+    if (asynchronous_) asynchronous_->prepare();
 }
 
-// Rays of a batch that take no more than a quarter of the budget: the rest is for segments and partitions.
-std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
-    const std::uint64_t held = picture_.size() + batch_.held() + (by_lines_ ? by_lines_->held() : 0) + (exact_ ? exact_->held() : 0);
-    const std::uint64_t most = std::min((device_.available() + held) / 4, device_.max_buffer()) / bytes_a_ray;
-    return std::clamp<std::uint64_t>(most, 1, most_rays);
-}
-
-// Of the frame's batches.
-std::uint64_t Pipeline::largest_batch(const kernel::Frame& frame) const {
-    return std::min(row_of(frame) * kernel::tiles_down(frame.screen), most_rays_);
-}
-
-// For what a batch's rays need, whatever they hit: what the last call left may be in the way. `reused`: of what is
-// needed, this much is held already.
-void Pipeline::make_room(std::uint64_t bytes, std::uint64_t reused) {
-    if (bytes <= device_.available() + reused) return;
-    batch_.release_rays();
-    if (by_lines_) by_lines_->release();
-    if (exact_) exact_->release();
-}
-
-void Pipeline::for_each_batch(BatchSource& source, const Told& told, const std::function<bool(const RayBatch&)>& work) {
-    for (RayBatch batch = source.next(); batch.rays > 0; batch = source.next()) {
-        if (!work(batch)) {
-            source.halve(batch, device_.budget());
-        } else if (told) {
-            told(batch.rays);
-        }
-    }
-}
-
-void Pipeline::upload(const kernel::Frame& frame) {
-    frame_upload_.start<std::byte>(batch_.frame, kernels_.frame(frame));
-}
-
-void Pipeline::upload_lights(const PreparedFrame& prepared) {
-    const std::vector<std::byte> lights = kernels_.lights(prepared.lights);
-    buffers_.lights.reserve(lights.size());
-    if (!lights.empty()) buffers_.lights.upload(lights);
+DeviceMemory Pipeline::memory() const {
+    const Device& device = passes_.device;
+    return {.available = device.available(),
+            .held = synchronous_.held() + passes_.held() + (asynchronous_ ? asynchronous_->held() : 0),
+            .max_buffer = device.max_buffer()};
 }
 
 void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
                       PipelineCounts& counts) {
-    const bool every = prepared.frame.every_partition;
-    upload_lights(prepared);
-    prepare(every);
-    if (by_lines_ && std::exchange(drew_every_partition_, every) != every) {  // there is memory for one way at a time
-        by_lines_->release();
-        if (exact_) exact_->release();
-    }
-    const std::uint64_t bytes = bytes_a_ray(prepared.frame, target), largest = largest_batch(prepared.frame);
-    BatchSource source(take, [&] { return std::min(fitting(bytes), largest); }, row_of(prepared.frame));
-    const Drawing d{prepared.frame, source, target, told, counts};
-    if (by_lines_) return every ? partitions_by_lines(d) : first_hits_by_lines(d);
-    for_each_batch(source, [&](std::uint64_t rays) { d.tell(static_cast<std::uint32_t>(rays)); }, [&](const RayBatch& batch) {
-        if (batch.rays % tile_rays == 0) return draw_in_place(d, batch);
-        draw_part_of_tile(d, batch);
-        return true;
-    });
+    const kernel::Frame& frame = prepared.frame;
+    passes_.tables.set_lights(passes_.kernels.lights(prepared.lights));
+    prepare(frame.every_partition);
+    const FrameShape shape = shape_of(frame, target.channels.size());
+    const std::uint32_t underway = asynchronous_ ? 2 : 1;
+    const auto most = [&] { return plan_memory(shape, memory(), underway, most_rays_).batch_rays; };
+    BatchSource source(take, most, std::uint64_t{shape.tiles_across} * tile_rays);
+    const FrameJob job{frame, source, target, told, counts};
+    asynchronous_ ? asynchronous_->render(job) : synchronous_.render(job);
 }
 
 void Pipeline::finish() {
-    if (by_lines_) by_lines_->lines.finish();
+    if (asynchronous_) asynchronous_->finish();
 }
 
 void Pipeline::abandon() noexcept {
-    if (exact_) exact_->forget();
-    if (!by_lines_) return;
-    try {
-        device_.finish();  // what was queued ahead draws into lines that a frame may take next
-    } catch (...) {
-    }
-    by_lines_->give_up();
-    by_lines_->lines.abandon();
+    passes_.forget_tallies();
+    if (asynchronous_) asynchronous_->abandon();
 }
 
 void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers,
                      const Told& told, PipelineCounts& counts) {
-    const std::size_t bytes = kernels_.ray_bytes();
-    if (exact_) exact_->forget();  // what a call that threw has left
-    picture_.release();
-    exact();
-    BatchSource source(take, [&] { return fitting(bytes + Exact::ray_bytes); }, 0);
-    for_each_batch(source, told, [&](const RayBatch& batch) {
-        const std::span<const Ray> some = rays.subspan(batch.first, batch.rays);
-        make_room(batch.rays * (bytes + Exact::ray_bytes), batch_.rays.size());
-        batch_.rays.reserve(batch.rays * bytes);
-        batch_.rays.upload(kernels_.rays(some));
-        kernel::Frame frame = prepared.frame;
-        frame.ray_count = batch.rays;
-        upload(frame);
-        TimedKernels timed;
-        const auto needs = weave(batch.rays, Rays::listed, timed);
-        if (!needs) return false;
-        exact().add_needs(*needs, batch.rays, counts);
-        exact().settle(batch.rays, true, timed, counts);
-        const auto claims = exact().claims(batch.rays);
-        for (std::uint32_t i = 0; i < batch.rays; ++i) {
-            answers[batch.first + i] = to_partitions(kernels_, prepared.frame, some[i], claims[i]);
-            for (const ClaimedPartition& claim : claims[i]) counts.overlaps += !claim.claimants.empty();
-        }
-        ++counts.batches;
-        return true;
-    });
+    passes_.forget_tallies();  // of a call that threw
+    BatchSource source(take, [&] { return rays_fitting(memory(), synchronous_.shot_ray_bytes()); }, 0);
+    synchronous_.shoot(prepared.frame, rays, source, answers, told, counts);
 }
 
 }  // namespace csgrt

@@ -133,7 +133,7 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.width = f.width;
     frame.height = f.height;
     frame.perspective = f.perspective;
-    frame.listed = f.listed;
+    frame.work = f.work;
     frame.first_ray = f.first_ray;
     frame.ray_count = f.ray_count;
     frame.solid_count = f.solid_count;
@@ -141,10 +141,9 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
     frame.node_count = f.node_count;
     frame.light_count = f.light_count;
     frame.every_partition = f.every_partition;
-    frame.picked = f.picked;
     frame.channels = f.channels;
     frame.screen = {f.screen.left, f.screen.top, f.screen.right, f.screen.bottom};
-    frame.lines = f.lines;
+    frame.rows = f.rows;
     std::copy(std::begin(f.rank_ends), std::end(f.rank_ends), std::begin(frame.rank_ends));
     frame.candidate_capacity = f.candidate_capacity;
     frame.segment_capacity = f.segment_capacity;
@@ -166,8 +165,7 @@ public:
           planes_(convert_all<k::PlaneRecord>(scene.planes, [](const auto& p) { return convert(p); })),
           inner_nodes_(convert_all<k::BvhNode>(scene.inner_nodes, [](const auto& n) { return convert_node(n); })),
           nodes_(convert_all<k::BvhNode>(scene.nodes, [](const auto& n) { return convert_node(n); })),
-          g_(k::make_geometry(solids_.data(), reals_.data(), planes_.data(), scene.plane_refs.data(),
-                              scene.words.data(), inner_nodes_.data())) {
+          g_(k::make_geometry(solids_.data(), reals_.data(), planes_.data(), scene.words.data(), inner_nodes_.data())) {
         g_.quartic = static_cast<k::u32>(quartic);
     }
 
@@ -216,7 +214,7 @@ public:
 #ifdef CSGRT_EYE_RELATIVE
         const k::Frame& frame = convert_frame(f);
         const double all = k::distance_along(k::geometry_ray(&frame, convert_ray(ray)), static_cast<real>(t));
-        if (!frame.listed) return all;
+        if (frame.work != WORK_RAYS) return all;
         const Vec3& d = ray.direction;
         const double longest = std::fmax(std::fabs(d.x), std::fmax(std::fabs(d.y), std::fabs(d.z)));
         return all / (longest * std::hypot(d.x / longest, d.y / longest, d.z / longest));

@@ -23,13 +23,13 @@ struct Picture {
         const std::size_t to_line = (64 - reinterpret_cast<std::uintptr_t>(begin) % 64) / sizeof(float) % 16;
         plane.pixels = begin + (to_line + 4) % 16;
     }
-    RenderTarget target() { return {.planes = {&plane, 1}, .drawn = drawn}; }
+    RenderTarget target() { return {.channels = {&plane, 1}, .covered = drawn}; }
 
     std::uint32_t across, down;
     kernel::Frame frame{};
     std::vector<float> pixels;
     std::vector<std::uint8_t> drawn;
-    ChannelPlane plane;
+    ChannelMemory plane;
 };
 
 /// Of the batch's tiles, those that show something.
@@ -77,8 +77,8 @@ TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no o
         const auto times =
             covered_by(picture, find_rectangles(picture.frame, first, end, of_batch(shown, first, end), picture.target()));
         CHECK(picture.drawn == before);
-        hold_shown(picture.frame, first, end, of_batch(shown, first, end), picture.target());
-        const Rectangle lines = lines_of(picture.frame, first, end);
+        mark_covered(picture.frame, first, end, of_batch(shown, first, end), picture.target());
+        const Rectangle lines = rows_of(picture.frame, first, end);
         CHECK(lines.left == screen.left);
         CHECK(lines.right == screen.right);
         CHECK(lines.top == screen.top + first / across * TILE);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "pipeline/passes/stages.hpp"
+#include "pipeline/batch.hpp"
 
 using namespace csgrt;
 
@@ -60,7 +60,7 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
         for (auto& tile : shown.drawn) tile = random() % 3 == 0;
         const auto middle = [&](std::uint32_t row) { return (row / band * band + std::min(down, (row / band + 1) * band)) / 2; };
         shown.at(0, middle(0)) = 1;
-        const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
+        const RayCosts costs(shown.frame, {.channels = {}, .covered = shown.drawn});
         REQUIRE(costs.rays() == across * down * tile_rays);
         std::uint64_t sum = 0;
         for (std::uint32_t row = 0; row < down; ++row) {
@@ -86,7 +86,7 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
 TEST_CASE("rays of a picture that shows nothing yet cost the same, and those of a list") {
     Shown shown(10, 10);
     shown.drawn[0] = 1;  // outside of the screen
-    const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
+    const RayCosts costs(shown.frame, {.channels = {}, .covered = shown.drawn});
     CHECK(costs.total() == costs.rays() * RayCosts::of_shown);
     CHECK(costs.before(1234) == 1234 * RayCosts::of_shown);
     for (const std::uint64_t rays : {std::uint64_t{1}, std::uint64_t{63}, std::uint64_t{65'536}, std::uint64_t{100'000}, std::uint64_t{1} << 33}) {
@@ -108,7 +108,7 @@ TEST_CASE("parts are all rays, each once, whatever they show") {
         for (std::uint32_t row = from; row < down; ++row)
             for (std::uint32_t column = 0; column < across; ++column) shown.at(column, row) = random() % sparse == 0;
         const std::size_t devices = 1 + random() % 4;
-        const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
+        const RayCosts costs(shown.frame, {.channels = {}, .covered = shown.drawn});
         Parts parts(costs, devices, 1 + random() % 9, round % 2 == 0);
         check_whole(all_of(parts), costs.rays());
         const RayRange none = parts.take();
@@ -124,7 +124,7 @@ TEST_CASE("devices' parts cost about as much, where most rays see nothing, too")
     Shown shown(512, 512);
     for (std::uint32_t row = 300; row < 400; ++row)
         for (std::uint32_t column = 0; column < 512; ++column) shown.at(column, row) = 1;
-    const RayCosts costs(shown.frame, {.planes = {}, .drawn = shown.drawn});
+    const RayCosts costs(shown.frame, {.channels = {}, .covered = shown.drawn});
     Parts parts(costs, 2, 5, false);
     const std::vector<RayRange> taken = all_of(parts);
     CHECK(taken.size() >= 10);

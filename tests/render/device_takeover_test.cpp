@@ -63,8 +63,8 @@ struct Model {
     }
     DeviceTakeover::SetUp set_up() const {
         return [this](const std::vector<FoundDevice>& devices) {
-            const Readback readback = is_native(devices.at(0).info) ? Readback::by_device : Readback::lines;
-            return std::make_unique<Pipelines>(devices, compiled, *kernels, settings, readback);
+            const Readback readback = is_native(devices.at(0).info) ? Readback::by_device : Readback::asynchronous;
+            return std::make_unique<DeviceGroup>(devices, compiled, *kernels, settings, readback);
         };
     }
 };

@@ -62,7 +62,7 @@ struct HostRun {
 
 /// The numbers of all of a picture's rays.
 inline std::vector<std::uint32_t> all_numbers(const kernel::Frame& frame) {
-    std::vector<std::uint32_t> numbers(frame.listed ? 0 : frame.ray_count);
+    std::vector<std::uint32_t> numbers(frame.work == WORK_RAYS ? 0 : frame.ray_count);
     std::iota(numbers.begin(), numbers.end(), 0u);
     return numbers;
 }
@@ -72,7 +72,7 @@ inline std::vector<float> picture_of(const kernel::Frame& frame, const std::vect
                                      const std::vector<float>& values, std::size_t channels) {
     const std::size_t size = std::size_t{frame.width} * frame.height;
     std::vector<float> picture(channels * size);
-    std::vector<ChannelPlane> planes;
+    std::vector<ChannelMemory> planes;
     for (std::size_t i = 0; i < channels; ++i) {
         planes.push_back({picture.data() + i * size, 0});
         if (i < 3) planes.back().background = frame.background[i];
@@ -107,9 +107,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     Frame frame = prepared.frame;
     frame.first_ray = 0;
     frame.ray_count = static_cast<u32>(prepared.rays);
-    frame.picked = 1;
+    if (rays.empty()) frame.work = WORK_PIXELS;
     const std::vector<u32> numbers = all_numbers(frame);
-    const RayRecord* listed = rays.empty() ? reinterpret_cast<const RayRecord*>(numbers.data()) : rays.data();
+    const u32* const listed = numbers.data();
     const std::size_t count = frame.ray_count;
     HostRun run;
     const auto each_of = [](std::size_t items, const auto& work) {
@@ -126,16 +126,16 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         }
         return sum;
     };
-    const HostTiles tiles = frame.listed ? HostTiles{} : cull(scene, frame);
-    const TileNode* lists = frame.listed ? nullptr : tiles.lists.data();
+    const HostTiles tiles = !rays.empty() ? HostTiles{} : cull(scene, frame);
+    const TileNode* lists = !rays.empty() ? nullptr : tiles.lists.data();
     std::vector<RayCount> places(count + 1);
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), nullptr); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, listed, places.data(), candidates.data()); });
+    each([&] { find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), candidates.data()); });
     std::vector<End> found(2 * candidates.size());
     each_of(candidates.size(), [&] {
-        count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(), scene.words.data(),
-                   scene.inner_nodes.data(), listed, places.data(), candidates.data(), found.data());
+        count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                   scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data());
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
@@ -147,25 +147,23 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.tallies.resize(count);
     std::vector<float> values(13 * count);
     each_of(candidates.size(), [&] {
-        store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                       scene.words.data(), scene.inner_nodes.data(), listed, places.data(), candidates.data(), found.data(),
+        store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(), scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data(),
                        run.offsets.data(), run.ends.data(), run.bits.data());
     });
     each_of(run.ends.size(), [&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data()); });
     each([&] {
-        kernel::weave(&frame, listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
+        kernel::weave(&frame, rays.data(), listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
                       run.tallies.data());
     });
     each_of(run.ends.size(), [&] {
-        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.leaves.data(), scene.trees.data(), run.offsets.data(),
+        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.trees.data(), run.offsets.data(),
                  run.ends.data(), run.bits.data(), run.nodes.data());
     });
-    if (!frame.listed) {
+    if (rays.empty()) {
         each([&] {
-            shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                  scene.words.data(), scene.inner_nodes.data(), scene.regions.data(), scene.materials.data(),
-                  prepared.lights.data(), run.offsets.data(), run.ends.data(), run.nodes.data(),
-                  run.tallies.data(), listed, nullptr, values.data());
+            shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(), scene.inner_nodes.data(),
+                  scene.materials.data(), prepared.lights.data(), listed, run.offsets.data(), run.ends.data(), run.nodes.data(),
+                  run.tallies.data(), nullptr, values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
     }
@@ -178,21 +176,20 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     Frame frame = prepared.frame;
     frame.first_ray = 0;
     frame.ray_count = static_cast<u32>(prepared.rays);
-    frame.picked = 1;
+    frame.work = WORK_PIXELS;
     std::vector<u32> numbers = all_numbers(frame);
     const HostTiles tiles = cull(scene, frame);
     std::vector<u32> overflown(frame.ray_count);
-    BatchReport tally{};
+    BatchReport report{};
     std::erase_if(numbers, [&](u32 number) { return !tiles.costs[number / (TILE * TILE)]; });
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
-        first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.plane_refs.data(),
-                   scene.words.data(), scene.inner_nodes.data(), scene.nodes.data(), scene.regions.data(), scene.starts.data(),
-                   scene.leaves.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(), tiles.lists.data(),
-                   reinterpret_cast<const RayRecord*>(numbers.data()), &tally, overflown.data(), values.data());
+        first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(), scene.inner_nodes.data(),
+                   scene.nodes.data(), scene.starts.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(),
+                   tiles.lists.data(), numbers.data(), &report, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
-    return tally.overflows;
+    return report.overflows;
 }
 
 }  // namespace csgrt::test

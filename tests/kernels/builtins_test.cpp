@@ -7,7 +7,7 @@
 #include "device/choice.hpp"
 #include "device/program.hpp"
 #include "integration/every_type.hpp"
-#include "pipeline/passes/stages.hpp"
+#include "pipeline/passes/program_options.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;
@@ -30,7 +30,7 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
         Settings settings;
         settings.precision = precision;
         const bool is_single = precision != Precision::double_;
-        std::vector<std::string> defines = defines_of(device, scene, settings);
+        std::vector<std::string> defines = program_options(device, scene, settings);
         CHECK(std::erase(defines, "CSGRT_PACKETS") == !is_single);  // with them last
         const auto require_own = [&](const std::vector<std::string>& files) {
             INFO(files.back());

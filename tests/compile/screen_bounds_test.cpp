@@ -8,7 +8,7 @@
 #include "compile/model.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
-#include "stress/rewrite.hpp"
+#include "bench/stress/rewrite.hpp"
 
 using namespace csgrt;
 

@@ -8,7 +8,7 @@
 #include "formats/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "sanitized.hpp"
-#include "stress/build.hpp"
+#include "bench/stress/build.hpp"
 
 using namespace csgrt;
 

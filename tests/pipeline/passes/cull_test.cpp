@@ -11,9 +11,9 @@
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
-#include "pipeline/host_kernels.hpp"
+#include "kernels/host_kernels.hpp"
 #include "reference/reference.hpp"
-#include "stress/build.hpp"
+#include "bench/stress/build.hpp"
 
 using namespace csgrt;
 
@@ -38,20 +38,20 @@ Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame)
     const Settings settings = test::on_compiling_device();
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
     Device device(settings.device);
-    const SceneBuffers scene(device, compiled, kernels->tables());
-    const Program program(device, assemble_program({Cull::file}), defines_of(device, compiled, settings));
-    Cull kernel_0(device, program);
+    const SceneTables scene(device, compiled, kernels->tables());
+    const Program program(device, assemble_program({CullPass::file}), program_options(device, compiled, settings));
+    CullPass kernel_0(device, program);
     BatchBuffers batch(device);
     batch.frame = Buffer(device, "frame", kernels->frame(frame));
     wait_for(kernel_0.launch(scene, batch, frame));
     const std::uint32_t tiles = frame.ray_count / tile_rays;
-    const auto tally = batch.tally.read<std::uint8_t>(RayBatch{0, frame.ray_count}.tally_bytes());
+    const auto tally = batch.report.read<std::uint8_t>(BatchBuffers::report_bytes({0, frame.ray_count}));
     CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::BatchReport) + tiles, [](std::uint8_t byte) { return byte == 0; }));
-    return lists_of(batch.costs.read<unsigned char>(tiles), batch.lists.read<kernel::TileNode>(tiles * LISTED_NODES));
+    return lists_of(batch.costs.read<unsigned char>(tiles), batch.tile_nodes.read<kernel::TileNode>(tiles * LISTED_NODES));
 }
 
 Culled cull_on_host(const CompiledScene& compiled, kernel::Frame frame) {
-    frame.lines = 0;  // no tally to clear
+    frame.rows = 0;  // no tally to clear
     test::HostTiles tiles = test::cull(compiled, frame);
     return lists_of(std::move(tiles.costs), tiles.lists);
 }
@@ -61,7 +61,7 @@ std::size_t require_same(const CompiledScene& compiled, const View& view) {
     const PreparedFrame prepared = prepare_frame(compiled, view);
     kernel::Frame frame = prepared.frame;
     frame.ray_count = static_cast<std::uint32_t>(prepared.rays);
-    frame.lines = frame.screen.bottom - frame.screen.top;
+    frame.rows = frame.screen.bottom - frame.screen.top;
     const Culled on_host = cull_on_host(compiled, frame), on_device = cull_on_device(compiled, frame);
     REQUIRE(on_host.lists.size() == on_device.lists.size());
     CHECK(on_host.costs == on_device.costs);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "catch.hpp"
-#include "pipeline/host_kernels.hpp"
+#include "kernels/host_kernels.hpp"
 #include "reference/weave.hpp"
 
 using namespace csgrt;
@@ -21,7 +21,8 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     const auto segments = static_cast<std::uint32_t>(ends.size() / 2);
     const std::uint32_t words = kernel::words_of(segments);
     kernel::Frame frame{};
-    frame.ray_count = frame.listed = 1;
+    frame.ray_count = 1;
+    frame.work = WORK_RAYS;
     const kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
     frame.tolerance = tolerance;
     frame.segment_capacity = frame.word_capacity = COUNT_MAX;
@@ -33,7 +34,7 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     for (kernel::global_id = 0; kernel::global_id < ends.size(); ++kernel::global_id)
         kernel::order_ends(&frame, offsets.data(), ends.data(), rays.data(), nodes.data());
     kernel::global_id = 0;
-    kernel::weave(&frame, &ray, offsets.data(), ends.data(), nodes.data(), bits.data(), &tally);
+    kernel::weave(&frame, &ray, nullptr, offsets.data(), ends.data(), nodes.data(), bits.data(), &tally);
     Woven woven;
     for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
         WovenPartition p;

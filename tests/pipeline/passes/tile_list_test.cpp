@@ -14,7 +14,7 @@ using namespace csgrt;
 
 TEST_CASE("a batch's tiles are listed once each, those that cost most first, the dearest in parts") {
     Device device(test::compiling_device());
-    TileList list(device);
+    TileListPass list(device);
     list.build();
     std::mt19937 random(3);
     BatchBuffers buffers(device);
@@ -33,12 +33,12 @@ TEST_CASE("a batch's tiles are listed once each, those that cost most first, the
         }
         buffers.costs = Buffer(device, "costs", costs);
         const RayBatch batch{70 * tile_rays, tiles * tile_rays};
-        buffers.tally.reserve(batch.tally_bytes());
-        buffers.tally.queue_fill(0, batch.tally_bytes());
+        buffers.report.reserve(BatchBuffers::report_bytes(batch));
+        buffers.report.queue_fill(0, BatchBuffers::report_bytes(batch));
         for (const Event& event : list.list(batch, buffers, most_in_parts)) wait_for(event);
-        const auto tally = buffers.tally.read<kernel::BatchReport>(1).front();
-        const auto entries = buffers.rays.read<std::uint32_t>(tiles);
-        const auto bytes = buffers.tally.read<std::uint8_t>(sizeof tally + tiles);
+        const auto tally = buffers.report.read<kernel::BatchReport>(1).front();
+        const auto entries = buffers.tiles.read<std::uint32_t>(tiles);
+        const auto bytes = buffers.report.read<std::uint8_t>(sizeof tally + tiles);
         CHECK(tally.overflows == 0);
         CHECK(std::all_of(bytes.begin() + sizeof tally, bytes.end(), [](std::uint8_t shows) { return shows == 0; }));
         REQUIRE(tally.entries <= tiles);
@@ -67,7 +67,7 @@ TEST_CASE("a batch's tiles are listed once each, those that cost most first, the
 
 TEST_CASE("tiles that see nothing are background, and the others are left alone") {
     Device device(test::compiling_device());
-    TileList list(device);
+    TileListPass list(device);
     list.build();
     kernel::Frame frame{};
     frame.width = 100;
@@ -78,15 +78,15 @@ TEST_CASE("tiles that see nothing are background, and the others are left alone"
         const std::uint32_t across = kernel::tiles_across(screen), all = across * kernel::tiles_down(screen);
         const std::uint32_t first = across + 2, end = all - 1;  // begins and ends within a row
         const RayBatch batch{first * tile_rays, (end - first) * tile_rays};
-        const Rectangle lines = lines_of(frame, first, end);
-        frame.lines = static_cast<std::uint32_t>(lines.lines());
+        const Rectangle lines = rows_of(frame, first, end);
+        frame.rows = static_cast<std::uint32_t>(lines.lines());
         std::vector<unsigned char> costs(end - first);
         for (std::size_t i = 0; i < costs.size(); ++i) costs[i] = i % 3 == 0 ? 7 : 0;
         const Buffer on_device(device, "costs", costs);
-        kernel::PlaneValues background{};
+        kernel::ChannelValues background{};
         for (int p = 0; p < 3; ++p) background.of[p] = 10.0f + static_cast<float>(p);
         const Buffer picture(device, "lines", std::vector<float>(3 * lines.size(), -1));
-        wait_for(list.put_background(frame, batch, on_device, background, 3, picture));
+        wait_for(list.write_background(frame, batch, on_device, background, 3, picture));
         const auto pixels = picture.read<float>(3 * lines.size());
         std::vector<float> expected(pixels.size(), -1);
         for (std::uint32_t ray = batch.first; ray < batch.first + batch.rays; ++ray) {

@@ -30,7 +30,7 @@ void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_co
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 1'000'003);
 
     std::vector<float> pixels(std::size_t{width} * height, -1);
-    std::vector<ChannelPlane> planes;
+    std::vector<ChannelMemory> planes;
     for (std::size_t p = 0; p < plane_count; ++p) planes.push_back({pixels.data(), -2 - static_cast<float>(p)});
     // Tiles that hold something else, some of them drawn anew; the others are left as they are.
     const std::uint32_t all_across = (width + TILE - 1) / TILE;
@@ -80,7 +80,7 @@ TEST_CASE("a frame that sees nothing clears all of the picture") {
     frame.width = 50;
     frame.height = 21;
     std::vector<float> pixels(50 * 21, 4);
-    const std::vector<ChannelPlane> planes{{pixels.data(), 7}};
+    const std::vector<ChannelMemory> planes{{pixels.data(), 7}};
     std::vector<std::uint8_t> holds(7 * 3, 1);
     clear_around(frame, {planes, holds});
     CHECK(pixels == std::vector<float>(50 * 21, 7));

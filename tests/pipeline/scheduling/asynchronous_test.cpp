@@ -17,7 +17,7 @@
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"
 #include "sanitized.hpp"
-#include "stress/build.hpp"
+#include "bench/stress/build.hpp"
 
 using namespace csgrt;
 
@@ -48,14 +48,14 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
     Device first(settings.device);
     const Pipeline needs(first, compiled, *kernels, settings);
     Device device(settings.device, room ? first.allocated() + room : 0);
-    Pipeline pipeline(device, compiled, *kernels, settings, Readback::lines);
+    Pipeline pipeline(device, compiled, *kernels, settings, Readback::asynchronous);
 
     Framebuffer framebuffer;
     Channels pixels;
     std::vector<std::uint8_t> drawn;
     std::vector<float> background;
     std::uint32_t most_batches = 0;
-    std::optional<KnownPicture> known;
+    std::optional<RegisteredMemory> registered;
     for (const double azimuth : {35.0, 80.0, 200.0}) {
         View view;
         view.width = 77;
@@ -64,10 +64,10 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
         view.every_partition = every_partition;
         renderer.render(view, framebuffer);
         const Image& image = framebuffer.image();
-        std::vector<ChannelPlane> planes;
+        std::vector<ChannelMemory> planes;
         if (pixels.empty()) {
             pixels = Channels(77 * 61, std::vector<float>(image.channels.size(), -1));
-            known.emplace(pixels[0].data(), pixels.size() * pixels[0].size() * sizeof(float));
+            registered.emplace(pixels[0].data(), pixels.size() * pixels[0].size() * sizeof(float));
             drawn.assign(10 * 8, 1);
             background.assign(image.channels.size(), 0);
             background[0] = 0.2f;
@@ -76,13 +76,13 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
         }
         for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), background[p]});
         if (is_known && azimuth == 80) {  // what there is stays there
-            known->make_known(device);
-            REQUIRE(known->is_known_to(device));
-            REQUIRE_FALSE(known->is_known_to(first));
+            registered->add(device);
+            REQUIRE(registered->has(device));
+            REQUIRE_FALSE(registered->has(first));
         }
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
-        const RenderTarget target{.planes = planes, .drawn = drawn, .known = &*known};
+        const RenderTarget target{.channels = planes, .covered = drawn, .registered = &*registered};
         pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), target, nullptr, counts);
         clear_around(prepared.frame, target);
         pipeline.finish();
@@ -103,7 +103,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
     const PreparedFrame prepared = prepare_frame(compiled, none, renderer.statistics().tolerance);
     std::vector<std::uint8_t> tiles(25, 1);
     PipelineCounts counts;
-    const RenderTarget nothing{.planes = {}, .drawn = tiles};
+    const RenderTarget nothing{.channels = {}, .covered = tiles};
     pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), nothing, nullptr, counts);
     pipeline.finish();
     CHECK(renderer.render(none).channels.empty());
@@ -115,7 +115,7 @@ namespace {
 struct Lined {
     /// `room`: bytes of device memory beside the scene's; 0: all that there is. `most_rays`: of a batch.
     explicit Lined(const Scene& scene, std::uint64_t room = 0, std::uint64_t most_rays = Pipeline::most_rays_drawn,
-                   Readback readback = Readback::lines)
+                   Readback readback = Readback::asynchronous)
         : renderer(scene, {}, settings), compiled(compile(scene, {})),
           kernels(make_kernels(compiled, settings.precision, settings.quartic)),
           device(settings.device, room ? bytes_of_scene() + room : 0),
@@ -138,11 +138,11 @@ struct Lined {
         Image image = renderer.render(view);
         const std::size_t size = std::size_t(width) * std::size_t(height);
         Channels pixels(size, std::vector<float>(image.channels.size(), -1));
-        std::vector<ChannelPlane> planes;
+        std::vector<ChannelMemory> planes;
         for (std::size_t p = 0; p < pixels.size(); ++p)
             planes.push_back({pixels[p].data(), image.names[p] == "Z" ? std::numeric_limits<float>::infinity() : 0.0f});
         std::vector<std::uint8_t> drawn((width + TILE - 1) / TILE * ((height + TILE - 1) / TILE), 1);
-        const RenderTarget target{.planes = planes, .drawn = drawn};
+        const RenderTarget target{.channels = planes, .covered = drawn};
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
         std::uint64_t done = 0;
@@ -266,13 +266,13 @@ TEST_CASE("pixels by lines: every partition of batches that need more than those
         const PipelineCounts counts = lined.draw(403, 361, true, 1 << 20);
         CHECK(counts.batches > 2);
         batches += counts.batches;
-        again += counts.drawn_again;
+        again += counts.retried;
         lined.draw(250, 300, true, 300 * tile_rays);
     }
     CHECK(again > 0);
     CHECK(again < batches / 4);
     lined.azimuth = 0;
-    CHECK(lined.draw(403, 361, true, 1 << 20).drawn_again == 0);  // there is room for all by now
+    CHECK(lined.draw(403, 361, true, 1 << 20).retried == 0);  // there is room for all by now
 }
 
 TEST_CASE("pixels by lines: every partition of batches that need more than those before, in little memory") {
@@ -283,7 +283,7 @@ TEST_CASE("pixels by lines: every partition of batches that need more than those
         Lined lined(scene, room, 4096);
         for (const double azimuth : {35, 120, 90}) {
             lined.azimuth = azimuth;
-            again += lined.draw(203, 161, true, 1 << 20).drawn_again;
+            again += lined.draw(203, 161, true, 1 << 20).retried;
         }
     }
     CHECK(again > 0);
@@ -322,17 +322,17 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     PreparedFrame prepared = prepare_frame(lined.compiled, view, lined.renderer.statistics().tolerance);
     const auto rays = static_cast<std::uint32_t>(prepared.rays);
     prepared.frame.ray_count = rays;
-    prepared.frame.lines = prepared.frame.screen.bottom - prepared.frame.screen.top;
+    prepared.frame.rows = prepared.frame.screen.bottom - prepared.frame.screen.top;
     Device device(lined.settings.device);
-    FirstHits first_hits(device, lined.compiled, lined.settings);
-    const SceneBuffers scene(device, lined.compiled, lined.kernels->tables());
+    FirstHitPass first_hits(device, lined.compiled, lined.settings);
+    const SceneTables scene(device, lined.compiled, lined.kernels->tables());
     BatchBuffers batch(device);
-    TileList list(device);
+    TileListPass list(device);
     list.build();
     batch.frame = Buffer(device, "frame", lined.kernels->frame(prepared.frame));
     wait_for(first_hits.cull().launch(scene, batch, prepared.frame));
-    for (const Event& event : list.list({0, rays}, batch, TileList::most_in_parts(device))) wait_for(event);
-    const auto entries = batch.rays.read<std::uint32_t>(batch.tally.read<kernel::BatchReport>(1).front().entries);
+    for (const Event& event : list.list({0, rays}, batch, TileListPass::most_in_parts(device))) wait_for(event);
+    const auto entries = batch.tiles.read<std::uint32_t>(batch.report.read<kernel::BatchReport>(1).front().entries);
     return static_cast<std::size_t>(std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));
 }
 
@@ -373,7 +373,7 @@ TEST_CASE("pixels by lines: few tiles with more to see than all others, whose ra
         CHECK((whole.segments > 0) == has_shells);
         CHECK((parts.segments > 0) == has_shells);
     }
-    if (TileList::most_in_parts(lined.device) >= 8) CHECK(listed >= 8);  // one processor alone may find them too many
+    if (TileListPass::most_in_parts(lined.device) >= 8) CHECK(listed >= 8);  // one processor alone may find them too many
 }
 
 TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
@@ -394,15 +394,15 @@ TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and 
 
 TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last one, and one that sees nothing") {
     Lined lined(bench::scene_of_parts(20));
-    Pipelines pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
-                        Readback::lines);
+    DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
+                        Readback::asynchronous);
     View view;
     view.width = 1600;
     view.height = 1000;
     view.camera.view_size = lined.compiled.radius;  // from edge to edge
     view.channels = channel::color | channel::ids;
     Channels pixels(1600 * 1000, std::vector<float>(6));
-    std::vector<ChannelPlane> planes;
+    std::vector<ChannelMemory> planes;
     for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), 0});
     std::vector<std::uint8_t> drawn(200 * 125);
     for (const bool every_partition : {false, true})
@@ -416,7 +416,7 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
             CHECK((prepared.rays > 0) == sees);
             double told = 0;
             PipelineCounts counts;
-            pipelines.render(prepared, {.planes = planes, .drawn = drawn}, [&](double part) { told = part; return true; }, counts);
+            pipelines.render(prepared, {.channels = planes, .covered = drawn}, [&](double part) { told = part; return true; }, counts);
             CHECK(told == 1);
             if (sees && !every_partition) CHECK(counts.batches > 1);
             Image packed = image;
@@ -424,7 +424,7 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
             test::require_same(packed, image);
             CHECK((std::count(drawn.begin(), drawn.end(), 0) < std::ptrdiff_t(drawn.size())) == sees);
         }
-    CHECK_THROWS_AS(pipelines.render(prepare_frame(lined.compiled, view), {.planes = planes, .drawn = drawn},
+    CHECK_THROWS_AS(pipelines.render(prepare_frame(lined.compiled, view), {.channels = planes, .covered = drawn},
                                      [](double) { return false; }, *std::make_unique<PipelineCounts>()),
                     Error);
 }

@@ -5,7 +5,7 @@
 #include <csgrt/scene_io.hpp>
 
 #include "catch.hpp"
-#include "pipeline/host_kernels.hpp"
+#include "kernels/host_kernels.hpp"
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"
 

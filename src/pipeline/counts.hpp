@@ -1,0 +1,29 @@
+// What the pipeline counts and times.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "device/opencl.hpp"
+
+namespace csgrt {
+
+/// Figures of one frame, summed over its batches. Times are the device's own, in milliseconds.
+struct PipelineCounts {
+    std::uint64_t hits = 0, segments = 0, partitions_used = 0, partitions_allocated = 0, overlaps = 0;
+    std::uint64_t segment_bytes = 0, partition_bytes = 0;
+    std::uint32_t batches = 0, retried = 0;  ///< retried: batches for which the buffers at hand did not do
+    double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
+    double cull_tiles = 0, first_hits = 0;
+
+    PipelineCounts& operator+=(const PipelineCounts& other);
+};
+
+/// Kernels that run or have run, each with the figure that its time is added to.
+using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
+
+/// Adds up how long kernels took. Waits for them.
+void add_times(const TimedKernels& timed, PipelineCounts& counts);
+
+}  // namespace csgrt

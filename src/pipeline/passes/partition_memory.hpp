@@ -1,0 +1,76 @@
+// What the five kernels hand on for a batch's rays, on the device.
+//
+//   kernel             1 count hits | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
+//   candidate places   w r            r
+//   ... ray tallies                                      w                     r w
+//   candidates         w r            r
+//   found segments     w              r
+//   ... partitions                                       w         w           r
+//   offsets            w              r                  r         r           r
+//   ends, bits                        w                  r w       r           r
+//
+// Two pairs share memory on purpose: the lines that begin with dots take the place of the line above once it was read.
+#pragma once
+
+#include <cstdint>
+
+#include "compile/host_kernels.hpp"
+#include "device/program.hpp"
+
+namespace csgrt {
+
+/// What rays need, or what the buffers have room for.
+struct PartitionSizes {
+    std::uint32_t candidates = 0;
+    kernel::RayCount total{};  ///< segments, and words of partitions' bits
+
+    bool fit(const PartitionSizes& capacity) const {
+        return candidates <= capacity.candidates && total.segments <= capacity.total.segments && total.words <= capacity.total.words;
+    }
+};
+
+class PartitionMemory {
+public:
+    PartitionMemory(Device& device, const HostKernels& kernels);
+
+    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::RayCount, one a ray and one behind
+    Buffer& ray_tallies() { return ray_counts_; }       ///< kernel::RayTally, one a ray
+    Buffer& offsets() { return offsets_; }              ///< kernel::RayCount, one a ray and one behind
+    Buffer& candidates() { return candidates_; }        ///< kernel::Candidate
+    Buffer& found() { return found_; }                  ///< two kernel::End a candidate
+    Buffer& partitions() { return found_; }             ///< two kernel::PartitionNode a segment
+    Buffer& ends() { return ends_; }                    ///< two kernel::End a segment
+    Buffer& bits() { return bits_; }                    ///< words
+    Buffer& tally_sums() { return tally_sums_; }        ///< kernel::RayTally, one a scan block
+
+    /// Bytes of a ray whatever it hits.
+    static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayTally);
+
+    /// Each makes room and returns true, or returns false if there is not enough device memory. Buffers only grow, unless they
+    /// would not fit.
+    bool reserve_rays(std::uint32_t rays);
+    bool reserve_candidates(std::uint32_t candidates);
+    bool reserve_segments(const kernel::RayCount& total);
+    /// After kernel 2, once it is queued: the memory of what it found becomes that of partitions.
+    void reserve_partitions(std::uint32_t segments) { found_.reserve(partition_bytes(segments)); }
+
+    bool holds_rays(std::uint32_t rays) const;
+    PartitionSizes capacity() const;
+    std::uint64_t held() const;
+    void release();          ///< gives all memory back
+    void release_counted();  ///< only what depends on what rays hit
+
+private:
+    static std::uint64_t partition_bytes(std::uint32_t segments) { return 2 * std::uint64_t{segments} * sizeof(kernel::PartitionNode); }
+    std::uint64_t segment_bytes() const { return 2 * std::uint64_t{end_bytes_}; }
+
+    Device& device_;
+    std::size_t end_bytes_;  ///< of kernel::End in the program's precision
+    Buffer ray_counts_, offsets_, candidates_, found_, ends_, bits_, tally_sums_;
+};
+
+/// Entries that one group of kernels/scan.cl sums.
+inline constexpr std::uint32_t scan_block = 1024;
+constexpr std::uint32_t scan_blocks_of(std::uint32_t entries) { return (entries + scan_block - 1) / scan_block; }
+
+}  // namespace csgrt

@@ -1,0 +1,36 @@
+#include "pipeline/passes/program_options.hpp"
+
+#include <algorithm>
+
+namespace csgrt {
+namespace {
+
+/// Lights that are not plain points, that glow, or that are regions which no picture shows.
+bool has_shaped_lights(const CompiledScene& scene) {
+    const auto is_shaped = [](const kernel::LightRecord& light) { return light.w == 0 || light.beam; };
+    const auto glows = [](const kernel::MaterialRecord& material) { return material.glow != 0; };
+    return scene.rank_ends[RANK_HIDDEN] > scene.rank_ends[RANK_AIR] ||
+           std::any_of(scene.lights.begin(), scene.lights.end(), is_shaped) ||
+           std::any_of(scene.materials.begin(), scene.materials.end(), glows);
+}
+
+}  // namespace
+
+std::size_t divergent_group(const Device& device) { return device.info().type == "cpu" ? 1 : work_group; }
+
+bool traces_packets(const Device& device, const Settings& settings) {
+    return device.info().type == "cpu" && settings.precision == Precision::double_;
+}
+
+std::vector<std::string> program_options(const Device& device, const CompiledScene& scene, const Settings& settings) {
+    std::vector<std::string> options = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
+                                        "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
+    if (settings.precision == Precision::single) options.push_back("CSGRT_EYE_RELATIVE");
+    if (settings.contraction) options.push_back("CSGRT_CONTRACT");
+    if (traces_packets(device, settings)) options.push_back("CSGRT_PACKETS");
+    if (scene.has_large_terms) options.push_back("CSGRT_LARGE_TERMS");
+    if (has_shaped_lights(scene)) options.push_back("CSGRT_SHAPED_LIGHTS");
+    return options;
+}
+
+}  // namespace csgrt

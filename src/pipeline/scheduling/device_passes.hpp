@@ -1,0 +1,71 @@
+// One device with the scene on it, and the passes that its batches go through.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "compile/frame.hpp"
+#include "pipeline/passes/first_hits.hpp"
+#include "pipeline/passes/partitions.hpp"
+#include "pipeline/passes/tile_list.hpp"
+#include "pipeline/readback/picture.hpp"
+#include "pipeline/scheduling/batch_source.hpp"
+#include "pipeline/scheduling/memory_plan.hpp"
+
+namespace csgrt {
+
+/// Is told how many more rays are done. What it throws ends the work.
+using Told = std::function<void(std::uint64_t rays)>;
+
+/// What the batches of a frame have in common.
+struct FrameJob {
+    const kernel::Frame& frame;
+    BatchSource& source;
+    const RenderTarget& target;
+    const Told& told;
+    PipelineCounts& counts;
+
+    FrameShape shape() const { return shape_of(frame, target.channels.size()); }
+    /// A batch is done.
+    void tell(std::uint32_t rays) const {
+        ++counts.batches;
+        if (told) told(rays);
+    }
+};
+
+/// Passes are compiled when they are first used. All that is given must outlive this.
+class DevicePasses {
+public:
+    DevicePasses(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
+
+    Device& device;
+    const CompiledScene& scene;
+    const HostKernels& kernels;
+    SceneTables tables;
+
+    FirstHitPass& first_hits();
+    PartitionPass& partitions();
+    TileListPass& tile_list();
+    CullPass& cull(const kernel::Frame& frame) { return frame.every_partition ? partitions().cull() : first_hits().cull(); }
+    double build_ms() const { return build_ms_; }  ///< spent on compiling so far
+
+    std::uint64_t held() const { return partitions_ ? partitions_->held() : 0; }
+    void release() {
+        if (partitions_) partitions_->release();
+    }
+    void forget_tallies() noexcept {
+        if (partitions_) partitions_->forget_tallies();
+    }
+
+private:
+    template <class Build>
+    void timed_build(const Build& build);
+
+    Settings settings_;
+    std::optional<FirstHitPass> first_hits_;
+    std::optional<PartitionPass> partitions_;
+    TileListPass tile_list_;
+    double build_ms_ = 0;
+};
+
+}  // namespace csgrt

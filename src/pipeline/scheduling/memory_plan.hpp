@@ -1,0 +1,39 @@
+// How many rays go into a batch, and how much device memory it takes. Numbers alone: no device, no buffers.
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/batch.hpp"
+
+namespace csgrt {
+
+/// What of a frame decides about memory.
+struct FrameShape {
+    std::uint32_t tiles_across = 0, tiles_down = 0;  ///< of the screen bounds
+    std::uint64_t pixel_bytes = 0;                   ///< of all channels of a pixel
+    bool every_partition = false;
+};
+FrameShape shape_of(const kernel::Frame& frame, std::size_t channels);
+
+struct DeviceMemory {
+    std::uint64_t available = 0;   ///< bytes that are free
+    std::uint64_t held = 0;        ///< bytes that the pipeline holds and may give back
+    std::uint64_t max_buffer = 0;  ///< bytes of one buffer at most
+};
+
+struct MemoryPlan {
+    std::uint64_t ray_bytes = 0;   ///< of a ray, whatever it hits, with all batches that are underway at a time
+    std::uint64_t batch_rays = 1;  ///< at most; less than a tile if the memory holds no more
+};
+
+/// `underway`: batches that have memory at a time. `most_rays`: of a batch. A quarter of the memory is for what is known
+/// beforehand; the rest is for segments and partitions.
+MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std::uint32_t underway, std::uint64_t most_rays);
+
+/// Rays that the same quarter holds, of `ray_bytes` each.
+std::uint64_t rays_fitting(const DeviceMemory& memory, std::uint64_t ray_bytes);
+
+/// Bytes of a batch of whole tiles, but for its picture and its partitions: its frame (`frame_bytes`), costs, lists and report.
+std::uint64_t batch_bytes(const FrameShape& frame, const RayBatch& batch, std::uint64_t frame_bytes);
+
+}  // namespace csgrt

@@ -1,0 +1,176 @@
+#include "pipeline/scheduling/synchronous.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace csgrt {
+namespace {
+
+/// Gives each batch of the source to `work`; one that does not fit the memory (false) comes again in halves.
+template <class Work>
+void for_each_batch(BatchSource& source, const Device& device, const Work& work) {
+    for (RayBatch batch = source.next(); batch.rays > 0; batch = source.next())
+        if (!work(batch)) source.halve(batch, device.budget());
+}
+
+}  // namespace
+
+SynchronousSchedule::SynchronousSchedule(DevicePasses& passes, std::function<bool()> reclaim)
+    : passes_(passes), reclaim_(std::move(reclaim)), batch_(passes.device), picture_(passes.device, "picture") {}
+
+DeviceMemory SynchronousSchedule::memory() const {
+    const Device& device = passes_.device;
+    return {.available = device.available(), .held = held() + passes_.held(), .max_buffer = device.max_buffer()};
+}
+
+// `reused`: bytes of it that this holds already.
+void SynchronousSchedule::make_room(std::uint64_t bytes, std::uint64_t reused) {
+    if (bytes <= passes_.device.available() + reused) return;
+    batch_.release_lists();
+    reclaim_();
+    passes_.release();
+}
+
+void SynchronousSchedule::start_work(kernel::Frame& frame, Work work, std::span<const std::uint32_t> numbers,
+                                     std::uint64_t pixel_bytes, std::uint64_t ray_bytes) {
+    Buffer& list = work == Work::tiles ? batch_.tiles : batch_.pixels;
+    frame.ray_count = static_cast<std::uint32_t>(numbers.size()) * (work == Work::tiles ? tile_rays : 1);
+    frame.work = static_cast<std::uint32_t>(work);
+    const std::uint64_t picture = frame.ray_count * pixel_bytes, list_bytes = numbers.size_bytes();
+    make_room(picture + list_bytes + frame.ray_count * ray_bytes,
+              std::min<std::uint64_t>(picture, picture_.size()) + std::min<std::uint64_t>(list_bytes, list.size()));
+    picture_.reserve(picture);
+    list_upload_.start<std::uint32_t>(list, numbers);
+    upload(frame);
+}
+
+// Memory that others hold is taken before a smaller batch.
+std::optional<PartitionSizes> SynchronousSchedule::trace(const PartitionPass::Input& input, TimedKernels& timed) {
+    if (auto sizes = passes_.partitions().trace_counted(input, timed)) return sizes;
+    if (!reclaim_()) return {};
+    return passes_.partitions().trace_counted(input, timed);
+}
+
+void SynchronousSchedule::finish_trace(std::uint32_t rays, bool are_tallied, TimedKernels& timed, PipelineCounts& counts) {
+    PartitionPass& pass = passes_.partitions();
+    if (are_tallied) pass.sum_tallies(rays, timed);
+    passes_.device.finish();
+    pass.fetch_tallies();
+    if (are_tallied) pass.add_tallies(counts);
+    add_times(timed, counts);
+}
+
+void SynchronousSchedule::render(const FrameJob& job) {
+    for_each_batch(job.source, passes_.device, [&](const RayBatch& batch) {
+        if (!batch.is_whole_tiles())
+            draw_part_of_tile(job, batch);
+        else if (!draw_tiles(job, batch))
+            return false;
+        job.tell(batch.rays);
+        return true;
+    });
+}
+
+// False: the batch does not fit the memory.
+bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch) {
+    kernel::Frame frame = job.frame;
+    frame.first_ray = batch.first;
+    frame.ray_count = batch.rays;
+    make_room(CullPass::bytes(batch.rays), batch_.costs.size() + batch_.tile_nodes.size());
+    upload(frame);
+    const Event culled = passes_.cull(frame).launch(passes_.tables, batch_, frame);
+    const std::vector<std::uint32_t> seen = CullPass::seen(batch, batch_);
+    job.counts.cull_tiles += milliseconds(culled);
+
+    const std::uint64_t pixel_bytes = job.shape().pixel_bytes;
+    std::vector<std::uint32_t> overflown;
+    if (!seen.empty()) {
+        start_work(frame, Work::tiles, seen, pixel_bytes,
+                   frame.every_partition ? PartitionMemory::ray_bytes : FirstHitPass::ray_bytes);
+        if (!frame.every_partition)
+            draw_first_hits(job, frame.ray_count, overflown);
+        else if (!draw_partitions(job, Work::tiles, frame.ray_count, true))
+            return false;
+    }
+    {
+        const Buffer::Mapping picture = picture_.map(seen.size() * tile_rays * pixel_bytes);
+        put_tiles(frame, batch.first_tile(), batch.end_tile(), seen, static_cast<const float*>(picture.data()), job.target);
+    }
+    draw_pixels(job, overflown);
+    return true;
+}
+
+void SynchronousSchedule::draw_first_hits(const FrameJob& job, std::uint32_t rays, std::vector<std::uint32_t>& overflown) {
+    batch_.report.reserve(sizeof(kernel::BatchReport));
+    batch_.report.queue_fill(0, sizeof(kernel::BatchReport));
+    const TimedKernels timed = passes_.first_hits().launch(passes_.tables, batch_, picture_, rays);
+    overflown = batch_.overflown.read<std::uint32_t>(batch_.report.read<kernel::BatchReport>(1).front().overflows);
+    add_times(timed, job.counts);
+}
+
+bool SynchronousSchedule::draw_partitions(const FrameJob& job, Work work, std::uint32_t rays, bool are_tallied) {
+    PartitionPass& pass = passes_.partitions();
+    const PartitionPass::Input input{passes_.tables, batch_, work, rays};
+    TimedKernels timed;
+    const auto sizes = trace(input, timed);
+    if (!sizes) return false;
+    pass.shade(input, picture_, timed);
+    pass.add_sizes(*sizes, rays, job.counts);
+    finish_trace(rays, are_tallied, timed, job.counts);
+    return true;
+}
+
+void SynchronousSchedule::draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers) {
+    const std::uint64_t pixel_bytes = job.shape().pixel_bytes;
+    const std::uint64_t ray_bytes = pixel_bytes + sizeof(std::uint32_t) + PartitionMemory::ray_bytes;
+    bool is_taken = false;
+    BatchSource source([&] { return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, numbers.size()}; },
+                       [&] { return rays_fitting(memory(), ray_bytes); }, 0);
+    for_each_batch(source, passes_.device, [&](const RayBatch& batch) {
+        const auto some = numbers.subspan(batch.first, batch.rays);
+        kernel::Frame frame = job.frame;
+        start_work(frame, Work::pixels, some, pixel_bytes, PartitionMemory::ray_bytes);
+        if (!draw_partitions(job, Work::pixels, batch.rays, frame.every_partition)) return false;
+        const Buffer::Mapping picture = picture_.map(some.size() * pixel_bytes);
+        put_rays(frame, some, static_cast<const float*>(picture.data()), job.target);
+        return true;
+    });
+}
+
+void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch& batch) {
+    std::vector<std::uint32_t> numbers(batch.rays);
+    std::iota(numbers.begin(), numbers.end(), batch.first);
+    draw_pixels(job, numbers);
+}
+
+void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> rays, BatchSource& source, RayPartitions* answers,
+                                const Told& told, PipelineCounts& counts) {
+    PartitionPass& pass = passes_.partitions();
+    picture_.release();
+    for_each_batch(source, passes_.device, [&](const RayBatch& batch) {
+        const std::span<const Ray> some = rays.subspan(batch.first, batch.rays);
+        make_room(batch.rays * shot_ray_bytes(), batch_.rays.size());
+        batch_.rays.reserve(batch.rays * passes_.kernels.ray_bytes());
+        batch_.rays.upload(passes_.kernels.rays(some));
+        kernel::Frame frame = shot;
+        frame.ray_count = batch.rays;
+        upload(frame);
+        TimedKernels timed;
+        const auto sizes = trace({passes_.tables, batch_, Work::rays, batch.rays}, timed);
+        if (!sizes) return false;
+        pass.add_sizes(*sizes, batch.rays, counts);
+        finish_trace(batch.rays, true, timed, counts);
+        const TracedPartitions traced = pass.read(batch.rays);
+        for (std::uint32_t i = 0; i < batch.rays; ++i) {
+            const std::vector<ClaimedPartition> claims = claimed_partitions(passes_.scene, traced, i);
+            answers[batch.first + i] = to_partitions(passes_.kernels, shot, some[i], claims);
+            for (const ClaimedPartition& claim : claims) counts.overlaps += !claim.claimants.empty();
+        }
+        ++counts.batches;
+        if (told) told(batch.rays);
+        return true;
+    });
+}
+
+}  // namespace csgrt

@@ -1,0 +1,50 @@
+// One batch at a time: the host reads which of its tiles see anything, has kernels run for these alone, and reads their pixels.
+// So processors draw, which share the host's memory. On every device, so single pixels and lists of rays are traced.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "pipeline/scheduling/device_passes.hpp"
+
+namespace csgrt {
+
+class SynchronousSchedule {
+public:
+    /// `reclaim` gives back device memory that others hold for later; false: they held none.
+    SynchronousSchedule(DevicePasses& passes, std::function<bool()> reclaim);
+
+    void render(const FrameJob& job);
+    /// Every partition of single pixels, by their rays' numbers, and what is seen of them.
+    void draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers);
+    /// The pixels of a batch that is less than a tile.
+    void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
+    /// Answers the rays that `source` gives, by number.
+    void shoot(const kernel::Frame& frame, std::span<const Ray> rays, BatchSource& source, RayPartitions* answers, const Told& told,
+               PipelineCounts& counts);
+
+    std::uint64_t shot_ray_bytes() const { return passes_.kernels.ray_bytes() + PartitionMemory::ray_bytes; }
+    std::uint64_t held() const { return batch_.held() + picture_.size(); }
+
+private:
+    DeviceMemory memory() const;
+    bool draw_tiles(const FrameJob& job, const RayBatch& batch);
+    void draw_first_hits(const FrameJob& job, std::uint32_t rays, std::vector<std::uint32_t>& overflown);
+    bool draw_partitions(const FrameJob& job, Work work, std::uint32_t rays, bool are_tallied);
+    std::optional<PartitionSizes> trace(const PartitionPass::Input& input, TimedKernels& timed);
+    void finish_trace(std::uint32_t rays, bool are_tallied, TimedKernels& timed, PipelineCounts& counts);
+    void make_room(std::uint64_t bytes, std::uint64_t reused);
+    void upload(const kernel::Frame& frame) { frame_upload_.start<std::byte>(batch_.frame, passes_.kernels.frame(frame)); }
+    /// Makes the frame one of the rays that are listed, uploads both and makes room for their pixels.
+    void start_work(kernel::Frame& frame, Work work, std::span<const std::uint32_t> numbers, std::uint64_t pixel_bytes,
+                    std::uint64_t ray_bytes);
+
+    DevicePasses& passes_;
+    std::function<bool()> reclaim_;
+    BatchBuffers batch_;
+    Buffer picture_;  ///< of each channel a float a ray
+    QueuedUpload frame_upload_, list_upload_;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,52 @@
+// Who draws and shoots: devices, or the CPU reference. The renderer knows this interface alone.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+#include "base/progress.hpp"
+#include "compile/frame.hpp"
+#include "pipeline/readback/registered_memory.hpp"
+#include "pipeline/readback/picture.hpp"
+#include "render/channel_table.hpp"
+
+namespace csgrt {
+
+/// The memory of a frame's picture.
+struct FrameMemory {
+    std::span<const ChannelMemory> channels;
+    std::span<const ChannelSource* const> sources;  ///< what each channel is
+    std::vector<std::uint8_t>& covered;             ///< of each tile: 0 if it holds nothing but background
+    std::uint64_t& drawn_by;                        ///< the number of the backend that drew last; 0: none
+    std::shared_ptr<RegisteredMemory>& registered;  ///< with that backend's devices
+};
+
+/// One thread at a time. All calls throw Error (device_fault, out_of_memory, interrupted).
+class Backend {
+public:
+    virtual ~Backend() = default;
+
+    /// Before each call of render() or shoot() of that kind: waits until somebody has the kernels for it.
+    virtual void prepare(bool every_partition) = 0;
+    virtual void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) = 0;
+    virtual std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) = 0;
+
+    /// Writes who drew last, what was counted and how long it took.
+    virtual void report(Statistics& statistics) const = 0;
+    /// How such calls are answered, in words.
+    virtual std::string method(bool every_partition) const = 0;
+    /// Milliseconds of the last prepare() and the call after it that went into building kernels.
+    virtual double build_ms_in_call() const { return 0; }
+    /// The device that will take over, see Statistics::awaited_device.
+    virtual std::string awaited() const { return {}; }
+    /// What kept a device that nobody named from taking over, once.
+    virtual std::optional<std::string> take_fault() { return {}; }
+};
+
+}  // namespace csgrt

@@ -1,0 +1,84 @@
+#include "render/device_backend.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/clock.hpp"
+
+namespace csgrt {
+
+DeviceBackend::DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+                             double search_ms)
+    : search_ms_(search_ms),
+      takeover_(
+          std::move(plan),
+          [&scene, &kernels, settings](const std::vector<FoundDevice>& devices) {
+              return std::make_unique<DeviceGroup>(devices, scene, kernels, settings);
+          },
+          settings.wait_for_device) {}
+
+void DeviceBackend::prepare(bool every_partition) {
+    const auto start = Clock::now();
+    drawer_ = &takeover_.drawer(every_partition);
+    build_ms_in_call_ = milliseconds_since(start);
+}
+
+template <class Call>
+void DeviceBackend::counted(const Call& call) {
+    const double built_ms = drawer_->build_ms();
+    counts_ = {};
+    call();
+    build_ms_in_call_ += drawer_->build_ms() - built_ms;
+}
+
+void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) {
+    const std::size_t pixels = std::size_t{frame.frame.width} * frame.frame.height;
+    if (std::exchange(memory.drawn_by, drawer_->number()) != drawer_->number())
+        memory.registered = nullptr;
+    else if (!memory.registered)
+        memory.registered = drawer_->register_memory(memory.channels, pixels);
+    const RenderTarget target{.channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
+    try {
+        counted([&] { drawer_->render(frame, target, progress, counts_); });
+    } catch (...) {  // pixels may be missing of tiles that are covered
+        std::ranges::fill(memory.covered, std::uint8_t{1});
+        throw;
+    }
+}
+
+std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) {
+    std::vector<RayPartitions> answers;
+    counted([&] { answers = drawer_->shoot(frame, rays, progress, counts_); });
+    return answers;
+}
+
+std::string DeviceBackend::method(bool every_partition) const {
+    return every_partition ? "five kernels, exact counts" : "first hits, front to back";
+}
+
+void DeviceBackend::report(Statistics& statistics) const {
+    const DeviceGroup& group = drawer_ ? *drawer_ : takeover_.present();
+    const PipelineCounts& c = counts_;
+    statistics.device = group.name();
+    statistics.ms.build = search_ms_ + group.build_ms();
+    if (!drawer_) return;
+    statistics.device_bytes = group.device_bytes();
+    statistics.hits = c.hits;
+    statistics.segments = c.segments;
+    statistics.partitions_used = c.partitions_used;
+    statistics.partitions_allocated = c.partitions_allocated;
+    statistics.overlaps = c.overlaps;
+    statistics.segment_bytes = c.segment_bytes;
+    statistics.partition_bytes = c.partition_bytes;
+    statistics.tiles = c.batches;
+    statistics.ms.count_hits = c.count_hits;
+    statistics.ms.scan = c.scan;
+    statistics.ms.store_segments = c.store_segments;
+    statistics.ms.weave = c.weave;
+    statistics.ms.evaluate = c.evaluate;
+    statistics.ms.shade = c.shade;
+    statistics.ms.cull_blocks = c.cull_tiles;
+    statistics.ms.first_hits = c.first_hits;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,19 @@
+// What a picture's header says beside its channels.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <csgrt/renderer.hpp>
+
+#include "compile/frame.hpp"
+
+namespace csgrt {
+
+/// The camera, as graphics programs expect it: matrices worldToCamera and cameraToScreen, row-major.
+void describe_camera(const PreparedFrame& frame, Image& image);
+
+/// Warnings, a line each, as many as a header has room for.
+std::string warnings_attribute(const std::vector<Warning>& warnings);
+
+}  // namespace csgrt

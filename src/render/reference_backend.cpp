@@ -1,0 +1,35 @@
+#include "render/reference_backend.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+
+namespace csgrt {
+
+void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) {
+    std::ranges::fill(memory.covered, std::uint8_t{1});
+    memory.drawn_by = 0;
+    memory.registered = nullptr;
+    counts_ = {};
+    const std::vector<kernel::Pixel> seen = reference_.render(frame, progress, counts_);
+    for_chunks(seen.size(), 16'384, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t c = 0; c < memory.sources.size(); ++c)
+            for (std::size_t i = first; i < last; ++i) memory.channels[c].pixels[i] = memory.sources[c]->value(seen[i]);
+    });
+}
+
+std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) {
+    counts_ = {};
+    return reference_.shoot(frame, rays, progress, counts_);
+}
+
+void ReferenceBackend::report(Statistics& statistics) const {
+    statistics.device = "reference";
+    statistics.hits = counts_.hits;
+    statistics.segments = counts_.segments;
+    statistics.partitions_used = statistics.partitions_allocated = counts_.partitions;
+    statistics.overlaps = counts_.overlaps;
+    statistics.tiles = 1;
+}
+
+}  // namespace csgrt

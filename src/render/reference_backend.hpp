@@ -1,0 +1,27 @@
+// The CPU reference as a backend.
+#pragma once
+
+#include "reference/reference.hpp"
+#include "render/backend.hpp"
+
+namespace csgrt {
+
+class ReferenceBackend final : public Backend {
+public:
+    /// Both must outlive it. `threads`: 0: all.
+    ReferenceBackend(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads)
+        : reference_(scene, kernels, threads), threads_(threads) {}
+
+    void prepare(bool) override {}
+    void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) override;
+    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) override;
+    void report(Statistics& statistics) const override;
+    std::string method(bool) const override { return "every solid near the ray, unique lists"; }
+
+private:
+    Reference reference_;
+    unsigned threads_;
+    ReferenceCounts counts_;
+};
+
+}  // namespace csgrt
