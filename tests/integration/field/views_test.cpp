@@ -122,7 +122,7 @@ std::vector<Lamp> some_lamps(std::uint64_t seed) {
     return lamps;
 }
 
-std::span<const float> channel_of(const Image& image, const char* name) { return *image.channel(name); }
+std::span<const float> channel_of(const Image& image, const char* name) { return image.channel(name); }
 
 /// How many pixels of the face were compared.
 std::size_t check_lamps(std::uint64_t seed) {
