@@ -1,7 +1,7 @@
 // Turns that close, or all but close: revolves by angles at and near a full turn, half a turn and none, and pipes whose bends
 // all but run straight on or turn back. Rays in the planes where the turn begins and ends, across them, through the axis and along it.
 #include "integration/field/judge.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "oracle/scene_solid.hpp"
 #include "bench/stress/build.hpp"
 

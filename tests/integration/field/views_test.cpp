@@ -14,10 +14,10 @@
 #include <vector>
 
 
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/json/reader.hpp"
 #include "formats/json/writer.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "bench/stress/build.hpp"
 #include "integration/stress/check.hpp"

@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
-#include "formats/brlcad_g_writer.hpp"
+#include "formats/brlcad/g/brlcad_g_writer.hpp"
 
 using namespace csgrt;
 using namespace csgrt::g_test;

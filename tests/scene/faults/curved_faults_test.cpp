@@ -1,7 +1,7 @@
 // Which curved solids enclose something, and what is said of those that do not.
 #include "catch.hpp"
 
-#include "scene/check_faults.hpp"
+#include "scene/faults/check_faults.hpp"
 #include "scene/vector.hpp"
 
 using namespace csgrt;

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "formats/brlcad_g_writer.hpp"
+#include "formats/brlcad/g/brlcad_g_writer.hpp"
 
 namespace csgrt::g_test {
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "formats/json/writer.hpp"
 #include "formats/same_scene.hpp"
 #include "sanitized.hpp"

@@ -10,9 +10,9 @@
 #include <csgrt/scene_io.hpp>
 
 #include "formats/json/friendly_solids.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "formats/json/writer.hpp"
-#include "formats/random_shape.hpp"
+#include "formats/json/random_shape.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"
 #include "sanitized.hpp"

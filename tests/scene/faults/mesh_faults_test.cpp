@@ -1,7 +1,7 @@
 // Which meshes and grids of cells enclose something, and what is said of those that do not.
 #include "catch.hpp"
 
-#include "scene/check_faults.hpp"
+#include "scene/faults/check_faults.hpp"
 
 using namespace csgrt;
 

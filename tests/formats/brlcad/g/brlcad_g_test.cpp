@@ -2,10 +2,10 @@
 #include <cmath>
 #include <map>
 
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
-#include "formats/brlcad_g_writer.hpp"
+#include "formats/brlcad/g/brlcad_g_writer.hpp"
 
 using namespace csgrt;
 using namespace csgrt::g_test;

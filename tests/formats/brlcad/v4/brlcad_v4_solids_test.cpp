@@ -1,7 +1,7 @@
 // Solids of BRL-CAD's older text form: every number of each type in its place.
 #include <cmath>
 
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 
 using namespace csgrt;
 using namespace csgrt::asc_test;

@@ -1,5 +1,5 @@
 // Solids of BRL-CAD's newer text form: every number of each type in its place, and what is wrong where.
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 
 using namespace csgrt;
 using namespace csgrt::asc_test;

@@ -1,6 +1,6 @@
 // Which form a text has, files that are none, and BRL-CAD's own models.
-#include "formats/brlcad_asc_text.hpp"
-#include "formats/brlcad_models.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_models.hpp"
 
 using namespace csgrt;
 using namespace csgrt::asc_test;

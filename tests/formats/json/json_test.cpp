@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "formats/json/friendly_solids.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "scene/vector.hpp"
 
 using namespace csgrt;

@@ -1,8 +1,8 @@
 // BRL-CAD's models as binary databases: the same as their text twins.
 #include "formats/brlcad/asc.hpp"
 #include "formats/brlcad/g/reader.hpp"
-#include "formats/brlcad_models.hpp"
-#include "formats/brlcad_twins.hpp"
+#include "formats/brlcad/brlcad_models.hpp"
+#include "formats/brlcad/brlcad_twins.hpp"
 
 using namespace csgrt;
 using namespace csgrt::brlcad_test;

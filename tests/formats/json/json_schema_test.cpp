@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/json/forms.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 
 using namespace csgrt;
 using nlohmann::json;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "formats/json/friendly_solids.hpp"
-#include "scene/check_faults.hpp"
+#include "scene/faults/check_faults.hpp"
 
 using namespace csgrt;
 

@@ -1,5 +1,5 @@
 // BRL-CAD's older text form: each record, the members' precedence, matrices, and what is wrong where.
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 
 using namespace csgrt;
 using namespace csgrt::asc_test;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "formats/json/writer.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/vector.hpp"
 

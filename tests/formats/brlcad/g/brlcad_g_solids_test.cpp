@@ -1,11 +1,11 @@
 // Solids of binary databases: every number of each type in its place, and bodies that are wrong.
 #include <functional>
 
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
-#include "formats/brlcad_g_nmg.hpp"
-#include "formats/brlcad_g_writer.hpp"
+#include "formats/brlcad/g/brlcad_g_nmg.hpp"
+#include "formats/brlcad/g/brlcad_g_writer.hpp"
 
 using namespace csgrt;
 using namespace csgrt::g_test;

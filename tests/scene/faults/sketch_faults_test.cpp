@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "scene/check_faults.hpp"
+#include "scene/faults/check_faults.hpp"
 #include "scene/faults/sketches.hpp"
 
 using namespace csgrt;
