@@ -5,9 +5,9 @@
 // the others. They know a scene by its implicit functions, sort all ends of all solids on a ray, and ask the trees for
 // membership between them; nothing of it is shared with the kernels, nor with what compiles, packs and traverses a
 // scene. Every ray is judged whole. What makes that affordable: most solids are solved in doubles that know their own
-// error (oracle/quick.hpp), 113-bit arithmetic being asked where these are not certain, and again by itself alone about
-// every ray that seems wrong; a ray is not put to a solid whose widened ball it passes by (oracle/reach.hpp), nor to a
-// region none of whose solids it meets.
+// error (oracle/filtered_solid.hpp), 113-bit arithmetic being asked where these are not certain, and again by itself
+// alone about every ray that seems wrong; a ray is not put to a solid whose widened ball it passes by
+// (oracle/bounding_sphere.hpp), nor to a region none of whose solids it meets.
 #pragma once
 
 #include <cstdint>

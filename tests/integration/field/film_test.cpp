@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "integration/field/judge.hpp"
-#include "scene/texts.hpp"
+#include "scene/warning_texts.hpp"
 #include "bench/stress/build.hpp"
 
 using namespace csgrt;

@@ -1,4 +1,4 @@
-// The quick answers beside those of 113 bits: where there is a quick one, it is the other; and most often there is.
+// The floating-point filter against 113-bit arithmetic: its answers are the same, and it has one for most rays.
 #include "catch.hpp"
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "oracle/print.hpp"
-#include "oracle/quick.hpp"
+#include "oracle/filtered_solid.hpp"
 #include "oracle/rays.hpp"
 #include "oracle/shapes.hpp"
 
@@ -22,17 +22,17 @@ constexpr std::array kinds{Kind::ell, Kind::tgc, Kind::arb, Kind::arbn, Kind::ha
 
 double apart(const Vec3& a, const Vec3& b) { return to_double(length(QVec(a) - QVec(b))); }
 
-/// How the quick answer contradicts the other; empty: not at all.
-std::string contradiction(const Ray& ray, const Answer& quick, const Answer& full) {
+/// How the filtered answer contradicts the 113-bit one; empty: it does not.
+std::string contradiction(const Ray& ray, const Answer& filtered, const Answer& full) {
     std::ostringstream wrong;
     wrong.precision(17);
     if (full.tie) wrong << "a tie; ";
-    if (quick.intervals.size() != full.intervals.size() || quick.inner.size() != full.inner.size() ||
-        quick.outer.size() != full.outer.size()) {
-        wrong << quick.intervals.size() << " intervals, not " << full.intervals.size() << "; ";
+    if (filtered.intervals.size() != full.intervals.size() || filtered.inner.size() != full.inner.size() ||
+        filtered.outer.size() != full.outer.size()) {
+        wrong << filtered.intervals.size() << " intervals, not " << full.intervals.size() << "; ";
         return wrong.str();
     }
-    if (std::abs(quick.delta - full.delta) > 1e-9 * full.delta) wrong << "delta " << quick.delta << "; ";
+    if (std::abs(filtered.delta - full.delta) > 1e-9 * full.delta) wrong << "delta " << filtered.delta << "; ";
     // 100 bits of what is rounded: the solid's place, its size, the way to it; more where a surface turns away from the
     // ray.
     const double speed = to_double(length(QVec(ray.direction)));
@@ -46,29 +46,30 @@ std::string contradiction(const Ray& ray, const Answer& quick, const Answer& ful
     };
     for (std::size_t i = 0; i < full.intervals.size(); ++i)
         for (const bool in : {true, false}) {
-            const End &a = in ? quick.intervals[i].in : quick.intervals[i].out,
+            const End &a = in ? filtered.intervals[i].in : filtered.intervals[i].out,
                       &b = in ? full.intervals[i].in : full.intervals[i].out;
             if (a.t != b.t && !(std::abs(a.t - b.t) <= 4 * double_epsilon * std::abs(b.t) + 1e-26 * scale / speed))
                 wrong << "an end is off by " << a.t - b.t << "; ";
             if (!std::isfinite(b.t)) continue;
-            if (apart(a.normal, b.normal) > normals_off) wrong << "a normal is off by " << apart(a.normal, b.normal) << "; ";
+            if (apart(a.normal, b.normal) > normal_error)
+                wrong << "a normal is off by " << apart(a.normal, b.normal) << "; ";
             if (std::abs(a.cosine - b.cosine) > 1e-7 * b.cosine) wrong << "cosine " << a.cosine << "; ";
             if (std::abs(a.tolerance - b.tolerance) > 1e-4 * b.tolerance)
                 wrong << "tolerance " << a.tolerance << ", not " << b.tolerance << "; ";
             // By how much an end may be shifted is known to some digits.
             const auto end = [&](const Spans& spans) { return in ? spans[i].in.at : spans[i].out.at; };
             const double width = to_double(absolute(end(full.inner) - end(full.outer)));
-            same("inner", end(quick.inner), end(full.inner), b.cosine, 1e-4 * width);
-            same("outer", end(quick.outer), end(full.outer), b.cosine, 1e-4 * width);
-            same("the middle of the doubt", end(quick.inner) + end(quick.outer), end(full.inner) + end(full.outer),
-                 b.cosine, 1e-4 * width);
+            same("inner", end(filtered.inner), end(full.inner), b.cosine, 1e-4 * width);
+            same("outer", end(filtered.outer), end(full.outer), b.cosine, 1e-4 * width);
+            same("the middle of the doubt", end(filtered.inner) + end(filtered.outer),
+                 end(full.inner) + end(full.outer), b.cosine, 1e-4 * width);
         }
     return wrong.str();
 }
 
 }  // namespace
 
-TEST_CASE("quick: what is certain is what 113 bits say, and most is", "[oracle]") {
+TEST_CASE("the filter's answers are those of 113 bits, and it has one for most rays", "[oracle]") {
     std::size_t rays_a_kind = 2000;
     if (const char* more = std::getenv("CSGRT_RAYS")) rays_a_kind = std::strtoull(more, nullptr, 10);
     for (const Kind kind : kinds) {
@@ -80,13 +81,13 @@ TEST_CASE("quick: what is certain is what 113 bits say, and most is", "[oracle]"
             const Case one = make_case(kind, index, random);
             name = type_name(one.shape);
             const auto solid = std::make_shared<ImplicitSolid>(implicit(one.shape, one.matrix));
-            const QuickSolid quick(solid);
+            const FilteredSolid filtered(solid);
             RayMaker maker(one.shape, *solid, random);
             for (std::size_t i = 0; i < 42 && done < rays_a_kind; ++i, ++done) {
                 const std::size_t family = i % ray_families;
                 const Ray ray = maker.make(static_cast<RayFamily>(family));
                 const Answer full = intersect(*solid, ray);
-                const std::optional<Answer> answer = quick(ray);
+                const std::optional<Answer> answer = filtered(ray);
                 ++all[family];
                 ties[family] += full.tie;
                 certain[family] += answer.has_value();

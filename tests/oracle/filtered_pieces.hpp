@@ -1,4 +1,4 @@
-// What quick.hpp keeps of a solid: its surfaces with cheaper numbers, and what is asked of them on every ray.
+// A solid as filtered_solid.hpp needs it: its surfaces in the filter's numbers, and what each ray needs of them.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,19 @@
 
 namespace csgrt::oracle {
 
-struct QuickPlane {
+struct FilteredPlane {
     const Surface* surface = nullptr;
-    Triple<Rough> normal;
-    Rough distance;
-    Triple<Twofold> fine_normal;
-    Twofold fine_distance;
+    Triple<BoundedDouble> normal;
+    BoundedDouble distance;
+    Triple<DoubleDouble> fine_normal;
+    DoubleDouble fine_distance;
     double rate = 0;   ///< by how much its function changes, at most, when a point moves by 1 mm
     double steep = 0;  ///< its gradient's length in the world
     Vec3 outward;
     const Surface* same = nullptr;  ///< the first of the planes that are this one
 };
 
-struct QuickCurve {
+struct FilteredCurve {
     const Surface* surface = nullptr;
     double noise = 0;     ///< that counts where its function changes sign: not quadrics'
     double blur = 0;      ///< that counts where that is
@@ -31,9 +31,9 @@ struct QuickCurve {
 };
 
 /// An intersection of what is within each surface. A solid is one, or a convex union of some.
-struct QuickPiece {
-    std::vector<QuickPlane> planes;
-    std::vector<QuickCurve> curves;
+struct FilteredPiece {
+    std::vector<FilteredPlane> planes;
+    std::vector<FilteredCurve> curves;
 };
 
 namespace detail {
@@ -46,29 +46,29 @@ inline bool same_plane(const Surface& a, const Surface& b) {
            absolute(a.value({}) - b.value({})) <= tiny * absolute(a.value({}));
 }
 
-inline QuickPlane quick_plane(const ImplicitSolid& solid, const Surface& surface,
-                              const std::vector<QuickPlane>& others) {
-    QuickPlane plane;
+inline FilteredPlane filtered_plane(const ImplicitSolid& solid, const Surface& surface,
+                                    const std::vector<FilteredPlane>& others) {
+    FilteredPlane plane;
     const QAffine& back = solid.to_local;
     const QVec n = surface.gradient({}), world = back.transposed(n);
     const quad distance = -surface.value({});
     plane.surface = plane.same = &surface;
-    plane.normal = triple<Rough>(n);
-    plane.distance = Rough(distance);
-    plane.fine_normal = triple<Twofold>(n);
-    plane.fine_distance = Twofold(distance);
+    plane.normal = triple<BoundedDouble>(n);
+    plane.distance = BoundedDouble(distance);
+    plane.fine_normal = triple<DoubleDouble>(n);
+    plane.fine_distance = DoubleDouble(distance);
     quad most = 0;
     for (const QVec& axis : {back.x, back.y, back.z}) most = larger(most, absolute(dot(n, axis)));
     plane.rate = 1.75 * to_double(most);
     plane.steep = to_double(length(world));
     if (plane.steep > 0) plane.outward = to_vec3(unit(world));
-    for (const QuickPlane& other : others)
+    for (const FilteredPlane& other : others)
         if (plane.same == &surface && same_plane(surface, *other.surface)) plane.same = other.same;
     return plane;
 }
 
-inline QuickCurve quick_curve(const ImplicitSolid& solid, const Surface& surface, double noise, bool is_noisy) {
-    QuickCurve curve;
+inline FilteredCurve filtered_curve(const ImplicitSolid& solid, const Surface& surface, double noise, bool is_noisy) {
+    FilteredCurve curve;
     curve.surface = &surface;
     curve.blur = noise;
     curve.terms = to_double(surface.terms());
@@ -88,43 +88,43 @@ inline QuickCurve quick_curve(const ImplicitSolid& solid, const Surface& surface
 }
 
 /// The ray in a parameter s: t = closest + s unit, as in intersect.hpp.
-struct QuickPath {
-    Twofold closest;
+struct FilteredRay {
+    DoubleDouble closest;
     Vec3 way;  ///< the ray's direction
     double unit = 1, speed = 1, delta = 0, reach = 0;
-    Triple<Twofold> fine_origin, fine_direction;
-    Triple<Rough> origin, direction;
-    bool passes_by = false;
+    Triple<DoubleDouble> fine_origin, fine_direction;
+    Triple<BoundedDouble> origin, direction;
+    bool misses = false;
 };
-struct QuickBound {
-    Rough at;
-    double width = 0;                   ///< rounding may shift it by this
-    const QuickPlane* plane = nullptr;  ///< no plane, no curve: it is infinite, or beyond the solid
-    const QuickCurve* curve = nullptr;
-    double slope = 0;        ///< of the function along s
-    Triple<Rough> gradient;  ///< of a curve's function, in the world
-    double blur = 0;         ///< of a curve's function
+struct FilteredBound {
+    BoundedDouble at;
+    double width = 0;                      ///< rounding may shift it by this
+    const FilteredPlane* plane = nullptr;  ///< no plane, no curve: it is infinite, or beyond the solid
+    const FilteredCurve* curve = nullptr;
+    double slope = 0;                ///< of the function along s
+    Triple<BoundedDouble> gradient;  ///< of a curve's function, in the world
+    double blur = 0;                 ///< of a curve's function
 
-    static QuickBound none(double at) {
-        QuickBound bound;
-        bound.at = Rough(at);
+    static FilteredBound none(double at) {
+        FilteredBound bound;
+        bound.at = BoundedDouble(at);
         return bound;
     }
     /// Farther along than `other` by more than both may be off and shifted, for certain?
-    bool is_beyond(const QuickBound& other) const {
-        return at.v - other.at.v > 1.000001 * (at.off + other.at.off + width + other.width);
+    bool is_beyond(const FilteredBound& other) const {
+        return at.v - other.at.v > 1.000001 * (at.error + other.at.error + width + other.width);
     }
-    bool may_be(const QuickBound& other) const { return !is_beyond(other) && !other.is_beyond(*this); }
+    bool may_be(const FilteredBound& other) const { return !is_beyond(other) && !other.is_beyond(*this); }
 };
 /// A few, ascending.
-struct QuickIntervals {
+struct FilteredIntervals {
     struct Interval {
-        QuickBound in, out;
+        FilteredBound in, out;
     };
     std::array<Interval, 6> all;
     std::size_t count = 0;
 
-    bool add(const QuickBound& in, const QuickBound& out) {
+    bool add(const FilteredBound& in, const FilteredBound& out) {
         if (count == all.size()) return false;
         all[count++] = {in, out};
         return true;
@@ -137,9 +137,9 @@ struct QuickIntervals {
 
 }  // namespace detail
 
-/// None: quick.hpp cannot answer for such a solid. `hull` keeps the surfaces of one that is a union.
-inline std::vector<QuickPiece> quick_pieces(const ImplicitSolid& solid, const std::vector<SurfaceSet>& hull) {
-    std::vector<QuickPiece> pieces;
+/// Empty if the filter cannot treat such a solid. `hull` keeps the surfaces of a solid that is a union.
+inline std::vector<FilteredPiece> filtered_pieces(const ImplicitSolid& solid, const std::vector<SurfaceSet>& hull) {
+    std::vector<FilteredPiece> pieces;
     bool usable = true;
     const auto add = [&](const Surface& surface, double noise, bool is_hull) {
         if (!surface.is_polynomial()) {
@@ -147,13 +147,13 @@ inline std::vector<QuickPiece> quick_pieces(const ImplicitSolid& solid, const st
             return;
         }
         const int degree = surface.along({}, {1, 1, 1}).degree;
-        QuickPiece& piece = pieces.back();
+        FilteredPiece& piece = pieces.back();
         if (degree == 1) {
-            piece.planes.push_back(detail::quick_plane(solid, surface, piece.planes));
+            piece.planes.push_back(detail::filtered_plane(solid, surface, piece.planes));
             usable = usable && piece.planes.back().steep > 0;
             return;
         }
-        piece.curves.push_back(detail::quick_curve(solid, surface, noise, is_hull || degree > 2));
+        piece.curves.push_back(detail::filtered_curve(solid, surface, noise, is_hull || degree > 2));
         const double steepest = piece.curves.back().steepest;
         usable = usable && std::isfinite(steepest) && steepest > 0;
     };

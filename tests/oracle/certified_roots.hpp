@@ -1,4 +1,5 @@
-// All roots of a polynomial of rough numbers in an interval, or word that they are not certain.
+// Certified roots: all roots in an interval of a polynomial whose coefficients have error bounds, or the information
+// that the bounds are too large to tell them apart.
 //
 // The interval is halved until on every part either |p| stays above a given bound or p' keeps its sign: what the
 // Taylor series about a part's middle says for certain. A part of the latter kind has one root if p's signs at its
@@ -6,36 +7,36 @@
 #pragma once
 
 #include "polynomial.hpp"
-#include "rough.hpp"
+#include "filter_numbers.hpp"
 
 namespace csgrt::oracle {
 
-struct RoughRoot {
-    Rough at;
+struct CertifiedRoot {
+    BoundedDouble at;
     double slope = 0;  ///< p' there
 };
 
-class RoughRoots {
+class CertifiedRoots {
 public:
     /// In [low, high]. Where p turns and at both ends |p| must be above `least`, or nothing is certain.
-    RoughRoots(const PolynomialOf<Rough>& p, double low, double high, double least) : p_(p), least_(least) {
-        const Rough at_low = p(low), at_high = p(high);
+    CertifiedRoots(const PolynomialOf<BoundedDouble>& p, double low, double high, double least) : p_(p), least_(least) {
+        const BoundedDouble at_low = p(low), at_high = p(high);
         first_ = at_low.v;
         certain_ = at_low.least() > least && at_high.least() > least && part(low, high, at_low, at_high, 0);
     }
 
     bool certain() const { return certain_; }
     std::size_t count() const { return count_; }
-    const RoughRoot& operator[](std::size_t i) const { return roots_[i]; }
+    const CertifiedRoot& operator[](std::size_t i) const { return roots_[i]; }
     /// Is p negative before the first root?
     bool begins_inside() const { return first_ < 0; }
 
 private:
-    using Taylor = std::array<Rough, Polynomial::max_degree + 1>;
+    using Taylor = std::array<BoundedDouble, Polynomial::max_degree + 1>;
 
     Taylor taylor(double about) const {
         Taylor t = p_.c;
-        const Rough x(about);
+        const BoundedDouble x(about);
         for (int i = 0; i < p_.degree; ++i)
             for (int k = p_.degree - 1; k >= i; --k) {
                 const auto at = static_cast<std::size_t>(k);
@@ -51,7 +52,7 @@ private:
         return 1.000001 * sum;
     }
 
-    bool part(double low, double high, const Rough& at_low, const Rough& at_high, int depth) {
+    bool part(double low, double high, const BoundedDouble& at_low, const BoundedDouble& at_high, int depth) {
         const double middle = 0.5 * (low + high), half = 0.5000001 * (high - low);
         const Taylor t = taylor(middle);
         if (t[0].least() > change(t, half, 0) + least_) return true;
@@ -62,7 +63,7 @@ private:
         if (depth == 26) return false;
         // Not in the middle, where what is symmetrical has its roots.
         const double cut = low + 0.4871 * (high - low);
-        const Rough at_cut = p_(cut);
+        const BoundedDouble at_cut = p_(cut);
         if (!(at_cut.least() > 0)) return false;
         return part(low, cut, at_low, at_cut, depth + 1) && part(cut, high, at_cut, at_high, depth + 1);
     }
@@ -96,13 +97,13 @@ private:
         if (!(least > 0) || count_ == roots_.size()) return false;
         const double off = 1.000001 * t[0].most() / least;
         if (!(off < near)) return false;
-        roots_[count_++] = {Rough(x, off), t[1].v};
-        return t[1].off + change(t, off, 1) <= 1e-8 * std::abs(t[1].v);
+        roots_[count_++] = {BoundedDouble(x, off), t[1].v};
+        return t[1].error + change(t, off, 1) <= 1e-8 * std::abs(t[1].v);
     }
 
-    const PolynomialOf<Rough>& p_;
+    const PolynomialOf<BoundedDouble>& p_;
     double least_, first_ = 0;
-    std::array<RoughRoot, Polynomial::max_degree> roots_;
+    std::array<CertifiedRoot, Polynomial::max_degree> roots_;
     std::size_t count_ = 0;
     bool certain_ = false;
 };

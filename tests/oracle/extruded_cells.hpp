@@ -1,4 +1,4 @@
-// Cells of a picture, extruded: between any two lines of the grid that the ray crosses it is in one cell.
+// The cells of a picture, extruded (ebm). Between two neighbouring grid planes that the ray crosses it is in one cell.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace csgrt::oracle {
 
-inline ExactSolid celled(const Ebm& shape, const QAffine& place) {
+inline ExactSolid extruded_cells(const Ebm& shape, const QAffine& place) {
     const QAffine own = to_affine(shape.matrix);
     ImplicitSolid frame;
     add_frame(frame, place, own);
@@ -19,8 +19,7 @@ inline ExactSolid celled(const Ebm& shape, const QAffine& place) {
     solid.center = to_world.point(quad(0.5) * size);
     solid.radius =
         to_double(length(size.x * to_world.x) + length(size.y * to_world.y) + length(size.z * to_world.z)) / 2;
-    solid.placement =
-        to_double(length((componentwise_absolute(place) * componentwise_absolute(own)).point(size)));
+    solid.placement = to_double(length((componentwise_absolute(place) * componentwise_absolute(own)).point(size)));
     const auto cell = [](quad x) {
         const double whole = std::floor(to_double(x));  // rounded up, perhaps
         return static_cast<std::int64_t>(quad(whole) > x ? whole - 1 : whole);

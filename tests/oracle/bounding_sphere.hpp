@@ -1,4 +1,5 @@
-// Most rays pass most things by. Asked in double, and answered yes only where no rounding could make it no.
+// Bounding spheres. Most rays miss most solids, and this test in double precision skips the solids that a ray misses
+// whatever rounding does.
 #pragma once
 
 #include <cmath>
@@ -7,14 +8,14 @@
 
 namespace csgrt::oracle {
 
-/// A ball that holds something; by default all of space.
-struct Reach {
+/// A sphere around a solid or a triangle; by default all of space.
+struct BoundingSphere {
     Vec3 center;
     double radius = HUGE_VAL;  ///< millimetres
-    double widening = 0;       ///< by what the radius grows with the distance from the line's start
+    double widening = 0;       ///< growth of the radius for each unit of distance from the line's start
 
-    /// Is the line from o along d farther than `near` from the ball, for certain?
-    bool is_passed_by(const Vec3& o, const Vec3& d, double near = 0) const {
+    /// Is the line from o along d farther than `near` from the sphere, for certain?
+    bool is_missed_by(const Vec3& o, const Vec3& d, double near = 0) const {
         if (radius == HUGE_VAL) return false;
         const double x = center.x - o.x, y = center.y - o.y, z = center.z - o.z;
         const double a = y * d.z - z * d.y, b = z * d.x - x * d.z, c = x * d.y - y * d.x;

@@ -1,12 +1,13 @@
-// Where a random solid stands.
+// Random coordinate frames, in which the tests place solids.
 #pragma once
 
 #include "random.hpp"
 
 namespace csgrt::oracle {
 
-/// Three unit vectors at right angles (up to rounding) and a point, in the solid's own space.
-struct Stand {
+/// A coordinate frame in the solid's own space: three unit vectors, perpendicular up to rounding, an origin and a
+/// scale.
+struct LocalFrame {
     QVec x, y, z, at;
     double size = 1;
 
@@ -14,8 +15,8 @@ struct Stand {
     QVec vector(quad a, quad b, quad c) const { return quad(size) * (a * x + b * y + c * z); }
 };
 
-inline Stand random_stand(Random& random, double size) {
-    Stand s;
+inline LocalFrame random_local_frame(Random& random, double size) {
+    LocalFrame s;
     s.size = size;
     s.z = random.direction();
     s.x = any_across(s.z);
@@ -27,9 +28,10 @@ inline Stand random_stand(Random& random, double size) {
     return s;
 }
 
-/// Along the axes, with numbers that sums and products keep exact: rays and faces meet exactly.
-inline Stand aligned_stand(Random& random) {
-    Stand s;
+/// A frame along the axes at a point of small whole numbers. Sums and products of these are exact, so rays can run
+/// exactly in faces.
+inline LocalFrame aligned_local_frame(Random& random) {
+    LocalFrame s;
     s.z = random.axis();
     s.x = any_across(s.z);
     s.y = cross(s.z, s.x);

@@ -1,4 +1,4 @@
-#include "shaken.hpp"
+#include "perturbation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ bool leaps(const ExactIntervals& a, const ExactIntervals& b, quad far) {
 
 }  // namespace
 
-ShakenAnswer shake(const ExactSolid& solid, const Ray& ray) {
+PerturbedAnswer perturb(const ExactSolid& solid, const Ray& ray) {
     const QVec o = ray.origin, d = ray.direction, off = solid.center - o;
     const quad way = absolute(dot(off, d)) / length(d);
     const double rounding = margin * ulps * double_epsilon * (solid.placement + to_double(way) + solid.radius);
-    ShakenAnswer answer;
+    PerturbedAnswer answer;
     answer.delta = solid.condition * rounding;
     answer.exact = solid.along(o, d);
     const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
@@ -31,22 +31,23 @@ ShakenAnswer shake(const ExactSolid& solid, const Ray& ray) {
                 const double sides = x * x + y * y + z * z;
                 if (sides != 1 && sides != 3) continue;
                 const QVec moved = solid.frame.direction({quad(x) * most.x, quad(y) * most.y, quad(z) * most.z});
-                answer.shaken.push_back(solid.along(o + moved, d));
+                answer.perturbed.push_back(solid.along(o + moved, d));
                 answer.tie =
-                    answer.tie || leaps(answer.exact, answer.shaken.back(), quad(1e-3 * solid.radius) / length(d));
+                    answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
             }
     return answer;
 }
 
-void look_again(const ExactSolid& solid, const Ray& ray, Random& random, ShakenAnswer& answer) {
+void perturb_at_random(const ExactSolid& solid, const Ray& ray, Random& random, PerturbedAnswer& answer) {
     const QVec o = ray.origin, d = ray.direction;
     const double rounding = answer.delta / solid.condition;
     const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
     for (int i = 0; i < 400; ++i) {
         const QVec corner = random.in_cube();
         const QVec c = quad(i % 2 == 0 ? 1 : random.unit()) * corner;
-        answer.shaken.push_back(solid.along(o + solid.frame.direction({c.x * most.x, c.y * most.y, c.z * most.z}), d));
-        answer.tie = answer.tie || leaps(answer.exact, answer.shaken.back(), quad(1e-3 * solid.radius) / length(d));
+        answer.perturbed.push_back(
+            solid.along(o + solid.frame.direction({c.x * most.x, c.y * most.y, c.z * most.z}), d));
+        answer.tie = answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
     }
 }
 
@@ -67,7 +68,7 @@ bool misses(const ExactIntervals& set, quad low, quad high) {
 
 }  // namespace
 
-Verdict judge(const ExactSolid& solid, const Ray& ray, const ShakenAnswer& answer,
+Verdict judge(const ExactSolid& solid, const Ray& ray, const PerturbedAnswer& answer,
               const std::vector<Segment>& segments) {
     Verdict verdict;
     std::ostringstream wrong;
@@ -91,7 +92,7 @@ Verdict judge(const ExactSolid& solid, const Ray& ray, const ShakenAnswer& answe
             const quad low = quad(s.in) + blur(s.in), high = quad(s.out) - blur(s.out);
             bool possible = !(low < high) || holds(answer.exact, low, high);
             bool nowhere = misses(answer.exact, low, high);
-            for (const ExactIntervals& other : answer.shaken) {
+            for (const ExactIntervals& other : answer.perturbed) {
                 possible = possible || holds(other, low, high);
                 nowhere = nowhere && misses(other, low, high);
             }
@@ -101,7 +102,7 @@ Verdict judge(const ExactSolid& solid, const Ray& ray, const ShakenAnswer& answe
         for (const ExactInterval& i : answer.exact) {
             const quad low = i.in.t + blur(to_double(i.in.t)), high = i.out.t - blur(to_double(i.out.t));
             bool certain = low < high;
-            for (const ExactIntervals& other : answer.shaken) certain = certain && holds(other, low, high);
+            for (const ExactIntervals& other : answer.perturbed) certain = certain && holds(other, low, high);
             bool found = false;
             for (const Segment& s : kept) found = found || (quad(s.in) <= high && low <= quad(s.out));
             if (certain && !found) wrong << "the interval at " << to_double(low) << " is not found; ";
@@ -127,7 +128,7 @@ Verdict judge(const ExactSolid& solid, const Ray& ray, const ShakenAnswer& answe
             const auto end = [&](const ExactIntervals& set) { return in ? set[i].in : set[i].out; };
             const ExactEnd exact = end(answer.exact);
             quad shift = 0, turn = 0;
-            for (const ExactIntervals& other : answer.shaken) {
+            for (const ExactIntervals& other : answer.perturbed) {
                 shift = larger(shift, absolute(end(other).t - exact.t));
                 turn = larger(turn, length(end(other).normal - exact.normal));
             }
@@ -146,7 +147,7 @@ Verdict judge(const ExactSolid& solid, const Ray& ray, const ShakenAnswer& answe
     return verdict;
 }
 
-std::string report(const std::string& name, const Ray& ray, const ShakenAnswer& answer,
+std::string report(const std::string& name, const Ray& ray, const PerturbedAnswer& answer,
                    const std::vector<Segment>& segments, const Verdict& verdict) {
     std::ostringstream text;
     text.precision(17);

@@ -1,4 +1,4 @@
-// A function that is no polynomial, restricted to a ray: where it turns, and where it takes a value.
+// A function that is no polynomial, restricted to a ray: its extrema, and where it has a given value.
 //
 // The solid says where the function may be uneven (`breaks`: kinks, cusps) and how many pieces each part between two
 // breaks is looked at in. Sign changes of the slope, sampled closely towards the breaks, are halved down; between two
@@ -13,9 +13,9 @@
 
 namespace csgrt::oracle {
 
-class Line {
+class RayFunction {
 public:
-    virtual ~Line() = default;
+    virtual ~RayFunction() = default;
     virtual quad operator()(quad s) const = 0;
     virtual quad slope(quad s) const = 0;
     /// Where the function is equal to `level` in [low, high], ascending.
@@ -27,9 +27,9 @@ public:
 /// F: `quad value(const QVec&)`, `QVec gradient(const QVec&)`, `std::vector<quad> breaks(const QVec& o, const QVec&
 /// d)`, `int pieces()` (1: convex), `double settled()`: to what part of the ray's length a root is found.
 template <class F>
-class CurvedLine final : public Line {
+class RayFunctionOf final : public RayFunction {
 public:
-    CurvedLine(const F& f, const QVec& o, const QVec& d) : f_(f), o_(o), d_(d) {}
+    RayFunctionOf(const F& f, const QVec& o, const QVec& d) : f_(f), o_(o), d_(d) {}
 
     quad operator()(quad s) const override { return f_.value(o_ + s * d_); }
     quad slope(quad s) const override { return dot(f_.gradient(o_ + s * d_), d_); }

@@ -5,7 +5,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/solids/mesh_faults.hpp"
 #include "compile/model.hpp"
-#include "scene/texts.hpp"
+#include "scene/warning_texts.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -24,9 +24,14 @@ Bot two_boxes(double from) {
     Bot bot;
     for (const auto& [low, high] : {std::pair{0.0, 1.0}, std::pair{from, 2.0}}) {
         const auto first = static_cast<std::uint32_t>(bot.vertices.size());
-        for (int i = 0; i < 8; ++i) bot.vertices.push_back({(i & 1) != 0 ? high : low, double(i >> 1 & 1), double(i >> 2 & 1)});
-        for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+        for (int i = 0; i < 8; ++i)
+            bot.vertices.push_back({(i & 1) != 0 ? high : low, double(i >> 1 & 1), double(i >> 2 & 1)});
+        for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
+                                                      {1, 3, 7, 5},
+                                                      {0, 1, 5, 4},
+                                                      {2, 6, 7, 3},
+                                                      {0, 2, 3, 1},
+                                                      {4, 5, 7, 6}}) {
             bot.faces.push_back({first + q[0], first + q[1], first + q[2]});
             bot.faces.push_back({first + q[0], first + q[2], first + q[3]});
         }
@@ -160,7 +165,8 @@ TEST_CASE("plates given before with the same thickness do not count again") {
     bot.thickness = {1, 1, 1, 1, 1, 2, 1};
     const MendedMesh mended = mend(bot);
     CHECK(mended.from == std::vector<std::uint32_t>{0, 1, 2, 3, 5});
-    CHECK(mended.notes == Notes{"1 face that was given before does not count again", "1 face has no area and counts for nothing"});
+    CHECK(mended.notes ==
+          Notes{"1 face that was given before does not count again", "1 face has no area and counts for nothing"});
 }
 
 TEST_CASE("notes carry the bot's name, once for all its places") {
