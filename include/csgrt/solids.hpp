@@ -86,8 +86,8 @@ struct Eto {
     double r = 0, r_d = 0;
 };
 /// Hyperboloid of one sheet between two equal ellipses with centres v and v + h. One of their semi-axes is the vector
-/// a, the other, perpendicular to it, has the length b. The ellipse in the middle is smaller by the factor `neck`, which
-/// is between 0 and 1.
+/// a, the other, perpendicular to it, has the length b. The ellipse in the middle is smaller by the factor `neck`,
+/// which is between 0 and 1.
 struct Hyp {
     Vec3 v = {}, h = {}, a = {};
     double b = 0, neck = 0;

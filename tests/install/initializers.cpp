@@ -60,7 +60,8 @@ namespace {
     [[maybe_unused]] const Ebm ebm{.height = 1};
     [[maybe_unused]] const Vol vol{.high = 9};
     [[maybe_unused]] const Dsp dsp{.smooth = true};
-    [[maybe_unused]] const Sketch sketch{.vertices = {{.u = 1}}, .curves = {Sketch::Arc{.end = 1}, Sketch::Line{.end = 1}}};
+    [[maybe_unused]] const Sketch lines{.vertices = {{.u = 1}}, .curves = {Sketch::Line{.end = 1}}};
+    [[maybe_unused]] const Sketch arcs{.curves = {Sketch::Arc{.end = 1}}};
     [[maybe_unused]] const Sketch splines{.curves = {Sketch::Bezier{.points = {}}, Sketch::Nurb{.order = 2}}};
     [[maybe_unused]] const Extrude extrude{.h = {0, 0, 1}};
     [[maybe_unused]] const Revolve revolve{.angle = 1};
