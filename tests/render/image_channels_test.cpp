@@ -11,7 +11,9 @@ using namespace csgrt;
 namespace {
 
 template <class Picture>
-concept has_channels = requires(Picture picture) { std::forward<Picture>(picture).channel("Z"); };
+concept has_channels = requires(Picture picture) {
+    std::forward<Picture>(picture).channel("Z");
+};
 
 // A range-for over the channel of a call's result would read memory that is gone.
 static_assert(has_channels<Image&> && has_channels<const Image&>);
