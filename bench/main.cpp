@@ -8,12 +8,14 @@
 // measured with --frames 0).
 // --color: pictures of colours alone, as a viewer shows them, in place of all channels.
 // --orbit N: a frame at each of N azimuths around the model, as a viewer draws them, in place of --frames from one
-// side.
+// side. Afterwards the orbit is drawn again, and its pictures must be those that are drawn into new memory, bit by bit;
+// if not, the exit status is 8.
 // --only: workloads whose names begin so. `first` is the time from a loaded scene to the first picture.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <tuple>
@@ -49,15 +51,38 @@ double kernels(const Times& ms) {
     return sum;
 }
 
-Figures measure(const Workload& workload, Renderer& renderer, bool every_partition, const Options& options) {
+/// Of frame `i`: always from one side, or from the orbit's next azimuth.
+View view_of(const Options& options, bool every_partition, int i) {
     View view;
     view.width = view.height = options.size;
     view.every_partition = every_partition;
     if (options.color) view.channels = channel::color;
+    if (options.orbit > 0) view.camera.azimuth = 35 + 360.0 * i / options.orbit;
+    return view;
+}
+
+/// Frames that share a picture's memory change only a part of it. Throws Error (differs) if one of the orbit's pictures
+/// differs in any bit from the picture that is drawn into new memory.
+void check_orbit(const std::string& workload, Renderer& renderer, bool every_partition, const Options& options) {
+    Framebuffer framebuffer;
+    for (int i = 0; i < options.orbit; ++i) {
+        const View view = view_of(options, every_partition, i);
+        renderer.render(view, framebuffer);
+        const Image &reused = framebuffer.image(), fresh = renderer.render(view);
+        for (std::size_t c = 0; c < fresh.channels.size(); ++c) {
+            if (std::memcmp(reused.channels[c].data(), fresh.channels[c].data(), fresh.channels[c].size_bytes()) == 0)
+                continue;
+            throw Error(Status::differs, workload + ": frame " + std::to_string(i) + " of the orbit: channel " +
+                                             fresh.names[c] + " is not that of a picture drawn into new memory");
+        }
+    }
+}
+
+Figures measure(const Workload& workload, Renderer& renderer, bool every_partition, const Options& options) {
     const double setup = renderer.statistics().ms.build;
     const auto start = Clock::now();
     Framebuffer framebuffer;
-    renderer.render(view, framebuffer);  // compiles kernels and takes memory
+    renderer.render(view_of(options, every_partition, 0), framebuffer);  // compiles kernels and takes memory
     Figures f;
     f.ms = {{"compile", renderer.statistics().ms.compile}, {"build", renderer.statistics().ms.build}};
     f.ms.emplace_back("first",
@@ -65,8 +90,7 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     std::vector<Statistics> frames;
     const int count = options.orbit > 0 ? options.orbit : options.frames;
     for (int i = 0; i < count; ++i) {
-        if (options.orbit > 0) view.camera.azimuth = 35 + 360.0 * i / options.orbit;
-        renderer.render(view, framebuffer);
+        renderer.render(view_of(options, every_partition, i), framebuffer);
         frames.push_back(renderer.statistics());
     }
     const Statistics& s = frames.front();
@@ -198,6 +222,7 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
                 settings.wait_for_device = true;
                 Renderer renderer(scene, workload.objects, settings);
                 all.push_back(measure(workload, renderer, every_partition, options));
+                check_orbit(workload.name, renderer, every_partition, options);
                 all.back().ms.emplace(all.back().ms.begin(), "load", load);
                 std::fprintf(stderr, "%s, %s: frame %.2f ms\n", workload.name.c_str(), all.back().mode.c_str(),
                              all.back().time("frame"));

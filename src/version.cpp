@@ -1,9 +1,9 @@
-#include <csgrt/renderer.hpp>
+#include <csgrt/version.hpp>
 
 namespace csgrt {
 
 const char* version() {
-    return CSGRT_VERSION;
+    return CSGRT_VERSION_STRING;
 }
 
 }  // namespace csgrt

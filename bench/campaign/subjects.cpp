@@ -56,7 +56,7 @@ private:
     const Item item_;
     stress::StressScene made_;
     std::optional<test::Renumbering> renumbering_;
-    std::optional<test::ExpectedAnswers> expected_, slow_;  ///< quick where that is certain; 113 bits throughout
+    std::optional<test::ExpectedAnswers> expected_, slow_;  ///< with the filter; in 113 bits throughout
     std::size_t first_ = 0, shot_ = 0;
     double fused_ = 0;
 };
@@ -120,7 +120,7 @@ private:
     stress::Random random_;
     std::vector<RegionInfo> regions_;
     double slack_ = 0;
-    std::optional<oracle::SceneOracle> oracle_, slow_oracle_;  ///< quick where that is certain; 113 bits throughout
+    std::optional<oracle::SceneOracle> oracle_, slow_oracle_;  ///< with the filter; in 113 bits throughout
     std::optional<oracle::SceneJudge> judge_, slow_judge_;
     Box box_;
     std::vector<Ray> rays_;

@@ -1,13 +1,13 @@
-// What a campaign shoots at: every scene of the stress suite, our own scenes, BRL-CAD's models; each with any number of
-// rays and its judge.
+// The subjects of a campaign: every scene of the stress suite, our own scenes, BRL-CAD's models. Each has any number of
+// rays, and its judge.
 //
-// The judges are those of the tests: tests/stress/expected.hpp for the stress suite, tests/oracle/scene_judge.hpp for
-// the others. They know a scene by its implicit functions, sort all ends of all solids on a ray, and ask the trees for
-// membership between them; nothing of it is shared with the kernels, nor with what compiles, packs and traverses a
-// scene. Every ray is judged whole. What makes that affordable: most solids are solved in doubles that know their own
-// error (oracle/quick.hpp), 113-bit arithmetic being asked where these are not certain, and again by itself alone about
-// every ray that seems wrong; a ray is not put to a solid whose widened ball it passes by (oracle/reach.hpp), nor to a
-// region none of whose solids it meets.
+// The judges are those of the tests: tests/integration/stress/expected.hpp for the stress suite,
+// tests/oracle/scene_judge.hpp for the others. They know a scene by its implicit functions, sort all ends of all solids
+// on a ray, and evaluate the trees between them. They share nothing with the kernels, nor with the code that compiles,
+// packs and traverses a scene. They judge every ray, and all of it. Three things make that affordable. A floating-point
+// filter (oracle/filtered_solid.hpp) answers for most solids; 113-bit arithmetic answers where the filter is not
+// certain, and again, without the filter, for every ray that seems wrong. Bounding spheres (oracle/bounding_sphere.hpp)
+// spare rays the solids that they miss for certain. A region is evaluated only if the ray meets one of its solids.
 #pragma once
 
 #include <cstdint>

@@ -89,7 +89,7 @@ Sums Tally::total() const {
 
 bool Tally::passed() const {
     const Sums sums = total();
-    return sums.wrong == 0 && sums.bit_differences == 0 && errors_.empty();
+    return sums.decided > 0 && sums.wrong == 0 && sums.bit_differences == 0 && errors_.empty();
 }
 
 std::string Tally::table() const {

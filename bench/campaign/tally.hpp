@@ -37,6 +37,7 @@ public:
     void add_error(const Item& item, const std::string& what);
 
     Sums total() const;
+    /// Some rays were decided, and none is wrong.
     bool passed() const;
     std::string table() const;
     /// With what is true of all of them.

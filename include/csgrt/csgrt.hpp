@@ -1,4 +1,4 @@
-// csgrt: exact ray tracing of Constructive Solid Geometry on any OpenCL device.
+// csgrt: exact ray tracing of Constructive Solid Geometry on any OpenCL device. This header includes all others.
 //
 //     #include <csgrt/csgrt.hpp>
 //
@@ -8,13 +8,34 @@
 //         csgrt::Image image = renderer.render({.width = 512, .height = 512, .camera = scene.camera});
 //         csgrt::write_image(image, "operators.exr");  // component csgrt::image
 //         auto rays = renderer.shoot({{{0, -9e3, 0}, {0, 1, 0}}});
-//         for (auto& p : rays[0].partitions) std::printf("%s %g %g\n", renderer.regions()[p.region].path.c_str(), p.in, p.out);
+//         for (auto& p : rays[0].partitions)
+//             std::printf("%s %g %g\n", renderer.regions()[p.region].path.c_str(), p.in, p.out);
 //     }
+//
+// What holds everywhere unless a comment says otherwise:
+// - Lengths and coordinates are millimetres, angles degrees, coordinates right-handed with z up. Distances along a ray
+//   are in units of the length of its direction.
+// - Functions that fail throw csgrt::Error, or std::bad_alloc.
+// - A function may be called by any thread, the functions of one object by one thread at a time. Several threads may
+//   read the same plain struct (Scene, Image, ...) at the same time.
+// - Plain structs have a default for every member, so that designated initializers may leave out any of them. Later
+//   versions may add members.
 #pragma once
 
+#include <csgrt/camera.hpp>
+#include <csgrt/device.hpp>
 #include <csgrt/error.hpp>
+#include <csgrt/framebuffer.hpp>
 #include <csgrt/image.hpp>
+#include <csgrt/method.hpp>
+#include <csgrt/partitions.hpp>
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>
 #include <csgrt/scene_io.hpp>
+#include <csgrt/settings.hpp>
+#include <csgrt/solids.hpp>
+#include <csgrt/statistics.hpp>
+#include <csgrt/vector.hpp>
 #include <csgrt/verify.hpp>
+#include <csgrt/version.hpp>
+#include <csgrt/view.hpp>

@@ -1,4 +1,4 @@
-// What can go wrong, and where. Every failure of csgrt is one csgrt::Error.
+// Failures and warnings. Every failure of csgrt is one csgrt::Error.
 #pragma once
 
 #include <cstdint>
@@ -14,58 +14,61 @@
 
 namespace csgrt {
 
-/// The kind of a failure; its value is the exit status of the command line.
+/// The kind of a failure. Its value is the exit status of the command line.
 enum class Status : int {
     ok = 0,
-    usage = 2,          ///< the command line or an argument of the library makes no sense
-    scene = 3,          ///< the scene is wrong
-    no_device = 4,      ///< no device fits
-    out_of_memory = 5,  ///< host or device memory, or the budget, does not suffice
+    usage = 2,          ///< an option of the command line or an argument of the library is invalid
+    scene = 3,          ///< the scene is invalid
+    no_device = 4,      ///< no device fits the choice
+    out_of_memory = 5,  ///< host memory, device memory or the memory limit (Settings::max_memory) is too small
     file = 6,           ///< a file cannot be read or written
-    device_fault = 7,   ///< the device failed, or took too long
-    differs = 8,        ///< a comparison or verification found a difference
-    interrupted = 130,  ///< the user stopped it
+    device_fault = 7,   ///< a device or its driver failed, or took too long
+    differs = 8,        ///< a comparison or a verification found a difference
+    interrupted = 130,  ///< the user, or Settings::progress, stopped the call
 };
 
-/// A place in a scene file. Text formats give line and column (from 1), binary ones `offset`; 0 and -1 mean "unknown".
+/// A place in a scene file. Text formats give `line` and `column`, binary formats give `offset`.
 struct Place {
-    std::string file;
-    int line = 0;
-    int column = 0;
-    std::int64_t offset = -1;
-    std::string pointer;  ///< JSON pointer, or the name of the object
+    std::string file = {};
+    int line = 0;              ///< from 1; 0: unknown
+    int column = 0;            ///< from 1; 0: unknown
+    std::int64_t offset = -1;  ///< in bytes from the file's begin; -1: unknown
+    std::string pointer = {};  ///< a JSON pointer, or the name of an object; may be empty
 };
 
-/// One finding: what is wrong, where, and what to do.
+/// One error: what is wrong, where, and what to do.
 struct Diagnostic {
-    Place place;
-    std::string message;     ///< what is wrong, and what was expected
-    std::string suggestion;  ///< what to do; may be empty
-    std::string excerpt;     ///< the line of the file, with a caret under the place; may be empty
+    Place place = {};
+    std::string message = {};     ///< what is wrong, and what was expected
+    std::string suggestion = {};  ///< what to do; may be empty
+    std::string excerpt = {};     ///< the line of the file, with a caret under the place; may be empty
 };
 
-/// "file:line:column: pointer: message\n    excerpt\n  suggestion", the form that the command line prints.
+/// The text that the command line prints: "file:line:column: pointer: message\n    excerpt\n  suggestion", without the
+/// parts that are unknown or empty. Any thread.
 CSGRT_API std::string format(const Diagnostic& diagnostic);
 
-/// What was borne, not refused: the rest of the model is as it should be.
+/// A fault that was tolerated: csgrt left something out or replaced it, and uses the rest of the model as it is.
 struct Warning {
-    std::string object;       ///< its name; empty: the whole file
-    Place place;              ///< the first of them, where it is known
-    std::string reason;       ///< what is wrong, and what was done about it
-    std::uint64_t count = 1;  ///< how often this was met
-    bool appearance = false;  ///< pictures show less than they should; what rays meet does not change
+    std::string object = {};  ///< the object's name; empty: the warning is about the whole file, or about a device
+    Place place = {};         ///< of the first occurrence; may be unknown
+    std::string reason = {};  ///< what is wrong, and what csgrt did about it
+    std::uint64_t count = 1;  ///< the number of occurrences
+    bool appearance = false;  ///< true: the fault changes colours only, not what rays hit
 };
 
-/// "place: object: reason (N times)", on one line.
+/// "place: object: reason (N times)", on one line. Any thread.
 CSGRT_API std::string format(const Warning& warning);
 
-/// Thrown by every function of csgrt that fails. `what()` holds all diagnostics, formatted, a line or more each.
+/// What every function of csgrt throws when it fails. `what()` holds all diagnostics as text, each of a line or more.
 class CSGRT_API Error : public std::runtime_error {
 public:
+    /// An error with one diagnostic, which has this message and no place.
     Error(Status status, std::string message);
     Error(Status status, std::vector<Diagnostic> diagnostics);
 
     Status status() const noexcept { return status_; }
+    /// All errors that were found, at least one.
     const std::vector<Diagnostic>& diagnostics() const noexcept { return diagnostics_; }
 
 private:

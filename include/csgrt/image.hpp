@@ -1,13 +1,14 @@
-// Pictures: float channels by name. Writing them is a component of its own (csgrt::image), the core needs no image library.
+// Pictures: channels of floats, each with a name. Reading and writing picture files is a component of its own
+// (csgrt::image), so that the core needs no image library.
 #pragma once
 
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <new>
-#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,29 +16,38 @@
 
 namespace csgrt {
 
-/// The values of several channels, of each as many floats: channel by channel in one piece of memory, so that a GPU copies a part of
-/// all of them at once.
+/// The values of several channels, the same number of floats for each. All are in one piece of memory, one channel
+/// after the other, so that a GPU can copy a part of all channels at once. Copies are deep. Several threads may read at
+/// the same time, and may write to different values.
 class CSGRT_API Channels {
 public:
+    /// No channels.
     Channels() = default;
-    /// `size` values of each channel, all as `values` says of it. Much memory is first touched by all processors.
+    /// As many channels as `values` has elements, each of `size` floats. All floats of channel i are values[i]. Several
+    /// threads write large channels. Throws std::bad_alloc.
     Channels(std::size_t size, std::span<const float> values);
-    /// The same values. Throws Error (usage) if a channel has not as many as the first.
+    /// A copy of these channels. Throws Error (usage) if two channels have different numbers of values.
     Channels(const std::vector<std::vector<float>>& channels);  // NOLINT: it is the same in another form
     Channels(Channels&& other) noexcept { *this = std::move(other); }
     Channels(const Channels& other);
     Channels& operator=(Channels&& other) noexcept;
     Channels& operator=(const Channels& other) { return *this = Channels(other); }
 
-    std::size_t size() const noexcept { return count_; }  ///< of channels
+    /// The number of channels.
+    std::size_t size() const noexcept { return count_; }
     bool empty() const noexcept { return count_ == 0; }
+    /// The values of one channel, which is below size(). The span is valid until the object is assigned to, moved from
+    /// or destroyed.
     std::span<float> operator[](std::size_t channel) noexcept { return {values_.get() + channel * size_, size_}; }
-    std::span<const float> operator[](std::size_t channel) const noexcept { return {values_.get() + channel * size_, size_}; }
+    std::span<const float> operator[](std::size_t channel) const noexcept {
+        return {values_.get() + channel * size_, size_};
+    }
 
+    /// The same shape, and values that compare equal: no NaN equals another.
     CSGRT_API friend bool operator==(const Channels& a, const Channels& b) noexcept;
 
 private:
-    static constexpr std::align_val_t alignment{64};  // a line of a processor's cache, which a GPU writes at once
+    static constexpr std::align_val_t alignment{64};  // a processor's cache line, which a GPU writes at once
     struct Free {
         void operator()(float* values) const noexcept { ::operator delete(values, alignment); }
     };
@@ -47,31 +57,44 @@ private:
     std::unique_ptr<float[], Free> values_;
 };
 
-/// Channels in the order R G B A Z N.X N.Y N.Z region solid depth partitions overlap, as far as the view wants them; each
-/// width x height floats, row by row from the TOP left. Z is the distance along the ray in millimetres (infinity: nothing hit),
-/// from the eye, or of an orthographic view from the plane on which its rays start, which the matrix worldToCamera tells;
-/// region and solid are index + 1 (0: nothing), depth the number of segments on the ray.
+/// A picture. Each channel has width x height floats, row by row; the first is the TOP left pixel. A Renderer makes
+/// these channels, in this order, as far as View::channels wants them:
+///
+///     R G B           linear colour, 0 to 1, more in highlights; the background where the ray hits nothing
+///     A               1 where the ray hits something, else 0
+///     Z               distance along the ray in millimetres, infinity where it hits nothing; from the eye, or in an
+///                     orthographic view from the plane on which its rays start (see the matrix worldToCamera)
+///     N.X N.Y N.Z     unit normal of the surface, outward from the region, in the model's coordinates
+///     region solid    index into Renderer::regions() or Renderer::solids(), plus 1; 0 where the ray hits nothing
+///     depth           number of segments along the ray: its intervals inside single solids
+///     partitions      number of intervals between neighbouring ends of segments that are inside any solid
+///     overlap         number of those that several regions claim (see Overlap)
+///
+/// Several threads may read one Image at the same time.
 struct Image {
-    int width = 0, height = 0;
-    std::vector<std::string> names;
-    Channels channels;
-    std::map<std::string, std::string> attributes;          ///< text for the header
-    std::map<std::string, std::vector<float>> matrices;     ///< 4x4, row-major, p' = M p, for the header
+    int width = 0, height = 0;            ///< pixels
+    std::vector<std::string> names = {};  ///< of the channels, one each
+    Channels channels = {};
+    std::map<std::string, std::string> attributes = {};       ///< text for the file's header, by name
+    std::map<std::string, std::vector<float>> matrices = {};  ///< 4 x 4, row-major, p' = M p, for the header, by name
 
-    /// The channel of that name, if there is one.
-    std::optional<std::span<const float>> channel(const std::string& name) const {
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (names[i] == name) return channels[i];
-        }
-        return std::nullopt;
-    }
+    /// Has the picture a channel of that name?
+    CSGRT_API bool has_channel(std::string_view name) const noexcept;
+    /// The values of the channel of that name. They belong to this Image: keep it while they are used. An Image that is
+    /// about to end, such as the result of a call, has no such function. Throws Error (usage), which names the channels
+    /// that the picture has, if that one is not among them.
+    CSGRT_API std::span<const float> channel(std::string_view name) const&;
+    std::span<const float> channel(std::string_view name) const&& = delete;
 };
 
-/// Writes .exr (every channel, 32-bit float) or .png (R G B, 8 bits), by extension, to a temporary name that is
-/// renamed when whole. "-" writes `format` ("exr" or "png") to standard output. Throws Error (file, usage).
+/// Writes a picture file: .exr (every channel, 32-bit floats) or .png (R G B, 8 bits), by the extension of `path`. The
+/// file has a temporary name until it is complete. "-" writes to standard output, in `format` ("exr" or "png"); so do
+/// the names of pipes and devices. Throws Error: usage if the picture has not the channels that the format needs or the
+/// format is unknown, file if the file cannot be written. Any thread. In csgrt::image.
 CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr");
 
-/// Reads an .exr with all its float channels, text attributes and matrices. Throws Error (file).
+/// Reads an .exr with all its channels as 32-bit floats, its text attributes and its matrices. Channels have csgrt's
+/// order; others follow. Throws Error (file). Any thread. In csgrt::image.
 CSGRT_API Image read_image(const std::string& path);
 
 }  // namespace csgrt

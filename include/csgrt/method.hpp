@@ -1,4 +1,5 @@
-// How a scene is computed: choices to be compared with each other. The default of each is the one to use.
+// The numerical methods that a scene can be rendered with, for comparisons between them. The default of each is the one
+// to use.
 #pragma once
 
 #include <cstddef>
@@ -7,40 +8,40 @@
 
 namespace csgrt {
 
-/// In which numbers rays meet solids. The three of them on a device and on the reference.
+/// The number type in which rays are intersected with solids. Devices and the reference have the first three.
 enum class Precision {
-    double_,
-    single,        ///< relative to the eye: rays and solids' places in double, their difference rounded to float once
-    single_world,  ///< float throughout, in the world's coordinates
-    quad,          ///< 113 bits, on the reference only: to see what rounding does to the others
+    double_,       ///< 64-bit floats throughout
+    single,        ///< 32-bit floats relative to the eye: differences of doubles, rounded once
+    single_world,  ///< 32-bit floats throughout, in the model's coordinates
+    quad,          ///< 113 bits, on the reference only: shows the rounding errors of the others
 };
 
-/// How quartics (tor, eto, cones with two tapers) are solved.
+/// How quartic equations are solved: those of tor, eto and cones with two tapers.
 enum class Quartic {
-    bracketed,            ///< origin at the closest approach, roots between those of the derivative
-    bracketed_unshifted,  ///< the same with the origin where the ray's is
+    bracketed,            ///< origin at the ray's point closest to the solid; roots lie between the derivative's
+    bracketed_unshifted,  ///< the same with the ray's own origin
     ferrari,              ///< closed form
-    yuksel,               ///< Yuksel 2022: brackets and Newton, to a stated error
+    yuksel,               ///< brackets and Newton's method to a stated error (Yuksel 2022)
 };
 
-/// Which ends of segments along a ray are one.
+/// Which ends of segments along one ray count as the same point.
 enum class Tolerance {
-    length,    ///< those closer than Settings::tolerance; the scene's, by default
-    surfaces,  ///< those on one surface, as found when the scene is compiled, and those that rounding alone sets apart
-    relative,  ///< those closer than a share of the scene's size
-    none,      ///< only those that are equal
+    length,    ///< ends closer than Settings::tolerance in millimetres; by default the scene's tolerance
+    surfaces,  ///< ends on one surface, as found when the scene is compiled, and ends that only rounding separates
+    relative,  ///< ends closer than relative_tolerance() times the diameter of a sphere around the bounded solids
+    none,      ///< ends at equal distances only
 };
-/// For Tolerance::relative: of the diameter of a sphere around the scene's bounded solids.
+/// For Tolerance::relative: a share of the diameter of a sphere around the scene's bounded solids, without a unit.
 constexpr double relative_tolerance(Precision precision) {
     return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-9;
 }
-/// What rounding may set apart where one surface is computed in two ways (a ball and the end of a part), of the same
-/// diameter.
+/// What rounding may separate where one surface is computed in two ways (a ball and the end of a part), as a share of
+/// the same diameter.
 constexpr double rounding_tolerance(Precision precision) {
     return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-12;
 }
 
-/// What the command line and the figures call them.
+/// The names in the command line and in figures.
 inline constexpr std::pair<std::string_view, Precision> precision_names[] = {
     {"double", Precision::double_},
     {"single", Precision::single},
@@ -58,7 +59,7 @@ inline constexpr std::pair<std::string_view, Tolerance> tolerance_names[] = {
     {"none", Tolerance::none},
 };
 
-/// "" for what has no name.
+/// The name of a value in one of these tables; "" if it has none.
 template <class Value, std::size_t count>
 constexpr std::string_view name_of(const std::pair<std::string_view, Value> (&names)[count], Value value) {
     for (const auto& [name, named] : names)

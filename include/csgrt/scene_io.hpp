@@ -7,23 +7,30 @@
 
 namespace csgrt {
 
-/// Reads .json (csgrt's own format, scenes/csgrt.schema.json), .g (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5),
-/// by extension. "-" is standard input: of it, and of devices and pipes, the first bytes tell the format.
-/// BRL-CAD's databases are lenient scenes: an object that cannot be read is an Unsupported solid, with the reason, and other
-/// faults are in `warnings`. `strict`: they are read as .json always is, and refused if anything is wrong.
-/// Throws Error: Status::file if it cannot be read, Status::scene with every finding if it is wrong.
-/// The result is syntactically sound; `validate` checks the model.
+/// Reads a scene file, whose format its extension tells: .json (csgrt's own format, scenes/csgrt.schema.json), .g
+/// (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5). The first bytes tell the format of "-", which is standard
+/// input, and of devices and pipes. Lengths are converted to millimetres.
+///
+/// BRL-CAD's databases become lenient scenes: an object that cannot be read becomes an Unsupported solid, with the
+/// reason, and other faults become Scene::warnings. If `strict`, they are read as .json always is: any fault is an
+/// error.
+///
+/// Throws Error: file if the file cannot be read, scene, with every error that was found, if its text is invalid,
+/// out_of_memory if the model does not fit. validate() checks the model itself. Any thread.
 CSGRT_API Scene load_scene(const std::string& path, bool strict = false);
 
-/// The same for the bytes of a file, whose first tell the format. Errors call it `name`, and files that an ebm, vol or dsp
-/// names are relative to that name's folder.
+/// Reads a scene from the bytes of a file; the first bytes tell the format. Errors call the file `name`. Names of files
+/// of cells in it (of an ebm, vol or dsp) are relative to the folder of `name`. Throws as load_scene() does. Any
+/// thread.
 CSGRT_API Scene parse_scene(std::string bytes, const std::string& name, bool strict = false);
 
-/// Writes the scene as .json; it loads to the same model, bit for bit. Written whole or not at all. "-": standard output.
+/// Writes a scene as .json. Reading it gives the same model, bit for bit. The file has a temporary name until it is
+/// complete. "-" is standard output. Throws Error: file, or scene if an object cannot be expressed. Any thread.
 CSGRT_API void save_scene(const Scene& scene, const std::string& path);
 
-/// Reads the view of a script as MGED's `saveview` writes it and rt reads it: viewsize, orientation (or viewrot, ae, lookat_pt)
-/// and eye_pt, and the perspective of rt's option -p. Of several frames the first. Throws Error (file, scene).
+/// Reads the view from a script that MGED's `saveview` wrote, as rt reads it: viewsize, orientation (or viewrot, ae,
+/// lookat_pt) and eye_pt, and the perspective of rt's option -p. If there are several frames, the first. Throws Error
+/// (file, scene). Any thread.
 CSGRT_API Camera load_view(const std::string& path);
 
 }  // namespace csgrt

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,11 +18,10 @@ constexpr std::size_t most_told_apart = std::size_t{1} << 24;
 /// {"17": "/all.g/x.r"} of the numbers that occur; no attribute where the picture has no such channel.
 template <class Infos, class Name>
 void describe(Image& image, const char* channel, const char* attribute, const Infos& infos, Name name) {
-    const std::optional<std::span<const float>> numbers = image.channel(channel);
-    if (!numbers) return;
+    if (!image.has_channel(channel)) return;
     std::vector<bool> occurs(std::min(infos.size(), most_told_apart) + 1);
     float last = 0;
-    for (const float number : *numbers) {
+    for (const float number : image.channel(channel)) {
         if (number == last) continue;  // as most are
         last = number;
         if (number >= 1 && number < static_cast<float>(occurs.size())) occurs[static_cast<std::size_t>(number)] = true;

@@ -43,10 +43,11 @@ std::vector<unsigned char> quantize(const Image& image, const std::string& name)
     std::vector<unsigned char> pixels(3 * image.channels[0].size());
     for (std::size_t c = 0; c < 3; ++c) {
         const std::string color(1, "RGB"[c]);
-        const std::optional<std::span<const float>> channel = image.channel(color);
-        if (!channel) throw Error(Status::usage, name + ": the picture has no channel " + color + ", which a PNG needs");
-        for (std::size_t i = 0; i < channel->size(); ++i) {
-            const float value = (*channel)[i];
+        if (!image.has_channel(color))
+            throw Error(Status::usage, name + ": the picture has no channel " + color + ", which a PNG needs");
+        const std::span<const float> channel = image.channel(color);
+        for (std::size_t i = 0; i < channel.size(); ++i) {
+            const float value = channel[i];
             const float clamped = value > 0 ? (value < 1 ? value : 1) : 0;  // NaN is 0
             pixels[3 * i + c] = static_cast<unsigned char>(static_cast<double>(255 * clamped) + 0.5);
         }

@@ -70,14 +70,14 @@ void DeviceBackend::report(Statistics& statistics) const {
     statistics.overlaps = c.overlaps;
     statistics.segment_bytes = c.segment_bytes;
     statistics.partition_bytes = c.partition_bytes;
-    statistics.tiles = c.batches;
+    statistics.batches = c.batches;
     statistics.ms.count_hits = c.count_hits;
     statistics.ms.scan = c.scan;
     statistics.ms.store_segments = c.store_segments;
     statistics.ms.weave = c.weave;
     statistics.ms.evaluate = c.evaluate;
     statistics.ms.shade = c.shade;
-    statistics.ms.cull_blocks = c.cull_tiles;
+    statistics.ms.cull_tiles = c.cull_tiles;
     statistics.ms.first_hits = c.first_hits;
 }
 

@@ -29,7 +29,7 @@ void ReferenceBackend::report(Statistics& statistics) const {
     statistics.segments = counts_.segments;
     statistics.partitions_used = statistics.partitions_allocated = counts_.partitions;
     statistics.overlaps = counts_.overlaps;
-    statistics.tiles = 1;
+    statistics.batches = 1;
 }
 
 }  // namespace csgrt

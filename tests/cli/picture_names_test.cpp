@@ -26,7 +26,7 @@ TEST_CASE("an EXR names the regions and solids that occur in it, and no others")
         INFO(result.err);
         REQUIRE(result.status == 0);
         const csgrt::Image image = csgrt::read_image(exr);
-        const std::span<const float> regions = *image.channel("region"), solid_numbers = *image.channel("solid");
+        const std::span<const float> regions = image.channel("region"), solid_numbers = image.channel("solid");
         for (const auto& [channel, attribute, slash] : {std::tuple{regions, "csgrt:regions", "/"}, {solid_numbers, "csgrt:solids", ""}}) {
             std::vector<int> numbers(channel.begin(), channel.end());
             std::sort(numbers.begin(), numbers.end());

@@ -6,7 +6,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
-#include "scene/texts.hpp"
+#include "scene/warning_texts.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;

@@ -1,8 +1,23 @@
 #include <csgrt/csgrt.hpp>
 
 #include <cstdio>
+#include <string_view>
+
+// The version of the headers, of the package and of the library are one.
+static_assert(CSGRT_VERSION == CSGRT_VERSION_MAJOR * 10000 + CSGRT_VERSION_MINOR * 100 + CSGRT_VERSION_PATCH);
+static_assert(std::string_view(CSGRT_VERSION_STRING) == PACKAGE_VERSION);
+#if CSGRT_VERSION < 100
+#error "CSGRT_VERSION is no number that the preprocessor can compare"
+#endif
+
+bool initializers_keep_defaults();
 
 int main() {
+    if (std::string_view(csgrt::version()) != CSGRT_VERSION_STRING) {
+        std::printf("the library is version %s, its headers are version %s\n", csgrt::version(), CSGRT_VERSION_STRING);
+        return 1;
+    }
+    if (!initializers_keep_defaults()) return 1;
     csgrt::Scene scene;
     scene.objects.push_back(csgrt::Solid{"ball", csgrt::Ell{{}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}});
     csgrt::Renderer renderer(scene);

@@ -110,7 +110,7 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
         const Image expected = reference.render(view);
         require_same(device.render(view), expected);
         require_same(batched.render(view), expected);
-        if (expected.width >= 64) CHECK(batched.statistics().tiles > 1);
+        if (expected.width >= 64) CHECK(batched.statistics().batches > 1);
         CHECK(device.statistics().segments == reference.statistics().segments);
         CHECK(device.statistics().partitions_used == reference.statistics().partitions_used);
         CHECK(device.statistics().overlaps == reference.statistics().overlaps);

@@ -51,7 +51,7 @@ TEST_CASE("two devices give what one gives", "[.two_devices]") {
             test::require_same(one.render(view), two.render(view));
             CHECK(one.statistics().segments == two.statistics().segments);
             CHECK(one.statistics().partitions_used == two.statistics().partitions_used);
-            CHECK(two.statistics().tiles > 2);
+            CHECK(two.statistics().batches > 2);
         }
         const std::vector<Ray> rays = test::random_rays(one.bounds(), 3000);
         test::require_same(one.shoot(rays), two.shoot(rays));

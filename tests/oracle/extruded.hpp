@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "outline.hpp"
-#include "shaken.hpp"
+#include "perturbation.hpp"
 
 namespace csgrt::oracle {
 

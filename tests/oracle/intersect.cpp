@@ -79,8 +79,8 @@ Sets solve_curve(const Curve& f, std::size_t k, const ScaledRay& ray, const Chan
         if (absolute(f(s)) <= e) unsure.push_back(zone(s, 2 * e));
     };
     for (const quad s : turns) look(s);
-    // Where f turns back within the doubt of 0, beside a root at a tip, the doubt of the two is one stretch, in which the
-    // number of roots is not sure.
+    // Where f turns back within the doubt of 0, beside a root at a tip, the doubt of the two is one stretch, in which
+    // the number of roots is not sure.
     std::vector<quad> knots{-ray.reach};
     knots.insert(knots.end(), turns.begin(), turns.end());
     knots.push_back(ray.reach);
@@ -104,7 +104,7 @@ Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad
         const quad noise = noisy ? solid.noise(k, p) : quad(0);
         return quad(margin) * (solid.change(k, p, delta * (1 + ray.turn * absolute(s))) + noise);
     };
-    if (const auto line = solid.surfaces[k]->line(ray.origin, ray.direction))
+    if (const auto line = solid.surfaces[k]->ray_function(ray.origin, ray.direction))
         return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, true); });  // nothing but this bounds it
     const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
     const auto change_at = [&](quad s) { return change_with(s, f.degree > 2); };

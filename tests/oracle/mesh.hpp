@@ -11,8 +11,8 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "ball_tree.hpp"
-#include "rough.hpp"
+#include "sphere_tree.hpp"
+#include "filter_numbers.hpp"
 
 namespace csgrt::oracle {
 
@@ -39,7 +39,7 @@ public:
         condition = to_double(larger(larger(ones.x, ones.y), larger(ones.z, 1)));
         for (const Vec3& vertex : vertices) {
             vertices_.push_back(place.point(vertex));
-            rough_.push_back(triple<Rough>(vertices_.back()));
+            rough_.push_back(triple<BoundedDouble>(vertices_.back()));
         }
         std::vector<bool> used(vertices.size(), false);
         for (const Face& face : faces)
@@ -55,15 +55,16 @@ public:
         center = quad(0.5) * (low + high);
         for (std::size_t i = 0; i < vertices.size(); ++i)
             if (used[i]) radius = std::max(radius, to_double(length(vertices_[i] - center)));
-        std::vector<Reach> balls;
+        std::vector<BoundingSphere> spheres;
         for (std::size_t i = 0; i < faces.size(); ++i) {
             const std::array<Vec3, 3> p{to_vec3(at(i, 0)), to_vec3(at(i, 1)), to_vec3(at(i, 2))};
-            Reach ball{{(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3, (p[0].z + p[1].z + p[2].z) / 3},
-                       0};
-            const double size = std::abs(ball.center.x) + std::abs(ball.center.y) + std::abs(ball.center.z);
+            BoundingSphere sphere{
+                {(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3, (p[0].z + p[1].z + p[2].z) / 3}, 0};
+            const double size = std::abs(sphere.center.x) + std::abs(sphere.center.y) + std::abs(sphere.center.z);
             for (const Vec3& v : p)
-                ball.radius = std::max(ball.radius, 1.001 * distance_of(v, ball.center) + 16 * double_epsilon * size);
-            balls.push_back(ball);
+                sphere.radius =
+                    std::max(sphere.radius, 1.001 * distance_of(v, sphere.center) + 16 * double_epsilon * size);
+            spheres.push_back(sphere);
             quad longest = 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 const QVec e = at(i, k) - at(i, (k + 1) % 3);
@@ -72,7 +73,7 @@ public:
             const QVec n = cross(at(i, 1) - at(i, 0), at(i, 2) - at(i, 0));
             heights_.push_back(longest > 0 ? std::sqrt(to_double(dot(n, n) / longest)) : 0);
         }
-        tree_ = BallTree(std::move(balls));
+        tree_ = SphereTree(std::move(spheres));
     }
 
     std::size_t size() const { return faces_.size(); }
@@ -94,7 +95,7 @@ public:
         const QVec aside = any_across(d), aside2 = cross(d, aside);
         found.edge_distance = 4 * quad(radius) + 1;
         const Vec3 from = to_vec3(o), way = to_vec3(d);
-        const Triple<Rough> start = triple<Rough>(o), along = triple<Rough>(d);
+        const Triple<BoundedDouble> start = triple<BoundedDouble>(o), along = triple<BoundedDouble>(d);
         const auto crossed = [&](std::size_t i) {
             const QVec n = normal(i);
             const quad rate = dot(n, d);
@@ -143,10 +144,10 @@ public:
     }
     /// Is p within `reach` of triangle i?
     bool is_near(std::size_t i, const QVec& p, quad reach) const {
-        const Reach& ball = tree_.balls()[i];
-        const QVec to_ball = QVec(ball.center) - p;
-        const quad far = quad(ball.radius) + reach;
-        return dot(to_ball, to_ball) <= far * far && distance(i, p) <= reach;
+        const BoundingSphere& sphere = tree_.spheres()[i];
+        const QVec to_sphere = QVec(sphere.center) - p;
+        const quad far = quad(sphere.radius) + reach;
+        return dot(to_sphere, to_sphere) <= far * far && distance(i, p) <= reach;
     }
     bool is_near(const QVec& p, quad reach) const {
         for (std::size_t i = 0; i < faces_.size(); ++i)
@@ -166,41 +167,44 @@ private:
     }
     enum class Pass { unsure, beside, through };
     /// Where the line passes triangle i, if it is certain that no edge is as near as `near`.
-    Pass far_from_edges(std::size_t i, const Triple<Rough>& o, const Triple<Rough>& d, double near) const {
-        const auto across = [](const Triple<Rough>& a, const Triple<Rough>& b) -> Triple<Rough> {
+    Pass far_from_edges(std::size_t i, const Triple<BoundedDouble>& o, const Triple<BoundedDouble>& d,
+                        double near) const {
+        const auto across = [](const Triple<BoundedDouble>& a,
+                               const Triple<BoundedDouble>& b) -> Triple<BoundedDouble> {
             return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
         };
-        const auto most = [](const Triple<Rough>& v) {
+        const auto most = [](const Triple<BoundedDouble>& v) {
             const double x = v.x.most(), y = v.y.most(), z = v.z.most();
             return 1.000001 * std::sqrt(x * x + y * y + z * z);
         };
-        const std::array<Triple<Rough>, 3> p{rough_[faces_[i][0]] - o, rough_[faces_[i][1]] - o,
-                                             rough_[faces_[i][2]] - o};
+        const std::array<Triple<BoundedDouble>, 3> p{rough_[faces_[i][0]] - o, rough_[faces_[i][1]] - o,
+                                                     rough_[faces_[i][2]] - o};
         // Seen along d: on which side of an edge's line the ray is, and on which the third corner.
         int clear = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Triple<Rough> edge = p[(k + 1) % 3] - p[k], side = across(d, edge);
-            const Rough ray = dot(side, p[k]), corner = dot(side, p[(k + 2) % 3] - p[k]);
+            const Triple<BoundedDouble> edge = p[(k + 1) % 3] - p[k], side = across(d, edge);
+            const BoundedDouble ray = dot(side, p[k]), corner = dot(side, p[(k + 2) % 3] - p[k]);
             if (!(ray.least() > near * most(side)) || !(corner.least() > 0)) continue;
             if ((ray.v > 0) == (corner.v > 0)) return Pass::beside;
             ++clear;
         }
         if (clear == 3) return Pass::through;
         // A triangle seen edge-on: before or behind it?
-        const Triple<Rough> u = p[1] - p[0], v = p[2] - p[0], n = across(u, v);
-        const Triple<Rough> side = across(d, {Rough(n.x.v), Rough(n.y.v), Rough(n.z.v)});
+        const Triple<BoundedDouble> u = p[1] - p[0], v = p[2] - p[0], n = across(u, v);
+        const Triple<BoundedDouble> side =
+            across(d, {BoundedDouble(n.x.v), BoundedDouble(n.y.v), BoundedDouble(n.z.v)});
         int ahead = 0, behind = 0;
-        for (const Triple<Rough>& corner : p) {
-            const Rough off = dot(side, corner);
+        for (const Triple<BoundedDouble>& corner : p) {
+            const BoundedDouble off = dot(side, corner);
             if (!(off.least() > near * most(side))) return Pass::unsure;
             ++(off.v > 0 ? ahead : behind);
         }
         return ahead == 0 || behind == 0 ? Pass::beside : Pass::unsure;
     }
     bool is_far(std::size_t i, const QVec& o, const QVec& d, quad speed, double near) const {
-        const Reach& ball = tree_.balls()[i];
-        const QVec across = cross(QVec(ball.center) - o, d);
-        const quad reach = (quad(ball.radius) + quad(near)) * speed;
+        const BoundingSphere& sphere = tree_.spheres()[i];
+        const QVec across = cross(QVec(sphere.center) - o, d);
+        const quad reach = (quad(sphere.radius) + quad(near)) * speed;
         return dot(across, across) > reach * reach;
     }
     static quad to_segment(const QVec& a, const QVec& b) {  // from 0
@@ -218,8 +222,8 @@ private:
 
     std::vector<QVec> vertices_;
     std::vector<Face> faces_;
-    std::vector<Triple<Rough>> rough_;  ///< vertices
-    BallTree tree_;
+    std::vector<Triple<BoundedDouble>> rough_;  ///< vertices
+    SphereTree tree_;
     std::vector<double> heights_;
 };
 

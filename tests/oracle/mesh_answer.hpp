@@ -19,9 +19,9 @@ inline bool is_closed(const Parts& parts) {
     return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second % 2 == 0; });
 }
 
-/// Equal points are one vertex, and triangles without area are none. A surface is a set of points, and has each once: of
-/// several triangles with the same vertices one counts. Where that leaves it open, and with all of them every edge has an
-/// even number of triangles, as between two parts that have a side in common, pairs of them bound nothing.
+/// Equal points are one vertex, and triangles without area are none. A surface is a set of points, and has each once:
+/// of several triangles with the same vertices one counts. Where that leaves it open, and with all of them every edge
+/// has an even number of triangles, as between two parts that have a side in common, pairs of them bound nothing.
 inline Parts parts_of(const Bot& bot) {
     Parts all;
     for (const auto& face : bot.faces)
@@ -60,7 +60,7 @@ inline Parts parts_of(const Nmg& nmg) {
 /// Tries a ray and, if `edge_distance` is within reach, others beside it.
 /// `spans_of(o)`: where the line from o is inside, and how near it comes to an edge.
 template <class SpansOf>
-Answer shaken_answer(const QVec& o, const QVec& d, double moved, const SpansOf& spans_of) {
+Answer perturbed_answer(const QVec& o, const QVec& d, double moved, const SpansOf& spans_of) {
     Answer answer;
     quad edge_distance = 0;
     const Spans exact = spans_of(o, edge_distance);
@@ -92,14 +92,14 @@ inline double displacement(const MeshSurface& surface, const QVec& o, const QVec
     return surface.condition *
            (precision * surface.radius + margin * ulps * double_epsilon * (surface.placement + way + surface.radius));
 }
-inline bool passes_by(const MeshSurface& surface, const QVec& o, const QVec& d, double moved) {
+inline bool misses(const MeshSurface& surface, const QVec& o, const QVec& d, double moved) {
     const QVec to_center = surface.center - o;
     const quad t = dot(to_center, d) / dot(d, d);
     return length(to_center - t * d) > quad(surface.radius * 1.0001 + 2 * moved);
 }
 
-/// As far as a ray must be from it to pass it by for certain, and more.
-inline Reach reach_of(const MeshSurface& surface) {
+/// Larger than the distance from which on misses() is true.
+inline BoundingSphere bounding_sphere_of(const MeshSurface& surface) {
     const double rounding = 4 * margin * ulps * double_epsilon * surface.condition;
     return {to_vec3(surface.center),
             1.001 * surface.radius + 4 * precision * surface.condition * surface.radius +
@@ -114,11 +114,11 @@ public:
     MeshSolid(const Parts& parts, const QAffine& place)
         : surface_(parts.vertices, parts.faces, place * parts.place), closed_(is_closed(parts)) {}
 
-    Reach reach() const { return reach_of(surface_); }
+    BoundingSphere bounds() const { return bounding_sphere_of(surface_); }
     Answer along(const Ray& ray) const {
         const QVec o = ray.origin, d = ray.direction;
         const double moved = displacement(surface_, o, d), speed = to_double(length(d));
-        if (passes_by(surface_, o, d, moved)) return {};
+        if (misses(surface_, o, d, moved)) return {};
         Spans doubtful;
         std::vector<MeshCrossing> met;
         const auto spans_of = [&](const QVec& from, quad& edge_distance) {
@@ -132,7 +132,7 @@ public:
                 doubtful.push_back({{all.front().t, 0}, {all.back().t, 0}});
             return spans;
         };
-        Answer answer = shaken_answer(o, d, moved, spans_of);
+        Answer answer = perturbed_answer(o, d, moved, spans_of);
         if (!doubtful.empty()) {
             answer.tie = true;
             answer.outer = unite(answer.outer, doubtful);
@@ -176,11 +176,11 @@ public:
     PlateSolid(const Bot& bot, const QAffine& place, double skin)
         : bot_(bot), inverse_(place.inverse()), skin_(skin), surface_(bot.vertices, bot.faces, place) {}
 
-    Reach reach() const { return reach_of(surface_); }
+    BoundingSphere bounds() const { return bounding_sphere_of(surface_); }
     Answer along(const Ray& ray) const {
         const QVec o = ray.origin, d = ray.direction;
         const double moved = displacement(surface_, o, d), speed = to_double(length(d));
-        if (passes_by(surface_, o, d, moved)) return {};
+        if (misses(surface_, o, d, moved)) return {};
         Spans doubtful;
         double widest = 0;
         const auto spans_of = [&](const QVec& from, quad& edge_distance) {
@@ -203,7 +203,7 @@ public:
             }
             return join(std::move(spans));
         };
-        Answer answer = shaken_answer(o, d, moved, spans_of);
+        Answer answer = perturbed_answer(o, d, moved, spans_of);
         if (!doubtful.empty()) {
             answer.tie = true;
             answer.inner = subtract(answer.inner, join(doubtful));

@@ -69,7 +69,7 @@ private:
         QVec on = p + quad(u) * e + quad(random_.between(-0.2, 1.2 - u)) * f;
         if (random_.coin())
             on = on + quad(random_.signed_power(-12, -3) * surface_.radius) * surface_.normal(i);
-        if (random_.below(3) == 0) d = unit(d + random_.hair(-12, -2));
+        if (random_.below(3) == 0) d = unit(d + random_.offset(-12, -2));
         return at(on, d, random_.between(-1, 5));
     }
     /// Through a vertex or a point of an edge: to another, along an axis, anywhere; exactly or a hair beside.

@@ -13,7 +13,7 @@ namespace csgrt::oracle {
 
 namespace detail {
 
-/// A mesh in numbers of about 1 each, before a Stand gives it its place.
+/// A mesh in numbers of about 1 each, before a LocalFrame gives it its place.
 struct MeshBuilder {
     std::vector<QVec> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;
@@ -81,7 +81,7 @@ struct MeshBuilder {
     }
 };
 
-inline Shape mesh_form(std::size_t form, const Stand& s, Random& random) {
+inline Shape mesh_form(std::size_t form, const LocalFrame& s, Random& random) {
     MeshBuilder b;
     const double pi = std::acos(-1.0);
     const auto ring = [&](double turns, std::size_t i, std::size_t of) {
@@ -160,10 +160,10 @@ inline Case make_mesh_case(std::size_t index, Random& random) {
     const std::size_t forms = std::size(detail::mesh_forms), form = index % forms, round = index / forms;
     const std::size_t place = round % std::size(detail::placements), turn = index / 7 % 4;
     const double size = turn == 2 ? 1e-3 : turn == 3 ? 1e6 : 1.0;
-    const Stand stand = form < 2 || place == 1 ? aligned_stand(random) : random_stand(random, size);
-    Shape shape = detail::mesh_form(form, stand, random);
+    const LocalFrame local = form < 2 || place == 1 ? aligned_local_frame(random) : random_local_frame(random, size);
+    Shape shape = detail::mesh_form(form, local, random);
     return {std::string(detail::mesh_forms[form]) + ", " + detail::placements[place], std::move(shape),
-            detail::placement(place, stand.size, random)};
+            detail::placement(place, local.size, random)};
 }
 
 }  // namespace csgrt::oracle

@@ -1,6 +1,6 @@
-// Random numbers that are the same with every standard library (its distributions are not). Which number goes where must
-// not be the compiler's choice, either: a call's arguments, and what an operator stands between, are computed in any
-// order. What draws twice has a name for the one drawn first, or stands in braces.
+// Random numbers that are the same with every standard library (its distributions are not). Which number goes where
+// must not be the compiler's choice, either: a call's arguments, and what an operator stands between, are computed in
+// any order. What draws twice has a name for the one drawn first, or stands in braces.
 #pragma once
 
 #include <cmath>
@@ -38,8 +38,8 @@ public:
             if (square > quad(1e-4) && square <= 1) return oracle::unit(v);
         }
     }
-    /// In any direction, of the length 10^x times `unit` with x between the two.
-    QVec hair(double low, double high, quad unit = 1) {
+    /// A vector in any direction, of the length 10^x times `unit` with x between the two.
+    QVec offset(double low, double high, quad unit = 1) {
         const QVec d = direction();
         return quad(power(low, high)) * unit * d;
     }

@@ -247,8 +247,8 @@ Ray RayMaker::edge() {
     }
     if (!(dot(d, d) > 0)) d = random_.axis();
     d = unit(d);
-    if (random_.coin()) p = p + random_.hair(-12, -1, size());
-    if (random_.below(4) == 0) d = unit(d + random_.hair(-12, -1));
+    if (random_.coin()) p = p + random_.offset(-12, -1, size());
+    if (random_.below(4) == 0) d = unit(d + random_.offset(-12, -1));
     const quad sign = random_.sign();
     return rounded(p - quad(random_.between(-1, 5)) * size() * d, sign * d);
 }

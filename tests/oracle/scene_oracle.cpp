@@ -6,24 +6,24 @@
 
 namespace csgrt::oracle {
 
-SceneOracle::SceneOracle(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported, bool quick,
-                         bool air)
-    : scene_(scene), skip_unsupported_(skip_unsupported), quick_(quick), air_(air) {
+SceneOracle::SceneOracle(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported,
+                         bool filtered, bool air)
+    : scene_(scene), skip_unsupported_(skip_unsupported), filtered_(filtered), air_(air) {
     for (const std::string& name : objects.empty() ? top_objects(scene) : objects)
         for (OracleRegion& region : starts(name, QAffine{}, "")) regions_.push_back(std::move(region));
     regions_of_.resize(solids_.size());
     for (std::uint32_t r = 0; r < regions_.size(); ++r)
         regions_[r].tree.each([&](std::size_t solid) { regions_of_[solid].push_back(r); });
-    std::vector<Reach> balls;
+    std::vector<BoundingSphere> spheres;
     for (std::size_t i = 0; i < solids_.size(); ++i) {
-        if (solids_[i].reach.radius == HUGE_VAL) {
+        if (solids_[i].bounds.radius == HUGE_VAL) {
             everywhere_.push_back(i);
             continue;
         }
-        balls.push_back(solids_[i].reach);
+        spheres.push_back(solids_[i].bounds);
         somewhere_.push_back(i);
     }
-    tree_ = BallTree(std::move(balls));
+    tree_ = SphereTree(std::move(spheres));
 }
 
 SceneAnswer SceneOracle::shoot(const Ray& ray, double slack) const {
@@ -52,7 +52,7 @@ SceneAnswer SceneOracle::shoot(const Ray& ray, double slack) const {
         }
         const quad by = quad(slack / speed) + quad(widest);
         most = larger(most, by);
-        if (!one.intervals.empty()) least = std::min(least, solids_[i].reach.radius);
+        if (!one.intervals.empty()) least = std::min(least, solids_[i].bounds.radius);
         Sure& set = sets.back();
         set.inner = resized(one.inner, -by);
         set.outer = resized(one.outer, by);
@@ -83,7 +83,7 @@ Expression SceneOracle::composite(std::vector<PipePart> parts) {
     Expression outer, bores;
     for (PipePart& part : parts) {
         (part.bore ? bores : outer).operands.push_back({Operator::leaf, {}, solids_.size()});
-        solids_.push_back(scene_solid(std::move(part.solid), quick_));
+        solids_.push_back(scene_solid(std::move(part.solid), filtered_));
     }
     return bores.operands.empty() ? outer : apply(Operator::difference, outer, bores);
 }
@@ -93,7 +93,7 @@ Expression SceneOracle::leaf(const Solid& solid, const QAffine& place) {
     if (const auto* pipe = std::get_if<Pipe>(&solid.shape)) return composite(parts(*pipe, place));
     if (const auto* line = std::get_if<Cline>(&solid.shape)) return composite(parts(*line, place));
     const double skin = scene_.tolerance > 0 ? 2 * scene_.tolerance : 0.001;
-    solids_.push_back(scene_solid(solid.shape, place, skin, quick_));
+    solids_.push_back(scene_solid(solid.shape, place, skin, filtered_));
     return {Operator::leaf, {}, solids_.size() - 1};
 }
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "ball_tree.hpp"
+#include "sphere_tree.hpp"
 #include "scene_solid.hpp"
 #include "scene_weave.hpp"
 #include "solids/pipe.hpp"
@@ -27,10 +27,10 @@ namespace csgrt::oracle {
 
 class SceneOracle {
 public:
-    /// `objects` of the scene, empty: its top objects. `skip_unsupported`: solids of unknown types are empty sets. `air`: air
-    /// regions are kept.
+    /// `objects` of the scene, empty: its top objects. `skip_unsupported`: solids of unknown types are empty sets.
+    /// `air`: air regions are kept.
     explicit SceneOracle(const Scene& scene, const std::vector<std::string>& objects = {},
-                         bool skip_unsupported = false, bool quick = false, bool air = false);
+                         bool skip_unsupported = false, bool filtered = false, bool air = false);
 
     // Keeps the scene by reference; so a temporary will not do.
     explicit SceneOracle(Scene&&, const std::vector<std::string>& = {}, bool = false) = delete;
@@ -67,12 +67,12 @@ private:
     Starts starts(const std::string& name, const QAffine& m, const std::string& above);
 
     const Scene& scene_;
-    const bool skip_unsupported_, quick_, air_;
+    const bool skip_unsupported_, filtered_, air_;
     std::vector<SceneSolid> solids_;
     std::vector<OracleRegion> regions_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid
     std::vector<std::size_t> everywhere_, somewhere_;     ///< solids without bounds; those that the tree has
-    BallTree tree_;
+    SphereTree tree_;
 };
 
 }  // namespace csgrt::oracle

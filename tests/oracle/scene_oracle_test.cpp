@@ -163,18 +163,18 @@ TEST_CASE("scene oracle: what is said in double to pass a solid by does", "[orac
         for (std::size_t index = 0; index < 60; ++index) {
             const Case one = make_case(kind, index, random);
             const SceneSolid solid = scene_solid(one.shape, to_affine(one.matrix), 0.001, false);
-            const QVec center = solid.reach.center;
+            const QVec center = solid.bounds.center;
             for (int i = 0; i < 12; ++i) {
                 // Beside the ball by a little, or by its half; near, or far away.
                 const QVec d = random.direction(), aside = unit(cross(d, random.direction()));
                 const double off = i % 3 == 0 ? random.between(0, 1) : 1 + random.signed_power(-9, -1);
                 const double back = random.power(0, 6);
-                const QVec o = center + quad(solid.reach.radius) * (quad(off) * aside - quad(back) * d);
+                const QVec o = center + quad(solid.bounds.radius) * (quad(off) * aside - quad(back) * d);
                 const Ray ray{to_vec3(o), to_vec3(quad(random.power(-3, 3)) * d)};
                 const Answer answer = solid(ray);
                 const bool meets = !answer.intervals.empty() || !answer.outer.empty();
                 met += meets;
-                if (!solid.reach.is_passed_by(ray.origin, ray.direction)) continue;
+                if (!solid.bounds.is_missed_by(ray.origin, ray.direction)) continue;
                 ++passed;
                 INFO(one.name);
                 REQUIRE_FALSE(meets);

@@ -11,7 +11,7 @@ namespace detail {
 
 namespace {
 
-Shape ell_form(std::size_t form, const Stand& s, Random& random) {
+Shape ell_form(std::size_t form, const LocalFrame& s, Random& random) {
     const auto of = [&](double a, double b, double c) {
         return Ell{v(s.at), v(s.vector(a, 0, 0)), v(s.vector(0, b, 0)), v(s.vector(0, 0, c))};
     };
@@ -44,7 +44,7 @@ constexpr const char* ell_forms[] = {"unit sphere", "sphere", "ellipsoid",   "pa
                                      "needle",      "disc",   "near sphere", "skew"};
 
 /// Base semi-axes a, b, top c, d, in units; top at (lean_x, lean_y, height).
-Shape tgc_of(const Stand& s, double a, double b, double c, double d, double height, double lean_x = 0,
+Shape tgc_of(const LocalFrame& s, double a, double b, double c, double d, double height, double lean_x = 0,
              double lean_y = 0) {
     return Tgc{v(s.at),
                v(s.vector(lean_x, lean_y, height)),
@@ -54,7 +54,7 @@ Shape tgc_of(const Stand& s, double a, double b, double c, double d, double heig
                v(s.vector(0, d, 0))};
 }
 
-Shape tgc_form(std::size_t form, const Stand& s, Random& random) {
+Shape tgc_form(std::size_t form, const LocalFrame& s, Random& random) {
     const double r = random.between(0.5, 2), q = random.between(0.5, 2), h = random.between(0.5, 4);
     const double f = random.between(0.1, 0.9), g = random.between(0.1, 0.9), l = random.between(-1, 1);
     switch (form) {
@@ -102,7 +102,7 @@ constexpr const char* tgc_forms[] = {
     "near wedge",     "thin disc",           "needle",           "near cylinder",  "near equal ratios",
     "near apex"};
 
-Shape arb_form(std::size_t form, const Stand& s, Random& random) {
+Shape arb_form(std::size_t form, const LocalFrame& s, Random& random) {
     const double r = random.between(0.5, 2), q = random.between(0.5, 2), l = random.between(-0.5, 0.5);
     const auto of = [&](const std::array<QVec, 8>& units) {
         Arb arb;
@@ -170,7 +170,7 @@ Shape arb_form(std::size_t form, const Stand& s, Random& random) {
 constexpr const char* arb_forms[] = {"cube", "box",  "leaning box", "frustum", "plate",  "rod",
                                      "arb7", "arb6", "arb5",        "arb4",    "arb4 b", "near arb5"};
 
-Shape arbn_form(std::size_t form, const Stand& s, Random& random) {
+Shape arbn_form(std::size_t form, const LocalFrame& s, Random& random) {
     Arbn arbn;
     const auto plane = [&](const QVec& direction, double reach) {
         const QVec n = direction.x * s.x + direction.y * s.y + direction.z * s.z;
@@ -214,14 +214,14 @@ Shape arbn_form(std::size_t form, const Stand& s, Random& random) {
 
 constexpr const char* arbn_forms[] = {"cube", "octahedron", "random", "plate", "idle faces"};
 
-Shape half_form(std::size_t form, const Stand& s, Random& random) {
+Shape half_form(std::size_t form, const LocalFrame& s, Random& random) {
     const Vec3 normal = v(form == 0 ? s.z : random.direction());
     return Half{{normal, form == 0 ? to_double(dot(normal, s.at)) : s.size * random.between(-3, 3)}};
 }
 
 constexpr const char* half_forms[] = {"aligned", "random"};
 
-Shape tor_form(std::size_t form, const Stand& s, Random& random) {
+Shape tor_form(std::size_t form, const LocalFrame& s, Random& random) {
     static constexpr double ratios[] = {0.5, 0.25, 0, 0.9, 1e-2, 1e-3, 1, 0.999999};
     const double ratio = form == 2 ? random.between(0.1, 0.9) : ratios[form];
     const double r = s.size * (form == 0 ? 1.0 : random.between(0.5, 2));
@@ -231,7 +231,7 @@ Shape tor_form(std::size_t form, const Stand& s, Random& random) {
 
 constexpr const char* tor_forms[] = {"half", "quarter", "random", "fat", "1e-2", "1e-3", "horn", "near horn"};
 
-Shape ehy_form(std::size_t form, const Stand& s, Random& random) {
+Shape ehy_form(std::size_t form, const LocalFrame& s, Random& random) {
     const double h = random.between(0.5, 3), r = random.between(0.5, 2), q = random.between(0.5, 2);
     const auto of = [&](double height, double r1, double r2, double c) {
         return Ehy{v(s.at), v(s.vector(0, 0, height)), v(s.x), s.size * r1, s.size * r2, s.size * c};
@@ -268,10 +268,10 @@ Matrix detail::to_matrix(const QAffine& m) {
 Matrix detail::placement(std::size_t index, double size, Random& random) {
     if (index == 0) return identity;
     if (index == 1) {
-        const Stand s = aligned_stand(random);
+        const LocalFrame s = aligned_local_frame(random);
         return to_matrix({s.x, s.y, s.z, s.at});
     }
-    const Stand a = random_stand(random, size), b = random_stand(random, 1);
+    const LocalFrame a = random_local_frame(random, size), b = random_local_frame(random, 1);
     const QAffine turn{a.x, a.y, a.z, a.at}, first{b.x, b.y, b.z, {}};
     const auto stretch = [&](double x, double y, double z) { return QAffine{{x, 0, 0}, {0, y, 0}, {0, 0, z}, {}}; };
     switch (index) {
@@ -306,13 +306,14 @@ Case make_case(Kind kind, std::size_t index, Random& random) {
         const std::size_t place = round % std::size(detail::placements);
         const std::size_t turn = round / std::size(detail::placements) % 4;
         const double size = turn == 2 ? 1e-3 : turn == 3 ? 1e6 : 1.0;
-        const Stand stand = form == 0 || place == 1 ? aligned_stand(random) : random_stand(random, size);
-        Shape shape = form_of(form, stand, random);
+        const LocalFrame local =
+            form == 0 || place == 1 ? aligned_local_frame(random) : random_local_frame(random, size);
+        Shape shape = form_of(form, local, random);
         std::string name = std::string(names[form]) + ", " + detail::placements[place] +
                            (turn == 2   ? ", tiny"
                             : turn == 3 ? ", large"
                                         : "");
-        return Case{std::move(name), std::move(shape), detail::placement(place, stand.size, random)};
+        return Case{std::move(name), std::move(shape), detail::placement(place, local.size, random)};
     };
     switch (kind) {
         case Kind::ell:

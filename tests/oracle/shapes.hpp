@@ -8,7 +8,7 @@
 
 #include "solids/all.hpp"
 
-#include "stand.hpp"
+#include "local_frame.hpp"
 
 namespace csgrt::oracle {
 

@@ -2,7 +2,7 @@
 //
 // Most are polynomials. Each is written once, from its textbook definition, as a function template of (x, y, z) in the
 // solid's own frame (solids/<solid>.hpp). Called with numbers it gives the value, with Jets the gradient, with
-// Polynomials its restriction to a ray. The others give value and gradient by themselves (line.hpp).
+// Polynomials its restriction to a ray. The others give value and gradient by themselves (ray_function.hpp).
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "line.hpp"
+#include "ray_function.hpp"
 #include "polynomial.hpp"
 #include "quad.hpp"
-#include "rough.hpp"
+#include "filter_numbers.hpp"
 
 namespace csgrt::oracle {
 
@@ -45,21 +45,27 @@ public:
     /// The same at a point, no more than terms(): where all terms fade as f does, at a pinch or a tip, so does their
     /// rounding. Taken for constant there it would hide what a solver that evaluates f well can tell.
     virtual quad terms_at(const QVec&) const { return terms(); }
-    virtual double rough_terms_at(double, double, double) const { return to_double(terms()); }  ///< for quick.hpp
+    virtual double terms_at_in_double(double, double, double) const { return to_double(terms()); }  ///< for the filter
     virtual quad value(const QVec& p) const = 0;
     virtual QVec gradient(const QVec& p) const = 0;
     virtual Polynomial along(const QVec& origin, const QVec& direction) const = 0;
     /// Instead of `along` where f is no polynomial; else null. It must not outlive the surface.
-    virtual std::unique_ptr<Line> line(const QVec&, const QVec&) const { return nullptr; }
+    virtual std::unique_ptr<RayFunction> ray_function(const QVec&, const QVec&) const { return nullptr; }
 
     /// Of a plane, whose function is normal . p - distance; else null.
     virtual const QVec* plane_normal() const { return nullptr; }
 
-    // For quick.hpp: the same function with other numbers.
+    // The same function in the numbers of the floating-point filter.
     virtual bool is_polynomial() const { return false; }
-    virtual PolynomialOf<Rough> rough_along(const Triple<Rough>&, const Triple<Rough>&) const { return {}; }
-    virtual PolynomialOf<Twofold> fine_along(const Triple<Twofold>&, const Triple<Twofold>&) const { return {}; }
-    virtual Triple<Rough> rough_gradient(const Triple<Rough>&) const { return {}; }
+    virtual PolynomialOf<BoundedDouble> bounded_along(const Triple<BoundedDouble>&,
+                                                      const Triple<BoundedDouble>&) const {
+        return {};
+    }
+    virtual PolynomialOf<DoubleDouble> double_double_along(const Triple<DoubleDouble>&,
+                                                           const Triple<DoubleDouble>&) const {
+        return {};
+    }
+    virtual Triple<BoundedDouble> bounded_gradient(const Triple<BoundedDouble>&) const { return {}; }
     /// If f is no polynomial, but the distance to a convex union of sets that polynomials bound: these; else none.
     virtual std::vector<std::vector<std::unique_ptr<Surface>>> pieces() const { return {}; }
 };
@@ -76,7 +82,7 @@ public:
         else
             return f_.terms();
     }
-    double rough_terms_at(double x, double y, double z) const override {
+    double terms_at_in_double(double x, double y, double z) const override {
         if constexpr (fading)
             return std::min(to_double(f_.terms()), f_.terms_at(x, y, z));
         else
@@ -94,15 +100,18 @@ public:
             return nullptr;
     }
     bool is_polynomial() const override { return true; }
-    PolynomialOf<Rough> rough_along(const Triple<Rough>& o, const Triple<Rough>& d) const override {
-        return along_line<PolynomialOf<Rough>>(o, d);
+    PolynomialOf<BoundedDouble> bounded_along(const Triple<BoundedDouble>& o,
+                                              const Triple<BoundedDouble>& d) const override {
+        return along_line<PolynomialOf<BoundedDouble>>(o, d);
     }
-    PolynomialOf<Twofold> fine_along(const Triple<Twofold>& o, const Triple<Twofold>& d) const override {
-        return along_line<PolynomialOf<Twofold>>(o, d);
+    PolynomialOf<DoubleDouble> double_double_along(const Triple<DoubleDouble>& o,
+                                                   const Triple<DoubleDouble>& d) const override {
+        return along_line<PolynomialOf<DoubleDouble>>(o, d);
     }
-    Triple<Rough> rough_gradient(const Triple<Rough>& p) const override {
-        const Rough no(0.0), one(1.0);
-        return f_(RoughJet{p.x, {one, no, no}}, RoughJet{p.y, {no, one, no}}, RoughJet{p.z, {no, no, one}}).gradient;
+    Triple<BoundedDouble> bounded_gradient(const Triple<BoundedDouble>& p) const override {
+        const BoundedDouble no(0.0), one(1.0);
+        return f_(BoundedJet{p.x, {one, no, no}}, BoundedJet{p.y, {no, one, no}}, BoundedJet{p.z, {no, no, one}})
+            .gradient;
     }
 
 private:
@@ -116,7 +125,7 @@ private:
     F f_;
 };
 
-/// F as CurvedLine wants it, and `terms`.
+/// F as RayFunctionOf wants it, and `terms`.
 template <class F>
 class CurvedSurface final : public Surface {
 public:
@@ -125,8 +134,8 @@ public:
     quad value(const QVec& p) const override { return f_.value(p); }
     QVec gradient(const QVec& p) const override { return f_.gradient(p); }
     Polynomial along(const QVec&, const QVec&) const override { throw std::logic_error("f is no polynomial"); }
-    std::unique_ptr<Line> line(const QVec& o, const QVec& d) const override {
-        return std::make_unique<CurvedLine<F>>(f_, o, d);
+    std::unique_ptr<RayFunction> ray_function(const QVec& o, const QVec& d) const override {
+        return std::make_unique<RayFunctionOf<F>>(f_, o, d);
     }
     std::vector<SurfaceSet> pieces() const override {
         if constexpr (requires(const F& f) { f.pieces_of_hull(); })

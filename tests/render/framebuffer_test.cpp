@@ -48,7 +48,7 @@ TEST_CASE("a framebuffer holds the last frame alone") {
     Framebuffer framebuffer;
     CHECK(framebuffer.image().channels.empty());
     const auto seen = [&] {
-        const std::span<const float> region = *framebuffer.image().channel("region");
+        const std::span<const float> region = framebuffer.image().channel("region");
         return std::count_if(region.begin(), region.end(), [](float id) { return id > 0; });
     };
     // The model moves away, is not there, and comes back.
@@ -109,7 +109,7 @@ TEST_CASE("a framebuffer with memory for a few rays at a time, and after frames 
     require_redrawn(renderer, framebuffer, view_of(renderer, 40, 32, 35, 0, 2));
     renderer.render(view_of(renderer, 40, 32, 80, 0, 0.7), framebuffer);
     require_redrawn(few, framebuffer, view_of(renderer, 40, 32, 35, 0.3, 1));
-    CHECK(few.statistics().tiles > 40 * 32 / 64);  // parts of tiles, too
+    CHECK(few.statistics().batches > 40 * 32 / 64);  // parts of tiles, too
     require_redrawn(few, framebuffer, view_of(renderer, 40, 32, 35, -0.3, 0.5));
     for (int calls = 0; calls < 20; calls += 3) {
         left = calls;

@@ -48,7 +48,7 @@ std::string shape(const Image& image) {
 std::string missing(const Image& a, const Image& b, const std::string& path) {
     std::string text;
     for (const std::string& name : a.names)
-        if (!b.channel(name)) text += "channel " + name + ": only in " + path + "\n";
+        if (!b.has_channel(name)) text += "channel " + name + ": only in " + path + "\n";
     return text;
 }
 
@@ -65,10 +65,10 @@ Status compare_images(const CompareArguments& arguments) {
     bool differs = !text.empty();
     std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height), common = 0;
     for (std::size_t c = 0; c < a.names.size(); ++c) {
-        const std::optional<std::span<const float>> other = b.channel(a.names[c]);
-        if (!other) continue;
+        if (!b.has_channel(a.names[c])) continue;
+        const std::span<const float> other = b.channel(a.names[c]);
         ++common;
-        ChannelDifference found = difference(a.channels[c], *other, arguments.tolerance);
+        ChannelDifference found = difference(a.channels[c], other, arguments.tolerance);
         differs |= found.pixels > 0;
         char line[256];
         if (found.pixels == 0) {
@@ -79,7 +79,7 @@ Status compare_images(const CompareArguments& arguments) {
                 line, sizeof line, "%-10s  %s (%.3g %%) differ, by at most %.9g at x %zu y %zu: %.9g and %.9g\n",
                 a.names[c].c_str(), counted(found.pixels, "pixel").c_str(),
                 100.0 * static_cast<double>(found.pixels) / static_cast<double>(pixels), found.largest, at % width,
-                at / width, static_cast<double>(a.channels[c][at]), static_cast<double>((*other)[at]));
+                at / width, static_cast<double>(a.channels[c][at]), static_cast<double>(other[at]));
         }
         text += line;
     }

@@ -19,7 +19,7 @@ constexpr std::pair<const char*, double Times::*> times[] = {
     {"build", &Times::build}, {"count_hits", &Times::count_hits},
     {"scan", &Times::scan},   {"store_segments", &Times::store_segments},
     {"weave", &Times::weave}, {"evaluate", &Times::evaluate},
-    {"shade", &Times::shade}, {"cull_blocks", &Times::cull_blocks},
+    {"shade", &Times::shade}, {"cull_tiles", &Times::cull_tiles},
     {"first_hits", &Times::first_hits}, {"frame", &Times::frame},
     {"write", &Times::write},
 };
@@ -72,7 +72,7 @@ std::string to_json(const Statistics& s) {
            ", \"allocated\": " + std::to_string(s.partitions_allocated) + "},\n";
     out += count("overlaps", s.overlaps) + count("device_bytes", s.device_bytes) +
            count("segment_bytes", s.segment_bytes) + count("partition_bytes", s.partition_bytes) +
-           count("tiles", s.tiles);
+           count("batches", s.batches);
     out += "  \"ms\": {";
     for (const auto& [name, member] : times)
         out += std::string(member == times[0].second ? "" : ", ") + "\"" + name + "\": " + milliseconds(s.ms.*member);

@@ -10,10 +10,10 @@
 #include "catch.hpp"
 
 #include "compile/compiled_scene.hpp"
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
-#include "formats/brlcad_g_writer.hpp"
+#include "formats/brlcad/g/brlcad_g_writer.hpp"
 #include "integration/stress/check.hpp"
 
 using namespace csgrt;

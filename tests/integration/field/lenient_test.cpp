@@ -11,8 +11,8 @@
 #include "formats/brlcad/asc.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
-#include "formats/brlcad_g_writer.hpp"
-#include "formats/brlcad_models.hpp"
+#include "formats/brlcad/g/brlcad_g_writer.hpp"
+#include "formats/brlcad/brlcad_models.hpp"
 #include "formats/text_source.hpp"
 #include "bench/stress/build.hpp"
 

@@ -7,7 +7,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "catch.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "bench/stress/build.hpp"
 

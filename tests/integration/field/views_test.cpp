@@ -14,10 +14,10 @@
 #include <vector>
 
 
-#include "formats/brlcad_asc_text.hpp"
+#include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/json/reader.hpp"
 #include "formats/json/writer.hpp"
-#include "formats/parse_text.hpp"
+#include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "bench/stress/build.hpp"
 #include "integration/stress/check.hpp"
@@ -122,7 +122,7 @@ std::vector<Lamp> some_lamps(std::uint64_t seed) {
     return lamps;
 }
 
-std::span<const float> channel_of(const Image& image, const char* name) { return *image.channel(name); }
+std::span<const float> channel_of(const Image& image, const char* name) { return image.channel(name); }
 
 /// How many pixels of the face were compared.
 std::size_t check_lamps(std::uint64_t seed) {

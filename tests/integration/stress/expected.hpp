@@ -19,9 +19,9 @@ struct Expected {
 /// Of one scene, which must outlive it.
 class ExpectedAnswers {
 public:
-    /// `quick`: as of the scene oracle.
-    explicit ExpectedAnswers(const stress::StressScene& made, bool quick = false) : made_(made) {
-        if (made.known.empty()) truth_.emplace(made.scene, made.objects, quick, made.air);
+    /// `filtered`: as in SceneOracle.
+    explicit ExpectedAnswers(const stress::StressScene& made, bool filtered = false) : made_(made) {
+        if (made.known.empty()) truth_.emplace(made.scene, made.objects, filtered, made.air);
     }
 
     Expected operator()(std::size_t ray) const {
@@ -76,8 +76,8 @@ inline Sequence without_short(const Sequence& all, double apart) {
     return rest;
 }
 
-/// `fused`: ends closer than that are one (Statistics::tolerance), at the distance of the first of them: what is left out
-/// of a ray that meets a tip beside its very point is right.
+/// `fused`: ends closer than that are one (Statistics::tolerance), at the distance of the first of them: what is left
+/// out of a ray that meets a tip beside its very point is right.
 inline Compared compare(const RayPartitions& found, const Expected& expected, const Ray& ray, double fused) {
     const Vec3& d = ray.direction;
     const Sequence sequence = sequence_of(found);

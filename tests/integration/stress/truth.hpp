@@ -7,14 +7,15 @@
 //   - if a single solid is touched within rounding, so that it is not sure how often the ray is in it;
 //   - if the numbers as they are make the skin thicker than their rounding could;
 //   - if the surfaces that meet there are not one surface, their normals being different: an edge, a corner.
-// Overlaps go to the first region of the first rank, and regions of later ranks (air, where a solid is) are no part of them.
+// Overlaps go to the first region of the first rank, and regions of later ranks (air, where a solid is) are no part of
+// them.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "oracle/quick.hpp"
+#include "oracle/filtered_solid.hpp"
 #include "oracle/scene_oracle.hpp"
 #include "bench/stress/families.hpp"
 
@@ -28,15 +29,15 @@ struct TrueStretch {
 };
 struct Truth {
     bool tie = false;
-    bool certain = true;  ///< false: quick normals are too rough to tell; ask in 113 bits
+    bool certain = true;                 ///< false: the filter's normals are not exact enough to tell; ask in 113 bits
     std::vector<TrueStretch> stretches;  ///< of the whole line, in order
 };
 
 class TrueScene {
 public:
-    /// `quick`, `air`: as of the scene oracle.
-    TrueScene(const Scene& scene, const std::vector<std::string>& objects, bool quick = false, bool air = false)
-        : oracle_(scene, objects, false, quick, air), quick_(quick), ranks_(objects.size()) {
+    /// `filtered`, `air`: as in SceneOracle.
+    TrueScene(const Scene& scene, const std::vector<std::string>& objects, bool filtered = false, bool air = false)
+        : oracle_(scene, objects, false, filtered, air), filtered_(filtered), ranks_(objects.size()) {
         for (const oracle::OracleRegion& region : oracle_.regions()) {
             const std::string name = region.path.substr(region.path.rfind('/') + 1);
             const auto at = std::find(objects.begin(), objects.end(), name);
@@ -95,11 +96,11 @@ private:
     }
     /// Up to rounding. In doubles, and where these could make a difference in 113 bits.
     bool one_direction(const Vec3& a, const Vec3& b, Truth& truth) const {
-        constexpr double apart = 1e-13, doubtful = 3 * oracle::normals_off;
+        constexpr double apart = 1e-13, doubtful = 3 * oracle::normal_error;
         const double x = a.y * b.z - a.z * b.y, y = a.z * b.x - a.x * b.z, z = a.x * b.y - a.y * b.x;
         const double turn = std::sqrt(x * x + y * y + z * z);
         if (std::abs(turn - apart) > doubtful) return turn < apart;
-        truth.certain = truth.certain && !quick_;
+        truth.certain = truth.certain && !filtered_;
         return oracle::to_double(oracle::length(oracle::cross(oracle::QVec(a), oracle::QVec(b)))) <= apart;
     }
 
@@ -192,7 +193,7 @@ private:
     }
 
     oracle::SceneOracle oracle_;
-    bool quick_;
+    bool filtered_;
     std::vector<int> ranks_;  ///< by place in `objects`
     std::vector<std::uint32_t> number_;  ///< of the oracle's regions
 };

@@ -9,7 +9,7 @@
 #include "sanitized.hpp"
 #include "oracle/print.hpp"
 #include "oracle/rays.hpp"
-#include "oracle/shaken.hpp"
+#include "oracle/perturbation.hpp"
 #include "oracle/sketches.hpp"
 
 namespace csgrt {
@@ -122,8 +122,8 @@ private:
         }
         if (!(dot(d, d) > 0)) d = random_.axis();
         d = unit(d);
-        if (random_.coin()) p = p + random_.hair(-12, -1, size());
-        if (random_.below(4) == 0) d = unit(d + random_.hair(-12, -1));
+        if (random_.coin()) p = p + random_.offset(-12, -1, size());
+        if (random_.below(4) == 0) d = unit(d + random_.offset(-12, -1));
         const quad sign = random_.sign();
         return rounded(p - quad(random_.between(-1, 5)) * size() * d, sign * d);
     }
@@ -152,11 +152,11 @@ void check_outlines(const Make& make, std::size_t rays, std::uint64_t seed) {
         for (std::size_t i = 0; i < rays_a_solid && done < rays; ++i, ++done) {
             const std::size_t family = i % oracle::ray_families;
             const Ray ray = maker.make(static_cast<oracle::RayFamily>(family));
-            oracle::ShakenAnswer answer = oracle::shake(one.solid, ray);
+            oracle::PerturbedAnswer answer = oracle::perturb(one.solid, ray);
             const std::vector<oracle::Segment> segments = solve(ray);
             oracle::Verdict verdict = judge(one.solid, ray, answer, segments);
             if (!verdict.wrong.empty()) {
-                look_again(one.solid, ray, around, answer);
+                perturb_at_random(one.solid, ray, around, answer);
                 verdict = judge(one.solid, ray, answer, segments);
             }
             ++tally[family].rays;

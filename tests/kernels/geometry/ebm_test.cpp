@@ -1,6 +1,6 @@
 #include "compile/solids/cell_outline.hpp"
 #include "kernels/geometry/check_outlines.hpp"
-#include "oracle/celled.hpp"
+#include "oracle/extruded_cells.hpp"
 #include "oracle/shapes.hpp"
 
 using namespace csgrt;
@@ -29,7 +29,7 @@ OutlineCase ebm_case(std::size_t index, oracle::Random& random) {
     one.name =
         std::to_string(shape.width) + " x " + std::to_string(shape.depth) + ", " + oracle::detail::placements[place];
     one.matrix = oracle::detail::placement(place, 4, random);
-    one.solid = celled(shape, oracle::to_affine(one.matrix));
+    one.solid = extruded_cells(shape, oracle::to_affine(one.matrix));
     for (int i = 0; i < 12; ++i)
         one.features.points.push_back(one.solid.frame.point({static_cast<double>(random.below(shape.width + 1)),
                                                              static_cast<double>(random.below(shape.depth + 1)),

@@ -11,18 +11,18 @@ OutlineCase extrude_case(std::size_t index, oracle::Random& random) {
     const std::size_t form = index % sketch_form_count, round = index / sketch_form_count;
     const std::size_t place = round % std::size(oracle::detail::placements);
     const double size = round % 3 == 1 ? 1e-3 : round % 3 == 2 ? 1e4 : 1;
-    const Stand stand = place <= 1 ? aligned_stand(random) : random_stand(random, size);
+    const LocalFrame local = place <= 1 ? aligned_local_frame(random) : random_local_frame(random, size);
     const double height = random.below(4) == 0 ? 1e-3 : random.between(0.3, 2);
     const bool lean = random.coin();
     Extrude shape;
-    shape.v = to_vec3(stand.at);
-    shape.a = to_vec3(stand.vector(1, 0, 0)), shape.b = to_vec3(stand.vector(lean ? 0.3 : 0, lean ? 0.8 : 1, 0));
-    shape.h = to_vec3(stand.vector(lean ? 0.5 : 0, lean ? -0.2 : 0, height));
+    shape.v = to_vec3(local.at);
+    shape.a = to_vec3(local.vector(1, 0, 0)), shape.b = to_vec3(local.vector(lean ? 0.3 : 0, lean ? 0.8 : 1, 0));
+    shape.h = to_vec3(local.vector(lean ? 0.5 : 0, lean ? -0.2 : 0, height));
     shape.sketch = SketchMaker(random).make(form);
 
     OutlineCase one;
     one.name = std::string(sketch_forms[form]) + ", " + oracle::detail::placements[place];
-    one.matrix = oracle::detail::placement(place, stand.size, random);
+    one.matrix = oracle::detail::placement(place, local.size, random);
     one.solid = extruded(shape, oracle::to_affine(one.matrix));
     const QAffine map = to_affine(one.matrix);
     for (const Sketch::Point& p : shape.sketch.vertices)

@@ -29,25 +29,25 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
     const std::size_t form = index % profile_form_count, round = index / profile_form_count;
     const std::size_t place = round % std::size(oracle::detail::placements);
     const double size = round % 3 == 1 ? 1e-3 : round % 3 == 2 ? 1e4 : 1;
-    const Stand stand = place <= 1 ? aligned_stand(random) : random_stand(random, size);
+    const LocalFrame local = place <= 1 ? aligned_local_frame(random) : random_local_frame(random, size);
     Revolve shape;
-    shape.v = to_vec3(stand.at);
-    shape.axis = to_vec3(stand.vector(0, 0, 1)), shape.r = to_vec3(stand.vector(1, 0, 0));
+    shape.v = to_vec3(local.at);
+    shape.axis = to_vec3(local.vector(0, 0, 1)), shape.r = to_vec3(local.vector(1, 0, 0));
     shape.angle = some_angle(random);
     shape.sketch = ProfileMaker(random).make(form);
-    for (Sketch::Point& p : shape.sketch.vertices) p = {p.u * stand.size, p.v * stand.size};
+    for (Sketch::Point& p : shape.sketch.vertices) p = {p.u * local.size, p.v * local.size};
     for (Sketch::Curve& curve : shape.sketch.curves)
-        if (auto* arc = std::get_if<Sketch::Arc>(&curve)) arc->radius *= stand.size;
+        if (auto* arc = std::get_if<Sketch::Arc>(&curve)) arc->radius *= local.size;
 
     OutlineCase one;
     one.name = std::string(profile_forms[form]) + ", " + oracle::detail::placements[place] + ", angle " +
                std::to_string(shape.angle);
-    one.matrix = oracle::detail::placement(place, stand.size, random);
+    one.matrix = oracle::detail::placement(place, local.size, random);
     one.solid = revolved(shape, oracle::to_affine(one.matrix));
     const QAffine map = to_affine(one.matrix);
     const auto at = [&](const Sketch::Point& p, double turn) {
-        return map.point(stand.at + quad(p.u * std::cos(turn)) * stand.x + quad(p.u * std::sin(turn)) * stand.y +
-                         quad(p.v) * stand.z);
+        return map.point(local.at + quad(p.u * std::cos(turn)) * local.x + quad(p.u * std::sin(turn)) * local.y +
+                         quad(p.v) * local.z);
     };
     const double turn = random.between(0, 6);
     for (const Sketch::Point& p : shape.sketch.vertices)
@@ -57,7 +57,7 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
     for (const Vec3& v : {shape.axis, shape.axis, shape.r}) one.features.directions.push_back(map.direction(v));
     for (int i = 0; i < 4; ++i) {  // across the axis, up to rounding
         const double y = random.between(-1, 1), x = random.between(-1, 1);
-        one.features.directions.push_back(map.direction(stand.vector(x, y, 0)));
+        one.features.directions.push_back(map.direction(local.vector(x, y, 0)));
     }
     std::erase_if(one.features.directions, [](const QVec& d) { return !(dot(d, d) > 0); });
     one.shape = std::move(shape);

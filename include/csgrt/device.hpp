@@ -1,0 +1,39 @@
+// The devices that csgrt can compute on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <csgrt/error.hpp>
+#include <csgrt/settings.hpp>
+
+namespace csgrt {
+
+/// One device, as its driver describes it.
+struct DeviceInfo {
+    std::string name = {}, platform = {}, version = {}, driver = {};
+    std::string type = {};                         ///< "cpu", "gpu" or "accelerator"
+    std::uint64_t memory = 0, max_allocation = 0;  ///< bytes: of all its memory, and of one buffer at most
+    unsigned compute_units = 0;
+    bool fp64 = false;  ///< whether it computes in double precision
+};
+
+/// Every device, in the order of the numbers that Settings::device takes: the devices of OpenCL, and the native devices
+/// (platform "csgrt"), which are this machine's processors with kernels that csgrt brings itself. Empty if there is
+/// none. If `notes` is not null, a sentence on each driver that cannot be used is appended to it. Any thread.
+///
+/// PoCL, an OpenCL driver for processors, fails or ends the process if it cannot write its cache: POCL_CACHE_DIR, else
+/// XDG_CACHE_HOME/pocl/kcache, else HOME/.cache/pocl/kcache. The library does not change the environment. A program
+/// without a home directory (a service, a container) sets POCL_CACHE_DIR before its first call of devices(),
+/// prepare_devices() or Renderer and before it starts threads, as the command `csgrt` does.
+CSGRT_API std::vector<DeviceInfo> devices(std::vector<std::string>* notes = nullptr);
+
+/// Starts, on a thread of its own, the search for the devices that a Renderer with these settings will need, and
+/// returns at once. A driver takes some 30 ms to start: a program that calls this before it loads a scene spares its
+/// Renderer the wait. It does nothing if the settings need no driver (the reference, native devices, the default choice
+/// on a machine without a GPU), or if an earlier call has searched. A Renderer calls it before it compiles the scene.
+/// Any thread.
+CSGRT_API void prepare_devices(const Settings& settings = {});
+
+}  // namespace csgrt

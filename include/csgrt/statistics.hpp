@@ -1,0 +1,49 @@
+// What the last call of a Renderer counted and measured.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace csgrt {
+
+/// Of the last call of a Renderer. If only first hits are drawn, segments and partitions are counted for those rays
+/// alone that need the computation of every partition.
+struct Statistics {
+    std::string device = {};  ///< the device that computed, or "reference"
+    /// The device that is made ready at the time of Renderer::statistics() and will replace `device`: its name, "gpu"
+    /// while none is found, empty if none is awaited.
+    std::string awaited_device = {};
+    std::string precision = {};  ///< as in precision_names, or "quad"
+    std::string method = {};     ///< a few words
+    std::string quartic = {};    ///< as in quartic_names
+    double tolerance = 0;        ///< millimetres: the one that Settings::tolerance_rule gave
+    bool contraction = false;
+    int width = 0, height = 0;  ///< of the picture, pixels; 0 for rays
+    std::uint64_t rays = 0;
+    std::uint64_t hits = 0;      ///< ends of segments along all rays
+    std::uint64_t segments = 0;  ///< intervals of rays inside single solids
+    /// Intervals between neighbouring ends of segments that are inside any solid, and for how many there was memory.
+    std::uint64_t partitions_used = 0, partitions_allocated = 0;
+    std::uint64_t overlaps = 0;                            ///< partitions that several regions of the same rank claim
+    std::uint64_t device_bytes = 0;                        ///< memory in use on all devices
+    std::uint64_t segment_bytes = 0, partition_bytes = 0;  ///< memory for segments and partitions, all batches
+    std::uint32_t batches = 0;                             ///< of rays
+    /// Milliseconds. Those of kernels are the device's own measurements; those of several devices are added up. If
+    /// several batches of first hits run at the same time, a kernel's time is from its begin to its end in each.
+    struct {
+        double load = 0;     ///< reading the scene's file; the command line sets it
+        double compile = 0;  ///< compiling the scene
+        /// Finding devices and compiling all kernels so far. A call that waits for that does not count it as `frame`.
+        double build = 0;
+        double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;  ///< kernels
+        double cull_tiles = 0, first_hits = 0;                                                    ///< kernels
+        double frame = 0;  ///< the whole call, on the host's clock
+        double write = 0;  ///< writing the picture's file; the command line sets it
+        /// All kernels together.
+        double device() const {
+            return count_hits + scan + store_segments + weave + evaluate + shade + cull_tiles + first_hits;
+        }
+    } ms = {};
+};
+
+}  // namespace csgrt

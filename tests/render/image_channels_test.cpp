@@ -1,0 +1,52 @@
+#include "catch.hpp"
+
+#include <concepts>
+#include <span>
+#include <utility>
+
+#include <csgrt/image.hpp>
+
+using namespace csgrt;
+
+namespace {
+
+template <class Picture>
+concept has_channels = requires(Picture picture) {
+    std::forward<Picture>(picture).channel("Z");
+};
+
+// A range-for over the channel of a call's result would read memory that is gone.
+static_assert(has_channels<Image&> && has_channels<const Image&>);
+static_assert(!has_channels<Image> && !has_channels<const Image>);
+static_assert(std::same_as<decltype(std::declval<Image&>().channel("Z")), std::span<const float>>);
+
+Image two_channels() {
+    return {.width = 2, .height = 1, .names = {"Z", "region"}, .channels = Channels({{1.5f, 2.5f}, {0.0f, 7.0f}})};
+}
+
+}  // namespace
+
+TEST_CASE("a channel is found by its name, and is the picture's own memory", "[image]") {
+    const Image image = two_channels();
+    float sum = 0;
+    for (const float value : image.channel("region")) sum += value;
+    CHECK(sum == 7);
+    CHECK(image.channel("Z").data() == image.channels[0].data());
+    CHECK(image.channel("Z").size() == 2);
+    CHECK(image.has_channel("Z"));
+    CHECK(image.has_channel("region"));
+    CHECK_FALSE(image.has_channel("z"));
+    CHECK_FALSE(Image{}.has_channel(""));
+}
+
+TEST_CASE("a channel that the picture has not is an error that names those it has", "[image]") {
+    const Image image = two_channels(), empty;
+    try {
+        image.channel("depth");
+        FAIL("no error");
+    } catch (const Error& error) {
+        CHECK(error.status() == Status::usage);
+        CHECK(std::string(error.what()) == "the picture has no channel 'depth'; it has Z region");
+    }
+    CHECK_THROWS_WITH(empty.channel("Z"), "the picture has no channel 'Z'; it has none");
+}
