@@ -3,8 +3,8 @@
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 execute_process(
-    COMMAND ${CHART} --scenes ${ROOT}/scenes --models ${WORK}/none --rays 16 --size 16 --frames 1 --json ${WORK}/tiny.json
-            --workloads "scene operators,edges" --variants "default,single,tolerance none"
+    COMMAND ${CHART} --scenes ${ROOT}/scenes --models ${WORK}/none --rays 16 --size 16 --frames 1
+            --json ${WORK}/tiny.json --workloads "scene operators,edges" --variants "default,single,tolerance none"
     RESULT_VARIABLE failed)
 if(failed)
     message(FATAL_ERROR "csgrt_chart failed: ${failed}")
