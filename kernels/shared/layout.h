@@ -242,7 +242,7 @@ typedef struct {
     float entry;  // no ray of the block comes there before this distance, less that of the scene's center
 } BlockNode;
 #define LISTED_NODES 32u  // entries of a block
-#define CULL_ITEMS 16u    // a GPU's work-items that find them; measured: bench/NOTES.md
+#define CULL_ITEMS 16u    // a GPU's work-items that find them; measured: docs/experiments/gpu-kernels.md
 
 // 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the tile.
 typedef struct {

@@ -27,12 +27,12 @@ void for_each_seen(std::span<const unsigned char> costs, const Work& work) {
 Cull::Cull(Device& device, const Program& program, bool together)
     : device_(device), cull_blocks_(program.kernel(together ? "cull_blocks_together" : "cull_blocks")), together_(together) {}
 
-// Measured (bench/NOTES.md): a GPU finds a ray's candidates as soon without.
+// Measured (docs/experiments/gpu-kernels.md): a GPU finds a ray's candidates as soon without.
 bool Cull::is_listed(const kernel::Frame& frame) const {
     return !frame.every_partition || device_.info().type == "cpu";
 }
 
-// Measured (bench/NOTES.md): of 8 items of a GPU one takes a block, as long as that makes fewer groups of 32 than it holds at a time.
+// Measured (docs/experiments/gpu-kernels.md): of 8 items of a GPU one takes a block, as long as that makes fewer groups of 32 than it holds at a time.
 std::uint32_t Cull::items_a_block(std::uint32_t blocks) const {
     const std::uint64_t most = device_.info().type == "cpu" ? 0 : std::uint64_t{1024} * device_.info().compute_units;
     std::uint32_t items = 1;

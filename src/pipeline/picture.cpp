@@ -48,7 +48,7 @@ struct Streamed {
     static void end() { _mm_sfence(); }
 
     static bool fits(const kernel::Frame& frame, std::span<const ChannelPlane> planes) {
-        constexpr std::size_t least_bytes = std::size_t{1} << 28;  // measured: bench/NOTES.md
+        constexpr std::size_t least_bytes = std::size_t{1} << 28;  // measured: docs/experiments/gpu-frames.md
         const std::size_t bytes = std::size_t{frame.width} * frame.height * planes.size() * sizeof(float);
         return bytes >= least_bytes && frame.width % lanes == 0 &&
                std::all_of(planes.begin(), planes.end(), [](const ChannelPlane& plane) {

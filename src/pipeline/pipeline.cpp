@@ -65,7 +65,7 @@ std::uint64_t Pipeline::fitting(std::uint64_t bytes_a_ray) const {
 }
 
 // Of the frame's tiles. Every partition of more rays at once takes more memory and, on a processor, no less time. A GPU wants many: it
-// gets half of a picture, for half of the memory and a fifth more of its time (bench/NOTES.md).
+// gets half of a picture, for half of the memory and a fifth more of its time (docs/experiments/gpu-kernels.md).
 std::uint64_t Pipeline::largest_tile(const kernel::Frame& frame) const {
     constexpr std::uint64_t of_processor = 1u << 16, of_gpu = 1u << 17;
     const std::uint64_t row = row_of(frame), rows = kernel::blocks_down(frame.window);
