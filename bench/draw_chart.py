@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what csgrt_chart measured: an SVG and a PNG a file, named like it, and one HTML page that says what to choose when.
+"""Draws what csgrt_chart measured: an SVG and a PNG per file, named like it, and one HTML page with advice.
 
     bench/draw_chart.py [-o FOLDER] MEASURED.json...
 
@@ -25,23 +25,23 @@ except ImportError:
 
 # The judge itself: it has no errors by definition, so it is drawn but does not compete.
 JUDGE = "113 bits"
-# So much slower than the default that drawing it would squeeze everything else: told in words.
+# A method this many times slower than the default would squeeze the chart; the caption names it instead.
 OFF_THE_CHART = 20
 
 USE = {
     "default": "the one to use",
-    "single": "pictures, and devices without fast double precision; not for measuring, nor for thin or touching parts",
-    "single-world": "nothing: it is here to show what single precision does if coordinates are not taken relative to the eye",
+    "single": "pictures on devices with slow double precision; not for measuring, thin or touching parts",
+    "single-world": "nothing: it shows single precision without coordinates relative to the eye",
     "bracketed-unshifted": "nothing: without the shift, tori far from the ray's origin lose roots",
     "ferrari": "nothing that measures: closed form, roots lost near tangency",
-    "yuksel": "many tori and tapered cones, where the last digit does not matter",
-    "tolerance 0.0005 mm": "comparing with BRL-CAD; parts thinner than this vanish",
+    "yuksel": "many tori and tapered cones, if the last digit does not matter",
+    "tolerance 0.0005 mm": "comparison with BRL-CAD; parts thinner than this vanish",
     "tolerance surfaces": "the default's own rule, also where a file brings a tolerance",
     "tolerance relative": "models with sloppy coincidences; corners closer than 1e-9 of the scene are lost",
-    "tolerance none": "seeing which skins rounding leaves where surfaces coincide",
-    "contraction": "devices whose kernels get faster by it; the last bits then differ from device to device",
-    "reference": "checking a device: the same bits from the CPU, every solid tried",
-    JUDGE: "the judge: it measures the others' rounding",
+    "tolerance none": "showing which skins rounding leaves where surfaces coincide",
+    "contraction": "devices whose kernels get faster by it; the last bits differ between devices",
+    "reference": "checking a device: the same bits from the CPU",
+    JUDGE: "the judge: it measures the rounding of the others",
 }
 
 
@@ -99,8 +99,9 @@ def scatter(axes, measured, value, floor, floor_label, on_front, label):
             continue
         y = max(y, floor)
         drawn.append((x, y, name))
-        # The default is drawn larger, below the others: those of the same figures do not hide it.
-        axes.scatter(x, y, s=130 if name == "default" else 46, zorder=3 if name == "default" else 4, label=name, **style(index), edgecolors="white", linewidths=0.6)
+        # The default is drawn larger and below the others, so that methods at the same place do not hide it.
+        size, order = (130, 3) if name == "default" else (46, 4)
+        axes.scatter(x, y, s=size, zorder=order, label=name, **style(index), edgecolors="white", linewidths=0.6)
         if name in on_front:
             axes.scatter(x, y, s=260, zorder=2, facecolors="none", edgecolors="black", linewidths=1.1)
     steps = sorted((x, y) for x, y, name in drawn if name in on_front)
@@ -169,10 +170,13 @@ def draw(measured, folder):
     figure.suptitle(
         f"csgrt {data['csgrt']} on {measured.device}: kernels' time over {', '.join(data['timed_workloads'])}\n"
         f"(geometric mean, {data['size']} x {data['size']}, every partition). Ringed: each picture's Pareto front, "
-        f"times within {100 * NOISE:.0f} % taken as equal.{fewer}" + (f"\nOff the chart: {words}." if words else ""), fontsize=9)
+        f"times within {100 * NOISE:.0f} % taken as equal.{fewer}" + (f"\nOff the chart: {words}." if words else ""),
+        fontsize=9)
     for kind in ("svg", "png"):
         path = os.path.join(folder, f"{measured.name}.{kind}")
-        figure.savefig(path + ".part", format=kind, dpi=100, metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")) if kind == "svg" else None)
+        # Without a date and a version the same figures give the same file.
+        metadata = dict.fromkeys(("Creator", "Date", "Format", "Type")) if kind == "svg" else None
+        figure.savefig(path + ".part", format=kind, dpi=100, metadata=metadata)
         os.replace(path + ".part", path)
         print(path)
     pyplot.close(figure)
@@ -201,7 +205,8 @@ def table(measured):
         lines.append("<tr><td>" + "<td>".join([
             html.escape(name), figure_of(ns), f"{ns / default:.2f}" if ns and default else "-",
             figure_of(t["wrong_ppm"]), f"{t['wrong']:,} / {t['decided']:,}", figure_of(t["error_ulp"]["p999"]),
-            figure_of(t["error_ulp"]["worst"]), figure_of(t["error_mm"]["worst"]), html.escape(worst_places(measured, name)),
+            figure_of(t["error_ulp"]["worst"]), figure_of(t["error_mm"]["worst"]),
+            html.escape(worst_places(measured, name)),
             "yes" if name in measured.front else "judge" if name == JUDGE else "", html.escape(USE.get(name, ""))]))
     return "\n".join(lines) + "</table>"
 
@@ -211,8 +216,8 @@ def verdict(measured):
         return "The default was not measured."
     t = measured.totals["default"]
     said = "is on" if "default" in measured.front else "is <b>not</b> on"
-    text = (f"The default {said} the Pareto front of time, wrong regions and distance error: {t['wrong']:,} of {t['decided']:,} "
-            f"decided rays wrong, {figure_of(ulps(t))} ulp for 99.9 % of the ends.")
+    text = (f"The default {said} the Pareto front of time, wrong regions and distance error: "
+            f"{t['wrong']:,} of {t['decided']:,} decided rays wrong, {figure_of(ulps(t))} ulp for 99.9 % of the ends.")
     anchors = [f"{html.escape(name)} needs {ns:,.0f} ns a ray" for name, ns in measured.anchors()]
     def names(chosen):
         return ", ".join(n for n in measured.variants if n in chosen)
@@ -221,7 +226,8 @@ def verdict(measured):
     if measured.on_fewer:
         text += f" Judged on fewer rays, so not compared: {names(measured.on_fewer)}."
     if anchors:
-        text += " For first hits alone, over the same models, " + "; ".join(anchors) + "; its accuracy was not measured in this run."
+        text += (" For first hits alone, over the same models, " + "; ".join(anchors) +
+                 "; its accuracy was not measured in this run.")
     return text
 
 
@@ -232,25 +238,29 @@ td:first-child,th:first-child,td:last-child,th:last-child,td:nth-child(9){{text-
 <h1>csgrt: how fast, how exact</h1>
 <h2>What to choose when</h2>
 <ul>
-<li><b>Anything that is measured, cut or checked: the default.</b> Double precision, bracketed quartics, ends on one surface are one.
-<li><b>Pictures on a device whose double precision is slow: <code>--precision single</code>.</b> Relative to the eye; look at the heat
-map for where it errs, and at the distances' errors, which are some 10<sup>8</sup> times as large.
-<li><b>Agreement with BRL-CAD: <code>--tolerance 0.0005</code></b>, which its files bring with them. What is thinner vanishes.
-<li><b>A file that brings a tolerance, but whose numbers are to be taken as they are: <code>--tolerance surfaces</code>.</b>
-<li><b>Not at all: <code>single-world</code>, <code>ferrari</code>, <code>bracketed-unshifted</code>, <code>--tolerance none</code>.</b>
-They are here so that their failures can be seen. <code>--contraction on</code> only where bits need not agree between devices.
+<li><b>To measure, cut or check anything: the default.</b> Double precision, bracketed quartics; ends on one surface
+are one.
+<li><b>For pictures on a device with slow double precision: <code>--precision single</code>.</b> The heat map shows
+where it errs. Its distance errors are some 10<sup>8</sup> times as large.
+<li><b>To agree with BRL-CAD: <code>--tolerance 0.0005</code></b>, which its files contain. Thinner parts vanish.
+<li><b>To ignore a file's tolerance and use its numbers as they are: <code>--tolerance surfaces</code>.</b>
+<li><b>Never: <code>single-world</code>, <code>ferrari</code>, <code>bracketed-unshifted</code>,
+<code>--tolerance none</code>.</b> They are here to show their failures. Use <code>--contraction on</code> only if the
+bits of different devices need not agree.
 </ul>
 {devices}
 <h2>How it is measured</h2>
-<p>Every method shoots the same rays: a grid of each model's and scene's default view, and the stress families' own. The truth is
-the 113-bit build of the reference. A ray is decided if its regions stay the same when its origin moves by some units in the last place
-to four sides, and when the tolerance for rounding is four times as large; the others are ties. Rays where a file's own tolerance
-makes other regions than its numbers do are counted apart (<code>rule</code>). Wrong: another sequence of regions and gaps. A
-distance's error is given in units of how far that end moves when the ray moves by one unit in the last place: about 1 or less cannot be
-done better in double precision. Formulas and compiled scenes are shared with what is judged, so what compiling a scene loses (some very thin plates) does not show; that
-they are right is the oracle's to say
-(<code>tests/oracle</code>, <code>tests/stress</code>). Times are the kernels' own (device events), medians of warm frames, the methods in
-turn; of the two that run on the CPU, the clock's. Methods that do the same work differ by the machine's noise.</p>
+<p>Every method shoots the same rays: a grid of the default view of each model and scene, and the rays of the stress
+families. The judge is the reference in 113-bit arithmetic. A ray is decided if its regions stay the same when its
+origin moves to four sides by some units in the last place, and when the tolerance for rounding is four times as large.
+The other rays are ties. Rays on which a file's own tolerance makes other regions than its numbers are counted apart
+(<code>rule</code>). A ray is wrong if it has another sequence of regions and gaps.</p>
+<p>A distance error is given in units of how far the end moves when the ray moves by one unit in the last place. Double
+precision cannot do better than about 1. The judge shares formulas and compiled scenes with what it judges. So errors of
+scene compilation, such as the loss of very thin plates, do not show. The oracle (<code>tests/oracle</code>,
+<code>tests/integration/stress</code>) judges the formulas.</p>
+<p>Times are the device's own times of the kernels, medians of warm frames; the methods run in turn. Times of the two
+methods on the CPU are wall time. Methods that do the same work differ by the machine's noise.</p>
 """
 
 
@@ -260,7 +270,8 @@ def page(measured, pictures, folder):
         with open(picture, "rb") as file:
             inline = base64.b64encode(file.read()).decode("ascii")
         parts.append(f"<h2>{html.escape(m.device)}</h2><p>{verdict(m)}</p>"
-                     f'<img alt="time against wrong regions and distance error" src="data:image/svg+xml;base64,{inline}">{table(m)}')
+                     '<img alt="time against wrong regions and distance error" '
+                     f'src="data:image/svg+xml;base64,{inline}">{table(m)}')
     path = os.path.join(folder, "index.html")
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(PAGE.format(devices="\n".join(parts)))

@@ -1,13 +1,14 @@
 """Which methods are worth choosing: those that no other one beats."""
 
-# Times are medians on a machine that may have other work; differences below this share are not told apart.
+# Times are medians on a machine that may have other work: smaller relative differences are noise.
 NOISE = 0.1
 
 
 def dominates(a, b, noise=NOISE):
     """Whether `a` makes `b` pointless. Each is (time, error, error, ...), less is better.
 
-    Nowhere more wrong than b, and either somewhere less wrong and not slower but by noise, or faster by more than noise.
+    No error of `a` is larger. And one is smaller while `a` is at most slower by noise, or `a` is faster by more than
+    noise.
     """
     if any(x > y for x, y in zip(a[1:], b[1:])):
         return False
@@ -23,7 +24,9 @@ def front(points, noise=NOISE):
 
 
 def judged_on_all(totals):
-    """The names of those of `totals`, {name: {"rays": ...}}, that were judged on as many rays as any: the others' errors
-    are those of another sample, and say nothing beside them."""
+    """The names of those of `totals`, {name: {"rays": ...}}, that were judged on the most rays.
+
+    Errors of the others come from another sample of rays and cannot be compared.
+    """
     most = max((t["rays"] for t in totals.values()), default=0)
     return {name for name, t in totals.items() if t["rays"] == most}

@@ -119,7 +119,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     return view;
 }
 
-// The pixels of `which`; those of `hit` see something. Left a call: measured (bench/NOTES.md).
+// The pixels of `which`; those of `hit` see something. Left a call: measured (docs/experiments/processors.md).
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture,
                             u32 which, u32 hit) {
     const size_t size = channel_size(f);

@@ -47,7 +47,7 @@ typedef uint u32;
 #define INLINE_FN FN inline __attribute__((always_inline))
 #endif
 // What is seldom reached, in the midst of what is hot: a call for a processor. On a GPU a call takes registers from all that is around
-// it (measured: bench/NOTES.md).
+// it (measured: docs/experiments/contact.md).
 #if defined(CSGRT_PACKETS) || defined(CSGRT_NO_INLINE)
 #define RARE_FN NOINLINE_FN
 #else

@@ -8,7 +8,7 @@
 namespace csgrt {
 namespace {
 
-// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause (bench/NOTES.md).
+// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause (docs/experiments/gpu-frames.md).
 constexpr std::size_t piece = std::size_t{1} << 21;  // floats
 constexpr std::size_t most_underway = 2 * piece * sizeof(float);
 

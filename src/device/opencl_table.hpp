@@ -7,6 +7,8 @@
 
 namespace csgrt {
 
+// clang-format would indent the list further at each run.
+// clang-format off
 #define CSGRT_OPENCL_FUNCTIONS(F)                                                                                     \
     F(GetPlatformIDs) F(GetPlatformInfo) F(GetDeviceIDs) F(GetDeviceInfo)                                             \
     F(CreateContext) F(ReleaseContext)                                                                                \
@@ -18,6 +20,7 @@ namespace csgrt {
     F(EnqueueNDRangeKernel) F(EnqueueWriteBuffer) F(EnqueueReadBuffer) F(EnqueueReadBufferRect) F(EnqueueFillBuffer)  \
     F(EnqueueMapBuffer) F(EnqueueUnmapMemObject)                                                                      \
     F(WaitForEvents) F(ReleaseEvent) F(GetEventInfo) F(GetEventProfilingInfo)
+// clang-format on
 
 /// OpenCL's own names without their "cl". An object belongs to the table that made it.
 struct OpenCl {

@@ -1,5 +1,5 @@
-# Do the kernels stay within OpenCL C 1.2? clang's front end reads every program that csgrt makes, for a device that is not the
-# host, with the standard's own declarations. cmake -DCLANG=... -DKERNELS=... -P opencl_c_test.cmake
+# Do the kernels stay within OpenCL C 1.2? clang's front end reads every program that csgrt makes, for a device that is
+# not the host, with the standard's own declarations. cmake -DCLANG=... -DKERNELS=... -P opencl_c_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
 set(every_partition 1_count_hits.cl scan.cl 2_store_segments.cl 3_weave.cl 4_evaluate.cl 5_shade.cl)
@@ -18,9 +18,11 @@ function(check)
     endforeach()
     # Unused: a program has functions and arguments for more than one scene or device needs.
     execute_process(
-        COMMAND ${CLANG} -x cl -cl-std=CL1.2 -target spir64-unknown-unknown -Xclang -finclude-default-header -fsyntax-only -Werror
-            -Wall -Wextra -pedantic -Wno-unused -Wno-unused-parameter -Wno-constant-logical-operand "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -D__OPENCL_VERSION__=120
-            -DCSGRT_LARGE_TERMS -DCSGRT_SHAPED_LIGHTS ${program_UNPARSED_ARGUMENTS} -I${KERNELS} ${includes} /dev/null
+        COMMAND ${CLANG} -x cl -cl-std=CL1.2 -target spir64-unknown-unknown -Xclang -finclude-default-header
+            -fsyntax-only -Werror -Wall -Wextra -pedantic -Wno-unused -Wno-unused-parameter
+            -Wno-constant-logical-operand "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0
+            -D__OPENCL_VERSION__=120 -DCSGRT_LARGE_TERMS -DCSGRT_SHAPED_LIGHTS ${program_UNPARSED_ARGUMENTS}
+            -I${KERNELS} ${includes} /dev/null
         RESULT_VARIABLE result ERROR_VARIABLE words)
     if(NOT result EQUAL 0)
         string(APPEND failed "${program_UNPARSED_ARGUMENTS}, ${program_FILES}:\n${words}\n")

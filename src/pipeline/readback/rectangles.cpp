@@ -23,7 +23,7 @@ TileRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t left
 }
 
 /// A row's pixels; where there is room beside them, whole lines of the processor's cache, the first of which begins with
-/// pixel `aligned`: a GPU writes those a quarter sooner (bench/NOTES.md).
+/// pixel `aligned`: a GPU writes those a quarter sooner (docs/experiments/gpu-frames.md).
 Rectangle pixels_of(const TileRows& rows, std::size_t row, TileRows::Extent extent, std::size_t aligned) {
     constexpr std::size_t line = 64 / sizeof(float);
     const TileRows::Extent all = rows.whole(row);
@@ -43,7 +43,7 @@ bool hold(const TileRows& rows, const Rectangle& r) {
     return fits(r.top) && fits(r.bottom - 1);
 }
 
-constexpr std::size_t copy_cost = 1 << 12;  // pixels that a copy's begin takes as long as (bench/NOTES.md)
+constexpr std::size_t copy_cost = 1 << 12;  // pixels that a copy's begin takes as long as (docs/experiments/gpu-frames.md)
 
 /// Of rows that follow each other, what is between two columns of tiles.
 struct Part {

@@ -13,7 +13,7 @@ namespace csgrt {
 namespace {
 
 // Parts of a device's share of what the rays cost. Of first hits, launches soon cost as much as rays; of every partition, what the host
-// waits for in each (bench/NOTES.md).
+// waits for in each (docs/experiments/gpu-frames.md).
 constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 5;
 
 constexpr const char* registered_name = "registered memory";

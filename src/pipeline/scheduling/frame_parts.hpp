@@ -18,7 +18,7 @@ struct RayRange {
 /// What rays may cost, of which a ray that sees nothing costs 1. Where this is wrong it costs time and nothing else.
 class RayCosts {
 public:
-    static constexpr std::uint64_t of_shown = 16;   ///< of a ray whose tile shows something (measured: bench/NOTES.md)
+    static constexpr std::uint64_t of_shown = 16;   ///< of a ray whose tile shows something (measured: docs/experiments/gpu-frames.md)
     static constexpr std::uint32_t most_bands = 128;  ///< of rows of a frame's tiles, at most twice as many
 
     /// Of a list: each the same.

@@ -60,13 +60,16 @@ TEST_CASE("json solids: lengths are in the file's unit, shares and directions ar
     CHECK(superell.n == 0.5);
     CHECK(superell.e == 1);
     const Metaball metaball = read<Metaball>(
-        R"({"type": "metaball", "method": "blob", "threshold": 2, "points": [{"position": [1, 0, 0], "strength": 3}]})");
+        R"({"type": "metaball", "method": "blob", "threshold": 2,
+            "points": [{"position": [1, 0, 0], "strength": 3}]})");
     CHECK(metaball.method == Metaball::Method::blob);
     CHECK(metaball.threshold == 2);
     CHECK(metaball.points.at(0).strength == 30);
     CHECK(metaball.points.at(0).softness == 1);
     const Pipe pipe = read<Pipe>(
-        R"({"type": "pipe", "points": [{"position": [1, 0, 0], "outer": 4, "inner": 2, "bend": 3}, {"position": [2, 0, 0], "outer": 4}]})");
+        R"({"type": "pipe",
+            "points": [{"position": [1, 0, 0], "outer": 4, "inner": 2, "bend": 3},
+            {"position": [2, 0, 0], "outer": 4}]})");
     CHECK(pipe.points.at(0).outer == 40);
     CHECK(pipe.points.at(0).inner == 20);
     CHECK(pipe.points.at(0).bend == 30);
@@ -150,8 +153,10 @@ TEST_CASE("json solids: matrices of cells") {
 
 TEST_CASE("json solids: sketches") {
     const Extrude extrude = read<Extrude>(R"({"type": "extrude", "base": [1, 0, 0], "height": [0, 0, 2], "b": [0, 2, 0],
-        "sketch": {"vertices": [[1, 2], [3, 4], [5, 6]], "curves": [{"line": [0, 1]}, {"circle": [0, 1], "reversed": true},
-        {"arc": [1, 2], "radius": 3, "clockwise": true}, {"arc": [1, 2], "radius": -1, "center_left": true}, {"bezier": [0, 2, 1]},
+        "sketch": {"vertices": [[1, 2], [3, 4], [5, 6]],
+            "curves": [{"line": [0, 1]}, {"circle": [0, 1], "reversed": true},
+        {"arc": [1, 2], "radius": 3, "clockwise": true}, {"arc": [1, 2], "radius": -1, "center_left": true},
+        {"bezier": [0, 2, 1]},
         {"nurb": [0, 1], "order": 2, "knots": [0, 0, 1, 1], "weights": [1, 2]}]}})");
     CHECK(extrude.h == Vec3{0, 0, 20});
     CHECK(extrude.a == Vec3{1, 0, 0});

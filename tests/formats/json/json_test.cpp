@@ -60,7 +60,8 @@ TEST_CASE("json: solids") {
         shape_of(R"({"type": "ell", "center": [0, 0, 0], "a": [1, 0, 0], "b": [0, 2, 0], "c": [0, 0, 3]})"));
     CHECK(ell.c == Vec3{0, 0, 3});
     const Tgc tgc = std::get<Tgc>(shape_of(
-        R"({"type": "tgc", "base": [1, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "b": [0, 4, 0], "c": [5, 0, 0], "d": [0, 6, 0]})"));
+        R"({"type": "tgc", "base": [1, 0, 0], "height": [0, 0, 2], "a": [3, 0, 0], "b": [0, 4, 0], "c": [5, 0, 0],
+            "d": [0, 6, 0]})"));
     CHECK(tgc.h == Vec3{0, 0, 2});
     CHECK(tgc.d == Vec3{0, 6, 0});
     const Arb box = std::get<Arb>(shape_of(R"({"type": "box", "low": [0, 0, 0], "high": [1, 2, 3]})"));
@@ -156,7 +157,8 @@ TEST_CASE("json: trees become postfix, with a place for each node") {
 TEST_CASE("json: placement is scale, then rotation, then translation, and from the outside in") {
     CHECK(
         one_matrix(tree_of(
-            R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4], "translate": [5, 6, 7]})")) ==
+            R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4],
+                "translate": [5, 6, 7]})")) ==
         one_matrix(tree_of(R"({"object": "a", "matrix": [0, -3, 0, 5, 2, 0, 0, 6, 0, 0, 4, 7, 0, 0, 0, 1]})")));
     const Tree nested =
         tree_of(R"({"union": [{"object": "a", "translate": [1, 0, 0]}], "rotate": {"axis": [0, 0, 1], "angle": 180}})");
@@ -183,7 +185,8 @@ TEST_CASE("json: combinations and materials") {
     const Scene scene = scene_of(R"({"csgrt": 1,
         "materials": {"red": {"color": [1, 0, 0]}, "dull": {"specular": 0, "shine": 3}},
         "combinations": {
-            "a": {"tree": null, "region": true, "id": 7, "air": 1, "material_id": 2, "los": 50, "material": "red", "inherit": ["color"]},
+            "a": {"tree": null, "region": true, "id": 7, "air": 1, "material_id": 2, "los": 50, "material": "red",
+                "inherit": ["color"]},
             "b": {"tree": null, "material": "dull", "inherit": ["finish"]},
             "c": {"tree": null, "material": {"color": [0, 1, 0], "shader": "glass", "transmit": 0.8}},
             "d": {"tree": null}
@@ -264,7 +267,8 @@ TEST_CASE("json: the place of every value is where it starts, whatever stands be
 
 TEST_CASE("json: numbers are read to the last bit, signs of zeros too") {
     const Ell ell = std::get<Ell>(shape_of(
-        R"({"type": "ell", "center": [-0, -0.0, 0], "a": [0.1, 1e-320, 123456789012345678901234567890], "b": [1.7976931348623157e308, 5e-324, 1e-400], "c": [9007199254740993, 1, 1]})"));
+        R"({"type": "ell", "center": [-0, -0.0, 0], "a": [0.1, 1e-320, 123456789012345678901234567890],
+            "b": [1.7976931348623157e308, 5e-324, 1e-400], "c": [9007199254740993, 1, 1]})"));
     CHECK(std::signbit(ell.v.x));
     CHECK(std::signbit(ell.v.y));
     CHECK_FALSE(std::signbit(ell.v.z));
