@@ -1,7 +1,6 @@
-// The closed-form solids once more, for a packet of rays side by side: two rows of four pixels of a tile, which meet fewer boxes and
-// solids than one row of eight. For processors, whose work-items have vectors: what a ray waits for, others use.
-//
-// The source is the same (one ray's `real` becomes a vector), so the bits are: vectors round each number as scalars do.
+// The closed-form solids once more, for a packet of eight rays side by side, on processors, whose instructions work on vectors. A
+// packet is two rows of four pixels of a tile, which meet fewer boxes and solids than one row of eight. begin.h says how the source of
+// one ray is compiled for a packet, and why the bits are the same.
 #ifndef CSGRT_PACKET_PACKET_H
 #define CSGRT_PACKET_PACKET_H
 
@@ -29,55 +28,10 @@ FN float8 single_max(float8 a, float8 b) { return a > b ? a : b; }
 FN float8 to_single(double8 x) { return convert_float8(x); }
 FN int none(long8 x) { return !any(x); }
 
-// What base.h calls these of one ray.
-#define real double8
-#define wide double8
-#define single float8
-#define truth long8
-#define single_truth int8
-#define tag ulong8
-
-// Types, and functions whose arguments do not tell the two kinds apart.
-#define vec3 packet_vec3
-#define wide3 packet_wide3
-#define pair packet_pair
-#define offset3 packet_offset3
-#define world_ray packet_world_ray
-#define ray3 packet_ray3
-#define slab_ray packet_slab_ray
-#define hits packet_hits
-#define span packet_span
-#define local_ray packet_local_ray
-#define quadratic packet_quadratic
-#define tor_piece packet_tor_piece
-#define sight packet_sight
-#define finish packet_finish
-#define rgb packet_rgb
-#define make_vec3 packet_make_vec3
-#define make_wide3 packet_make_wide3
-#define no_hits packet_no_hits
-#define whole_line packet_whole_line
-#define plane_normal packet_plane_normal
-#define face_normal packet_face_normal
-
-#undef CSGRT_SHARED_VECTORS_H
-#undef CSGRT_TRAVERSAL_VIEW_H
-#undef CSGRT_SHARED_SLAB_H
-#undef CSGRT_GEOMETRY_HITS_H
-#undef CSGRT_GEOMETRY_AFFINE_H
-#undef CSGRT_GEOMETRY_PLANE_H
-#undef CSGRT_GEOMETRY_QUADRATIC_H
-#undef CSGRT_GEOMETRY_ARB_H
-#undef CSGRT_GEOMETRY_ELL_H
-#undef CSGRT_GEOMETRY_HALF_H
-#undef CSGRT_GEOMETRY_CONE_H
-#undef CSGRT_GEOMETRY_TORUS_H
-#undef CSGRT_GEOMETRY_EHY_H
-#undef CSGRT_GEOMETRY_QUADRIC_H
-#undef CSGRT_SHADING_PLASTIC_H
+#include "begin.h"
 #include "../shared/vectors.h"
-#include "../traversal/view.h"
 #include "../shared/slab.h"
+#include "../traversal/view.h"
 #include "../geometry/hits.h"
 #include "../geometry/affine.h"
 #include "../geometry/plane.h"
@@ -87,77 +41,11 @@ FN int none(long8 x) { return !any(x); }
 #include "../geometry/half.h"
 #include "../geometry/cone.h"
 #include "../geometry/torus.h"
-#include "../shading/plastic.h"
-
-// A packet's count of segments where it takes more than is here to know: the ray is to go alone.
-#define UNDECIDED 3u
-
-FN hits undecided_where(truth which, hits h) {
-    h.count = which ? TAG(UNDECIDED) : h.count;
-    return h;
-}
-
-// As one ray's (polynomial.h), where a > 0.
-FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
-    return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
-}
-
+#include "closed_form.h"
 #include "../geometry/ehy.h"
 #include "../geometry/quadric.h"
-
-// As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be solved.
-FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
-    GLOBAL const parameter* p = g.reals + solid.first_real;
-    span s = between_ends(g, solid, r);
-    local_ray l;
-    if (none(s.low < s.high)) return no_hits();
-    l = quartic_ray(p[16] == 0 ? QUARTIC_BRACKETED : QUARTIC_OF(g), p, r);
-    if (p[16] == 0) {
-        const real m0 = real_fma(p[13], l.o.z, p[12]);
-        const quadratic f = round_side(l, m0, p[13] * l.d.z);
-        const hits h = quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
-        return touching(s.touched || may_touch_side(l, f, m0), h);
-    }
-    s = tapered_piece(QUARTIC_OF(g), p, l, s);
-    return undecided_where(s.low < s.high, no_hits());
-}
-
-// As far as no quartic is to be solved.
-FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
-    const span s = tor_bend(g, solid, r);
-    tor_piece piece;
-    if (none(s.low < s.high)) return no_hits();
-    piece = tor_piece_of(QUARTIC_OF(g), g.reals + solid.first_real, r);
-    return undecided_where(s.low < s.high && piece.low < piece.high, no_hits());
-}
-
-#undef real
-#undef wide
-#undef single
-#undef truth
-#undef single_truth
-#undef tag
-#undef vec3
-#undef wide3
-#undef pair
-#undef offset3
-#undef world_ray
-#undef ray3
-#undef slab_ray
-#undef hits
-#undef span
-#undef local_ray
-#undef quadratic
-#undef tor_piece
-#undef sight
-#undef finish
-#undef rgb
-#undef make_vec3
-#undef make_wide3
-#undef no_hits
-#undef whole_line
-#undef plane_normal
-#undef face_normal
+#include "../shading/plastic.h"
+#include "end.h"
 
 // Is it a solid that packets know?
 FN int takes_packets(SolidRecord solid) {

@@ -95,9 +95,9 @@ FN single to_single(real x) { return (float)x; }
 #define REAL(x) ((real)(x))
 #define SINGLE(x) ((single)(x))
 #define TAG(x) ((tag)(x))
-// A limit that depends on how many digits `real` has: 24 bits, 53, 113.
+// A limit that depends on how many bits a number has: 24, 53 or 113. `parameter` has as many as `real`, which may be a vector.
 #define BY_PRECISION(single, twofold, quadruple) \
-    (sizeof(real) == 4 ? REAL(single) : sizeof(real) == 8 ? REAL(twofold) : REAL(quadruple))
+    (sizeof(parameter) == 4 ? REAL(single) : sizeof(parameter) == 8 ? REAL(twofold) : REAL(quadruple))
 
 // By how much rounding of a point's, a direction's or a surface's own numbers may change a product of two of them, in units of
 // their sizes: some roundings of each. In 113 bits as in double, whose numbers they are.
