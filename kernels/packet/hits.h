@@ -5,16 +5,16 @@
 #ifndef CSGRT_PACKET_HITS_H
 #define CSGRT_PACKET_HITS_H
 
-#include "batch.h"
+#include "pending_solids.h"
 
 // The rays among `which` that meet what a subtree holds take it up, or have it wait. Returns those that have no room.
-FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, solid_batch* waiting) {
+FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, pending_solids* pending) {
     const u32 end = s.nodes[root].skip;
     u32 i = root, lost = 0, hit, leaf;
     while ((leaf = next_leaf(p->slabs, s.nodes, &i, end, which, &hit))) {
         const u32 first = leaf >> BVH_LEAF_SHIFT, last = first + (leaf & BVH_LEAF_MASK);
         u32 solid;
-        for (solid = first; solid < last; ++solid) lost |= take_or_wait(p, s, solid, hit & ~lost, waiting);
+        for (solid = first; solid < last; ++solid) lost |= take_or_defer(p, s, solid, hit & ~lost, pending);
     }
     return lost;
 }
@@ -25,8 +25,8 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
     const u32 near_scene = bits_of(p->slabs.hits_sphere);
     u32 hit = 0, k;
     TileNode e;
-    solid_batch waiting;
-    start_batch(&waiting);
+    pending_solids pending;
+    start_pending(&pending);
     *lost = 0;
     for (k = 0; k < f->unbounded_count; ++k) *lost |= take_solid_by_packet(p, s.g, k, which & ~*lost);
     do {
@@ -47,15 +47,15 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
         going = which & ~*lost & ~hit & near_scene;
         if (e.node != NONE && going) {
             fetch_node(s, next->node);
-            *lost |= take_subtree(p, s, e.node, going, &waiting);
+            *lost |= take_subtree(p, s, e.node, going, &pending);
         }
         // What comes later may be taken up sooner, as long as no ray has an event to pass meanwhile.
-        while (!is_enough(&waiting) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->due) < next->entry) & going)) {
+        while (!are_enough(&pending) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->due) < next->entry) & going)) {
             fetch_node(s, next[1].node);
-            if (going & ~*lost) *lost |= take_subtree(p, s, next->node, going & ~*lost, &waiting);
+            if (going & ~*lost) *lost |= take_subtree(p, s, next->node, going & ~*lost, &pending);
             ++next;
         }
-        *lost |= take_batch(p, s, &waiting);
+        *lost |= take_pending(p, s, &pending);
     } while (e.node != NONE && (which & ~*lost & ~hit));
     return hit;
 }

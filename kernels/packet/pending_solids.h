@@ -2,21 +2,21 @@
 //
 // Of a scene that the processor's caches do not hold, each solid's numbers come from far: its record, then what that points to, then
 // what stands there. So several solids wait until what they need is asked for (CSGRT_FETCH); else none does.
-#ifndef CSGRT_PACKET_BATCH_H
-#define CSGRT_PACKET_BATCH_H
+#ifndef CSGRT_PACKET_PENDING_SOLIDS_H
+#define CSGRT_PACKET_PENDING_SOLIDS_H
 
 #include "solids.h"
 #include "../shading/pixel.h"
 
 #ifdef CSGRT_FETCH
 
-#define BATCH 8u     // solids that are enough to begin with
-#define WAITING 24u  // that there is room for
+#define ENOUGH_PENDING 8u  // solids that are enough to begin with
+#define MOST_PENDING 24u   // that there is room for
 
 typedef struct {
-    u32 solids[WAITING], rays[WAITING];
+    u32 solids[MOST_PENDING], rays[MOST_PENDING];
     u32 count;
-} solid_batch;
+} pending_solids;
 
 FN void fetch_node(scene_tables s, u32 node) {
     if (node == NONE) return;
@@ -52,28 +52,28 @@ FN void fetch_materials(const packet* p, appearance_tables a, u32 hit) {
     for (; hit; hit &= hit - 1u) fetch(a.materials + a.regions[p->fronts[lowest(hit)].region].material);
 }
 
-FN void start_batch(solid_batch* b) { b->count = 0; }
-FN int is_enough(const solid_batch* b) { return b->count >= BATCH; }
+FN void start_pending(pending_solids* pending) { pending->count = 0; }
+FN int are_enough(const pending_solids* pending) { return pending->count >= ENOUGH_PENDING; }
 
 // The rays take up the solids that wait. Returns those that have no room.
-FN u32 take_batch(packet* p, scene_tables s, solid_batch* b) {
+FN u32 take_pending(packet* p, scene_tables s, pending_solids* pending) {
     u32 i, lost = 0;
-    for (i = 0; i < b->count && i < 2; ++i) fetch_solid(s, b->solids[i]);
-    for (i = 0; i < b->count; ++i) {
-        if (i + 2 < b->count) fetch_solid(s, b->solids[i + 2]);
-        if (i + 1 < b->count) fetch_parts(s, b->solids[i + 1]);
-        lost |= take_solid_by_packet(p, s.g, b->solids[i], b->rays[i] & ~lost);
+    for (i = 0; i < pending->count && i < 2; ++i) fetch_solid(s, pending->solids[i]);
+    for (i = 0; i < pending->count; ++i) {
+        if (i + 2 < pending->count) fetch_solid(s, pending->solids[i + 2]);
+        if (i + 1 < pending->count) fetch_parts(s, pending->solids[i + 1]);
+        lost |= take_solid_by_packet(p, s.g, pending->solids[i], pending->rays[i] & ~lost);
     }
-    b->count = 0;
+    pending->count = 0;
     return lost;
 }
 
 // The rays of `which` take a solid up, or have it wait. Returns those that have no room for what waited.
-FN u32 take_or_wait(packet* p, scene_tables s, u32 index, u32 which, solid_batch* b) {
-    const u32 lost = b->count == WAITING ? take_batch(p, s, b) : 0;
+FN u32 take_or_defer(packet* p, scene_tables s, u32 index, u32 which, pending_solids* pending) {
+    const u32 lost = pending->count == MOST_PENDING ? take_pending(p, s, pending) : 0;
     fetch(s.g.solids + index);
-    b->solids[b->count] = index;
-    b->rays[b->count++] = which;
+    pending->solids[pending->count] = index;
+    pending->rays[pending->count++] = which;
     return lost;
 }
 
@@ -81,14 +81,14 @@ FN u32 take_or_wait(packet* p, scene_tables s, u32 index, u32 which, solid_batch
 
 typedef struct {
     u32 none;
-} solid_batch;
+} pending_solids;
 
 #define fetch_node(s, node) ((void)0)
 #define fetch_materials(p, a, hit) ((void)0)
-#define start_batch(b) ((void)0)
-#define is_enough(b) 1
-#define take_batch(p, s, b) 0u
-#define take_or_wait(p, s, index, which, b) take_solid_by_packet(p, (s).g, index, which)
+#define start_pending(pending) ((void)0)
+#define are_enough(pending) 1
+#define take_pending(p, s, pending) 0u
+#define take_or_defer(p, s, index, which, pending) take_solid_by_packet(p, (s).g, index, which)
 
 #endif
 
