@@ -1,6 +1,7 @@
 // Kernel 0: which tiles of a picture can see anything at all; the rays of the others are never made. And which nodes of
 // the hierarchy each of them meets: found once for 64 rays, which are put to little else.
 #include "traversal/beam.h"
+#include "traversal/bvh_cursor.h"
 
 // Nothing is counted yet, and no tile shows anything.
 static void clear_tally(__global BatchReport* tally, u32 tiles, u32 id) {
@@ -71,12 +72,10 @@ static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 
 
 // The first leaf is enough.
 static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
-    u32 i = 0;
-    while (i < count) {
-        const BvhNode node = nodes[i];
-        const int hit = beam_entry(b, node) < BOX_MISSED;
-        if (hit && node.leaf) return 1;
-        i = hit ? i + 1 : node.skip;
+    bvh_cursor c = bvh_over(count);
+    while (bvh_goes_on(c)) {
+        const BvhNode node = nodes[c.node];
+        if (bvh_step(&c, node, beam_entry(b, node) < BOX_MISSED)) return 1;
     }
     return 0;
 }

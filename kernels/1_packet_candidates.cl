@@ -11,8 +11,8 @@ typedef struct {
     packet_slab_ray slabs;
     __global const BvhNode* nodes;
     __global const TileNode* next;
-    u32 which;   // rays that pass near the scene
-    u32 i, end;  // of the subtree that it is in
+    bvh_cursor cursor;  // in the subtree of the list's last node
+    u32 which;          // rays that pass near the scene
 } packet_walk;
 
 static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const TileNode* list,
@@ -22,19 +22,16 @@ static packet_walk start_walk(__global const Frame* f, __global const BvhNode* n
     w.nodes = nodes;
     w.next = list;
     w.which = bits_of(w.slabs.hits_sphere) & within;
-    w.i = w.end = 0;
+    w.cursor = bvh_over(0);
     return w;
 }
 
 // The next leaf that any ray meets, as BvhNode has it, and the rays that do; 0: there is none.
 static u32 next_packet_leaf(packet_walk* w, u32* hit) {
     u32 leaf = 0;
-    while (!leaf && w->which && (w->i < w->end || w->next->node != NONE)) {
-        if (w->i == w->end) {
-            w->i = (w->next++)->node;
-            w->end = w->nodes[w->i].skip;
-        }
-        leaf = next_leaf(w->slabs, w->nodes, &w->i, w->end, w->which, hit);
+    while (!leaf && w->which && (bvh_goes_on(w->cursor) || w->next->node != NONE)) {
+        if (!bvh_goes_on(w->cursor)) w->cursor = bvh_below(w->nodes, (w->next++)->node);
+        leaf = next_leaf(w->slabs, w->nodes, &w->cursor, w->which, hit);
     }
     return leaf;
 }

@@ -13,7 +13,7 @@
 #include "../traversal/beam.h"
 #include "claim.h"
 #include "../geometry/collect.h"
-#include "../traversal/candidates.h"
+#include "../traversal/bvh_cursor.h"
 
 #define PENDING FEW                 // segments that a ray holds at a time: its ends are not sorted by solid
 #define SLOT_WORDS (PENDING / 32u)  // of a bit for each of them
@@ -219,7 +219,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
-    u32 solid = 0, end = f->unbounded_count, i = 0, subtree_end = 0, leaf, result = RAY_GOES_ON;
+    bvh_cursor cursor = bvh_over(0);
+    u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
     start_front(w);
     // All rays of a tile come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
     // have one way out, here and in what they call, and few conditions: work-items that leave in several ways run apart after.
@@ -228,7 +229,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         do {
             for (; solid < end && result == RAY_GOES_ON; ++solid)
                 if (!take_solid(w, s.g, solid, r, t_min)) result = RAY_OVERFLOWS;
-            leaf = next_leaf(slabs, s.nodes, &i, subtree_end);
+            leaf = next_leaf(slabs, s.nodes, &cursor);
             solid = leaf >> BVH_LEAF_SHIFT;
             end = solid + (leaf & BVH_LEAF_MASK);
         } while (leaf);
@@ -242,11 +243,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
                 result = RAY_MISSES;
             }
         }
-        i = subtree_end = 0;
-        if (result == RAY_GOES_ON && slabs.hits_sphere && e.node != NONE) {
-            i = e.node;
-            subtree_end = s.nodes[i].skip;
-        }
+        cursor = bvh_over(0);
+        if (result == RAY_GOES_ON && slabs.hits_sphere && e.node != NONE) cursor = bvh_below(s.nodes, e.node);
     } while (result == RAY_GOES_ON);
     return result;
 }

@@ -9,9 +9,9 @@
 
 // The rays among `which` that meet what a subtree holds take it up, or have it wait. Returns those that have no room.
 FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, pending_solids* pending) {
-    const u32 end = s.nodes[root].skip;
-    u32 i = root, lost = 0, hit, leaf;
-    while ((leaf = next_leaf(p->slabs, s.nodes, &i, end, which, &hit))) {
+    bvh_cursor cursor = bvh_below(s.nodes, root);
+    u32 lost = 0, hit, leaf;
+    while ((leaf = next_leaf(p->slabs, s.nodes, &cursor, which, &hit))) {
         const u32 first = leaf >> BVH_LEAF_SHIFT, last = first + (leaf & BVH_LEAF_MASK);
         u32 solid;
         for (solid = first; solid < last; ++solid) lost |= take_or_defer(p, s, solid, hit & ~lost, pending);

@@ -8,6 +8,7 @@
 #include "../geometry/solid.h"
 #include "../shading/plastic.h"
 #include "../shared/slab.h"
+#include "../traversal/bvh_cursor.h"
 
 #define PACKET 8u
 
@@ -138,21 +139,20 @@ FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {
     return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius, f->t_min);
 }
 
-// As one ray's (traversal/candidates.h), for the rays of `which`; *hit: those of them that meet the leaf.
-FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, u32* i, u32 end, u32 which, u32* hit) {
+// As one ray's (traversal/bvh_cursor.h), for the rays of `which`; *hit: those of them that hit the leaf.
+FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c, u32 which, u32* hit) {
     u32 leaf = 0;
-    while (!leaf && *i < end) {
+    while (!leaf && bvh_goes_on(*c)) {
         BvhNode node;
         // A loop of its own: what comes after a node that is missed is then loaded before it is known that it is.
         do {
-            node = nodes[*i];
+            node = nodes[c->node];
             *hit = bits_of(box_is_hit(s, node)) & which;
-            if (!*hit) *i = node.skip;
-        } while (!*hit && *i < end);
-        leaf = *hit ? node.leaf : 0;
+            if (!*hit) bvh_step(c, node, 0);
+        } while (!*hit && bvh_goes_on(*c));
         if (*hit) {
             fetch(nodes + node.skip);
-            *i = leaf ? node.skip : *i + 1;
+            leaf = bvh_step(c, node, 1);
         }
     }
     return leaf;

@@ -52,7 +52,8 @@ std::set<std::string> compiled_for_packets() {
 /// "geometry/ell.h" -> "CSGRT_GEOMETRY_ELL_H".
 std::string guard_of(const std::string& name) {
     std::string guard = "CSGRT_";
-    for (const char c : name) guard += c == '.' || c == '/' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    for (const char c : name)
+        guard += c == '.' || c == '/' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
     return guard;
 }
 
@@ -65,7 +66,8 @@ TEST_CASE("packet/end.h undefines each name that packet/begin.h defines, and no 
     CHECK(defined == words_after("#undef", "packet/end.h"));
 }
 
-TEST_CASE("packet/begin.h lifts the guards of the headers that packet.h includes once more, and of no others", "[kernels]") {
+TEST_CASE("packet/begin.h lifts the guards of the headers that packet.h includes once more, and of no others",
+          "[kernels]") {
     const std::set<std::string> headers = compiled_for_packets();
     std::set<std::string> guards;
     for (const std::string& name : headers) {
