@@ -21,7 +21,7 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
                          __global const RayRecord* rays, __global BatchReport* tally, __global u32* overflown,
                          __global float* picture) {
     const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
-    u32 number, lost, sees;
+    u32 number, overflow_mask, hit_mask;
     pixel_position at;
     scene_tables s;
     appearance_tables a;
@@ -42,7 +42,9 @@ __kernel void first_hits(__global const Frame* frame, __global const SolidRecord
     a.regions = regions;
     a.materials = materials;
     a.lights = lights;
-    lost = draw(frame, s, a, list_of(frame, tile_nodes, number), at, picture + place_of(frame, at, FIRST_OF_ITEM(id)), &sees);
-    if (sees) mark_shown(frame, tally, number);
-    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&tally->overflows)] = number + RAY_OF_ITEM(lowest(lost));
+    overflow_mask = draw(frame, s, a, list_of(frame, tile_nodes, number), at,
+                         picture + place_of(frame, at, FIRST_OF_ITEM(id)), &hit_mask);
+    if (hit_mask) mark_shown(frame, tally, number);
+    for (; overflow_mask; overflow_mask &= overflow_mask - 1u)
+        overflown[atomic_inc(&tally->overflows)] = number + RAY_OF_ITEM(lowest(overflow_mask));
 }

@@ -11,8 +11,8 @@
 // A packet's count of segments where it takes more than is here to know: the ray is to go alone.
 #define UNDECIDED 3u
 
-FN hits undecided_where(truth which, hits h) {
-    h.count = which ? TAG(UNDECIDED) : h.count;
+FN hits undecided_where(truth mask, hits h) {
+    h.count = mask ? TAG(UNDECIDED) : h.count;
     return h;
 }
 

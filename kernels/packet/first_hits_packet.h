@@ -24,19 +24,18 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     p->slabs = slabs_of(f, from_eye);
 }
 
-// Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the rays
-// that had no room, of which nothing is drawn. `seen`: those that see anything.
+// Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the overflow
+// mask: the rays of which nothing is drawn. *hit_mask: those that see anything.
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position first,
-            __global float* picture, u32* seen) {
+            __global float* picture, u32* hit_mask) {
     const u32 within = rays_inside(f, first);
-    u32 hit, lost;
+    u32 overflow_mask;
     packet p;
     start_packet(&p, f, first);
-    hit = first_hits_of(&p, f, s, a.regions, list, within, &lost);
-    fetch_materials(&p, a, hit);
-    put_pixels(&p, f, s.g, a, picture, within & ~lost, hit);
-    *seen = hit;
-    return lost;
+    *hit_mask = first_hits_of(&p, f, s, a.regions, list, within, &overflow_mask);
+    fetch_materials(&p, a, *hit_mask);
+    put_pixels(&p, f, s.g, a, picture, within & ~overflow_mask, *hit_mask);
+    return overflow_mask;
 }
 
 #endif

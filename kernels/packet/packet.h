@@ -139,18 +139,18 @@ FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {
     return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius, f->t_min);
 }
 
-// As one ray's (traversal/bvh_cursor.h), for the rays of `which`; *hit: those of them that hit the leaf.
-FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c, u32 which, u32* hit) {
+// As one ray's (traversal/bvh_cursor.h), for the active rays; *hit_mask: those of them that hit the leaf.
+FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c, u32 active_mask, u32* hit_mask) {
     u32 leaf = 0;
     while (!leaf && bvh_goes_on(*c)) {
         BvhNode node;
         // A loop of its own: what comes after a node that is missed is then loaded before it is known that it is.
         do {
             node = nodes[c->node];
-            *hit = bits_of(box_is_hit(s, node)) & which;
-            if (!*hit) bvh_step(c, node, 0);
-        } while (!*hit && bvh_goes_on(*c));
-        if (*hit) {
+            *hit_mask = bits_of(box_is_hit(s, node)) & active_mask;
+            if (!*hit_mask) bvh_step(c, node, 0);
+        } while (!*hit_mask && bvh_goes_on(*c));
+        if (*hit_mask) {
             fetch(nodes + node.skip);
             leaf = bvh_step(c, node, 1);
         }

@@ -47,34 +47,34 @@ FN void fetch_parts(scene_tables s, u32 index) {
     }
 }
 
-// Of the rays that see something (`hit`), what their regions, which were asked for, are made of.
-FN void fetch_materials(const packet* p, appearance_tables a, u32 hit) {
-    for (; hit; hit &= hit - 1u) fetch(a.materials + a.regions[p->fronts[lowest(hit)].region].material);
+// Of the rays of the hit mask: what their regions, which were asked for, are made of.
+FN void fetch_materials(const packet* p, appearance_tables a, u32 hit_mask) {
+    for (; hit_mask; hit_mask &= hit_mask - 1u) fetch(a.materials + a.regions[p->fronts[lowest(hit_mask)].region].material);
 }
 
 FN void start_pending(pending_solids* pending) { pending->count = 0; }
 FN int are_enough(const pending_solids* pending) { return pending->count >= ENOUGH_PENDING; }
 
-// The rays take up the solids that wait. Returns those that have no room.
+// The rays take up the solids that wait. Returns the overflow mask.
 FN u32 take_pending(packet* p, scene_tables s, pending_solids* pending) {
-    u32 i, lost = 0;
+    u32 i, overflow_mask = 0;
     for (i = 0; i < pending->count && i < 2; ++i) fetch_solid(s, pending->solids[i]);
     for (i = 0; i < pending->count; ++i) {
         if (i + 2 < pending->count) fetch_solid(s, pending->solids[i + 2]);
         if (i + 1 < pending->count) fetch_parts(s, pending->solids[i + 1]);
-        lost |= take_solid_by_packet(p, s.g, pending->solids[i], pending->rays[i] & ~lost);
+        overflow_mask |= take_solid_by_packet(p, s.g, pending->solids[i], pending->rays[i] & ~overflow_mask);
     }
     pending->count = 0;
-    return lost;
+    return overflow_mask;
 }
 
-// The rays of `which` take a solid up, or have it wait. Returns those that have no room for what waited.
-FN u32 take_or_defer(packet* p, scene_tables s, u32 index, u32 which, pending_solids* pending) {
-    const u32 lost = pending->count == MOST_PENDING ? take_pending(p, s, pending) : 0;
+// The active rays take a solid up, or have it wait. Returns the overflow mask of what waited.
+FN u32 take_or_defer(packet* p, scene_tables s, u32 index, u32 active_mask, pending_solids* pending) {
+    const u32 overflow_mask = pending->count == MOST_PENDING ? take_pending(p, s, pending) : 0;
     fetch(s.g.solids + index);
     pending->solids[pending->count] = index;
-    pending->rays[pending->count++] = which;
-    return lost;
+    pending->rays[pending->count++] = active_mask;
+    return overflow_mask;
 }
 
 #else
@@ -84,11 +84,11 @@ typedef struct {
 } pending_solids;
 
 #define fetch_node(s, node) ((void)0)
-#define fetch_materials(p, a, hit) ((void)0)
+#define fetch_materials(p, a, hit_mask) ((void)0)
 #define start_pending(pending) ((void)0)
 #define are_enough(pending) 1
 #define take_pending(p, s, pending) 0u
-#define take_or_defer(p, s, index, which, pending) take_solid_by_packet(p, (s).g, index, which)
+#define take_or_defer(p, s, index, active_mask, pending) take_solid_by_packet(p, (s).g, index, active_mask)
 
 #endif
 
