@@ -7,7 +7,7 @@
 //   partitions    |P1|P2 |  P3 |4|  P5  |        a doubly linked list by index, a bit array each:
 //   bits A B C    100 101 111 110 010            which segments cover the partition
 //
-// First each end counts how many come before it (by t, then number): its place. Then one pass from the front takes all ends
+// First each end counts how many come before it (by t, then number): its place. Then one sweep, front to back, takes all ends
 // within Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that surfaces that
 // coincide change together, whichever comes first: a segment that begins and ends in one event vanishes. The event's t is
 // that of its first end, and a partition's node is in the place of that end, so the list needs no memory but the
@@ -66,7 +66,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     after_e = list[1].next;
     t_e = ends[e].t;
 
-    open = NONE;       // the partition that the front stands in
+    open = NONE;       // the partition that the sweep is in
     open_bits = NONE;  // where its bits are; NONE: no segment is open
     last = NONE;       // the last partition of the list
     while (at < 2 * segments) {

@@ -12,8 +12,8 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);
     u32 k;
     for (k = 0; k < PACKET; ++k) {
-        start_front(p->fronts + k);
-        p->due[k] = BOX_MISSED;
+        start_sweep(p->sweeps + k);
+        p->next_events[k] = BOX_MISSED;
     }
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;

@@ -35,14 +35,14 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
         e = *next++;
         horizon = e.node == NONE ? REAL_INFINITY : (wide)e.entry + p->offset;
         // Which rays have events that nothing in this node can join; behind the last one all do, or stay in what they are in.
-        going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->due) < e.entry)) & active_mask & ~*overflow_mask & ~hit_mask;
+        going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->next_events) < e.entry)) & active_mask & ~*overflow_mask & ~hit_mask;
         for (; going; going &= going - 1u) {
-            front* w = p->fronts + lowest(going);
+            sweep* w = p->sweeps + lowest(going);
             if (advance(w, s, p->tolerance, p->t_min, horizon)) {
                 hit_mask |= going & (0u - going);
                 fetch(regions + w->region);
             }
-            p->due[lowest(going)] = due_at(w, p->tolerance, p->offset);
+            p->next_events[lowest(going)] = event_distance(w, p->tolerance, p->offset);
         }
         going = active_mask & ~*overflow_mask & ~hit_mask & near_scene;
         if (e.node != NONE && going) {
@@ -50,7 +50,7 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             *overflow_mask |= take_subtree(p, s, e.node, going, &pending);
         }
         // What comes later may be taken up sooner, as long as no ray has an event to pass meanwhile.
-        while (!are_enough(&pending) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->due) < next->entry) & going)) {
+        while (!are_enough(&pending) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
             fetch_node(s, next[1].node);
             if (going & ~*overflow_mask) *overflow_mask |= take_subtree(p, s, next->node, going & ~*overflow_mask, &pending);
             ++next;

@@ -49,7 +49,7 @@ FN void fetch_parts(scene_tables s, u32 index) {
 
 // Of the rays of the hit mask: what their regions, which were asked for, are made of.
 FN void fetch_materials(const packet* p, appearance_tables a, u32 hit_mask) {
-    for (; hit_mask; hit_mask &= hit_mask - 1u) fetch(a.materials + a.regions[p->fronts[lowest(hit_mask)].region].material);
+    for (; hit_mask; hit_mask &= hit_mask - 1u) fetch(a.materials + a.regions[p->sweeps[lowest(hit_mask)].region].material);
 }
 
 FN void start_pending(pending_solids* pending) { pending->count = 0; }

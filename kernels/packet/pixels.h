@@ -12,11 +12,11 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t
     u32 rest = hit_mask, k;
     while (rest) {
         const u32 first = lowest(rest);
-        const End seen = p->fronts[first].seen;
+        const End seen = p->sweeps[first].seen;
         const SolidRecord solid = g.solids[seen.solid];
         u32 same = 0;
         for (k = first; k < PACKET; ++k) {
-            const End other = p->fronts[k].seen;
+            const End other = p->sweeps[k].seen;
             same |= other.solid == seen.solid && other.surface == seen.surface ? 1u << k & rest : 0;
         }
         if (!takes_packets(solid)) same = 1u << first;
@@ -85,7 +85,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     packet_vec3 n;
     packet_view view;
     for (k = 0; k < PACKET; ++k) {
-        const front* w = p->fronts + (hit_mask >> k & 1u ? k : lowest(hit_mask));
+        const sweep* w = p->sweeps + (hit_mask >> k & 1u ? k : lowest(hit_mask));
         const MaterialRecord m = a.materials[a.regions[w->region].material];
         t[k] = w->seen.t;
         region[k] = (float)(w->region + 1);

@@ -16,8 +16,8 @@ typedef struct {
     packet_slab_ray slabs;
     real t_min, tolerance;
     wide offset;  // of distances in the tile's list
-    float due[PACKET];  // about where the first event of each is complete
-    front fronts[PACKET];
+    float next_events[PACKET];  // of each sweep, as event_distance() has it
+    sweep sweeps[PACKET];
 } packet;
 
 // The active rays take up what they meet of a solid. Returns the overflow mask.
@@ -39,15 +39,15 @@ FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
                 const u32 k = lowest(found);
                 End ends[2];
                 put_segment(ends, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
-                if (!take_segment(p->fronts + k, solid, ends[0], ends[1])) overflow_mask |= 1u << k;
-                p->due[k] = due_at(p->fronts + k, p->tolerance, p->offset);
+                if (!take_segment(p->sweeps + k, solid, ends[0], ends[1])) overflow_mask |= 1u << k;
+                p->next_events[k] = event_distance(p->sweeps + k, p->tolerance, p->offset);
             }
         }
     }
     for (; alone; alone &= alone - 1u) {
         const u32 k = lowest(alone);
-        if (!take_solid(p->fronts + k, g, index, lane(&p->lanes, k), p->t_min)) overflow_mask |= 1u << k;
-        p->due[k] = due_at(p->fronts + k, p->tolerance, p->offset);
+        if (!take_solid(p->sweeps + k, g, index, lane(&p->lanes, k), p->t_min)) overflow_mask |= 1u << k;
+        p->next_events[k] = event_distance(p->sweeps + k, p->tolerance, p->offset);
     }
     return overflow_mask;
 }

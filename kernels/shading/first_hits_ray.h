@@ -14,7 +14,7 @@
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position at,
             __global float* picture, u32* hit_mask) {
     const ray3 r = geometry_ray(f, camera_ray(f, at));
-    front w;
+    sweep w;
     const u32 found = first_hit(f, s, list, r, &w);
     Pixel pixel;
     *hit_mask = found == RAY_HITS;
