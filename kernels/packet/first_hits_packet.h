@@ -33,7 +33,7 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     packet p;
     start_packet(&p, f, first);
     *hit_mask = first_hits_of(&p, f, s, a.regions, list, within, &overflow_mask);
-    fetch_materials(&p, a, *hit_mask);
+    prefetch_materials(&p, a, *hit_mask);
     put_pixels(&p, f, s.g, a, picture, within & ~overflow_mask, *hit_mask);
     return overflow_mask;
 }

@@ -40,18 +40,18 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             sweep* w = p->sweeps + lowest(going);
             if (advance(w, s, p->tolerance, p->t_min, horizon)) {
                 hit_mask |= going & (0u - going);
-                fetch(regions + w->region);
+                prefetch_line(regions + w->region);
             }
             p->next_events[lowest(going)] = event_distance(w, p->tolerance, p->offset);
         }
         going = active_mask & ~*overflow_mask & ~hit_mask & near_scene;
         if (e.node != NONE && going) {
-            fetch_node(s, next->node);
+            prefetch_node(s, next->node);
             *overflow_mask |= take_subtree(p, s, e.node, going, &pending);
         }
         // What comes later may be taken up sooner, as long as no ray has an event to pass meanwhile.
         while (!are_enough(&pending) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
-            fetch_node(s, next[1].node);
+            prefetch_node(s, next[1].node);
             if (going & ~*overflow_mask) *overflow_mask |= take_subtree(p, s, next->node, going & ~*overflow_mask, &pending);
             ++next;
         }

@@ -13,10 +13,10 @@
 #define PACKET 8u
 
 // Asks for the line of memory there, where a scene is larger than the processor's caches: no wait, and no harm if nothing is there.
-#ifdef CSGRT_FETCH
-#define fetch(place) __builtin_prefetch((const void*)(size_t)(place))
+#ifdef CSGRT_PREFETCH
+#define prefetch_line(place) __builtin_prefetch((const void*)(size_t)(place))
 #else
-#define fetch(place) ((void)0)
+#define prefetch_line(place) ((void)0)
 #endif
 
 FN double8 real_sqrt(double8 x) { return sqrt(x); }
@@ -151,7 +151,7 @@ FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c
             if (!*hit_mask) bvh_step(c, node, 0);
         } while (!*hit_mask && bvh_goes_on(*c));
         if (*hit_mask) {
-            fetch(nodes + node.skip);
+            prefetch_line(nodes + node.skip);
             leaf = bvh_step(c, node, 1);
         }
     }

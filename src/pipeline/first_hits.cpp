@@ -9,7 +9,7 @@ std::vector<std::string> defines(const Device& device, const CompiledScene& scen
     std::vector<std::string> all = defines_of(device, scene, settings);
     all.push_back("CSGRT_PRIVATE_ENDS");
     constexpr std::size_t of_caches = 1u << 18;  // nodes of a scene that is larger than they are
-    if (in_packets(device, settings) && scene.nodes.size() > of_caches) all.push_back("CSGRT_FETCH");
+    if (in_packets(device, settings) && scene.nodes.size() > of_caches) all.push_back("CSGRT_PREFETCH");
     if (scene.solids.size() > 32) all.push_back("CSGRT_FEW=64u");  // measured: bench/NOTES.md
     return all;
 }
