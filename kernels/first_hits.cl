@@ -6,10 +6,10 @@
 // The number that item `id` has by the list of tiles, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
     const u32 entry = entries[id / (TILE * TILE)], code = entry >> PART_SHIFT, within = id % (TILE * TILE);
-    const u32 parts = code ? PARTS : 1u, rays = LOCKSTEP / parts, part = code ? code - PARTS : 0;
-    if (within % LOCKSTEP >= rays) return COUNT_MAX;
-    return (entry & ((1u << PART_SHIFT) - 1u)) * (TILE * TILE) + part * (TILE * TILE) / parts + within / LOCKSTEP * rays +
-           within % LOCKSTEP;
+    const u32 parts = code ? PARTS : 1u, rays = ASSUMED_WARP / parts, part = code ? code - PARTS : 0;
+    if (within % ASSUMED_WARP >= rays) return COUNT_MAX;
+    return (entry & ((1u << PART_SHIFT) - 1u)) * (TILE * TILE) + part * (TILE * TILE) / parts + within / ASSUMED_WARP * rays +
+           within % ASSUMED_WARP;
 }
 
 __kernel void first_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,

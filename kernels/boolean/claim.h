@@ -97,7 +97,7 @@ FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
 }
 
 // Bit 4 op + left + 2 right: the operator's value.
-#define TRUTHS                                                                                             \
+#define OPERATOR_TABLE                                                                                     \
     (0xeu << 4 * OP_UNION | 0x8u << 4 * OP_INTERSECTION | 0x2u << 4 * OP_DIFFERENCE | 0x6u << 4 * OP_XOR | \
      0x4u << 4 * OP_REVERSE_DIFFERENCE)
 
@@ -110,7 +110,7 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
         if (op == OP_LEAF) {
             values = values << 1 | is_covered(c, list, word & TREE_MASK);
         } else {
-            values = (values >> 1 & ~1u) | (TRUTHS >> (4 * op + (values & 3u)) & 1u);
+            values = (values >> 1 & ~1u) | (OPERATOR_TABLE >> (4 * op + (values & 3u)) & 1u);
         }
     }
     return values & 1u;

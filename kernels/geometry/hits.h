@@ -13,14 +13,14 @@ typedef struct {
     tag count;  // segments: 0, 1 or 2
     real in0, out0, in1, out1;
     tag in0_surface, out0_surface, in1_surface, out1_surface;
-    truth touched;  // may the ray touch the solid only? touch.h looks more closely
+    lane_mask touched;  // may the ray touch the solid only? touch.h looks more closely
 } hits;
 
 // A piece of the ray, with the surfaces that bound it.
 typedef struct {
     real low, high;
     tag low_surface, high_surface;
-    truth touched;  // the ray runs in one of its planes
+    lane_mask touched;  // the ray runs in one of its planes
 } span;
 
 FN hits no_hits(void) {
@@ -43,7 +43,7 @@ FN span whole_line(void) {
 
 // Appends [in, out] unless it is empty. A ray that only touches has no segment there.
 FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
-    const truth first = in < out && h.count == 0, second = in < out && h.count == 1;
+    const lane_mask first = in < out && h.count == 0, second = in < out && h.count == 1;
     h.in0 = first ? in : h.in0;
     h.out0 = first ? out : h.out0;
     h.in0_surface = first ? in_surface : h.in0_surface;
@@ -56,7 +56,7 @@ FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
     return h;
 }
 
-FN hits touching(truth touched, hits h) {
+FN hits touching(lane_mask touched, hits h) {
     h.touched = touched;
     return h;
 }

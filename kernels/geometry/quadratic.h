@@ -14,7 +14,7 @@ FN real difference_of_products(real a, real b, real c, real d) {
 // As quadratic_inside (polynomial.h), for a > 0: the piece of `s` that lies between the roots, taken in the form that never
 // subtracts near-equal numbers.
 FN hits between_roots(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
-    const truth real_roots = discriminant > 0, inside_at_0 = c < 0;
+    const lane_mask real_roots = discriminant > 0, inside_at_0 = c < 0;
     real root, q, u1, u2, low, high;
     if (none(real_roots || inside_at_0)) return no_hits();
     // Inside at u = 0, so there are roots, however far: along an asymptote, where a is rounding, the discriminant is, too.

@@ -26,8 +26,8 @@
 #define real double8
 #define wide double8
 #define single float8
-#define truth long8
-#define single_truth int8
+#define lane_mask long8
+#define single_lane_mask int8
 #define tag ulong8
 
 // Types of them.

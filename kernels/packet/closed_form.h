@@ -11,7 +11,7 @@
 // A packet's count of segments where it takes more than is here to know: the ray is to go alone.
 #define UNDECIDED 3u
 
-FN hits undecided_where(truth mask, hits h) {
+FN hits undecided_where(lane_mask mask, hits h) {
     h.count = mask ? TAG(UNDECIDED) : h.count;
     return h;
 }

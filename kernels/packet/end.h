@@ -5,8 +5,8 @@
 #undef real
 #undef wide
 #undef single
-#undef truth
-#undef single_truth
+#undef lane_mask
+#undef single_lane_mask
 #undef tag
 #undef vec3
 #undef wide3

@@ -54,7 +54,7 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m
         const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), from)));
         const real cosine = dot3(n, to_light), diffuse = cosine * m.diffuse;
         const real mirrored = dot3(subtract(scale(n, REAL(2) * cosine), to_light), view);
-        truth lit = cosine > 0, shines;
+        lane_mask lit = cosine > 0, shines;
         real specular = REAL(0);
 #if SHAPED_LIGHTS
         if (light.beam) lit = lit && dot3(to_light, make_vec3(REAL(light.bx), REAL(light.by), REAL(light.bz))) <= REAL(-light.cosine);
@@ -78,7 +78,7 @@ typedef struct {
 
 // Inside already (t < t_min): the hit is the eye itself, seen face on.
 FN sight look_at(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n, real t_min) {
-    const truth inside = t < t_min;
+    const lane_mask inside = t < t_min;
     sight seen;
     if (!none(inside)) {
         const vec3 face_on = scale(normalize3(r.d), REAL(-1));

@@ -83,13 +83,14 @@ FN real real_scaled(real x, int e) { return host::scaled(x, e); }
 FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
 #endif
 
-// A value that is one for each ray, as far as packets need the source (packet/packet.h): of one ray, what it is called.
-typedef real parameter;  // of a solid, whatever the number of rays
+// Types whose names packets give to vectors, to compile the same source once more (packet/begin.h). Here they are one ray's.
 typedef float single;
-typedef int truth;  // of two reals compared
-typedef int single_truth;
-typedef u32 tag;  // a count or a surface
-FN int none(truth x) { return !x; }
+typedef int lane_mask;         // what two reals compared give: 1 or 0; -1 or 0 in each lane of a vector
+typedef int single_lane_mask;  // the same of two singles
+typedef u32 tag;               // a count or a surface
+// A number of a solid, which is the same for all rays, also in a packet.
+typedef real parameter;
+FN int none(lane_mask x) { return !x; }
 FN single to_single(real x) { return (float)x; }
 
 #define REAL(x) ((real)(x))

@@ -21,7 +21,7 @@ PURE uint min(uint a, uint b);
 PURE uint popcount(uint bits);
 PURE uint clz(uint bits);
 PURE uint add_sat(uint a, uint b);
-PURE int any(long8 truths);
+PURE int any(long8 lanes);
 
 #define REAL_FUNCTIONS(T)  \
     PURE T sqrt(T x);      \

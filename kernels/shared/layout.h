@@ -261,12 +261,13 @@ typedef struct {
     RayCount total;            // the same
 } BatchReport;
 
-// An entry of the list: a tile's number, and above it 0, or PARTS and more for each of its parts. Work-items that go in lockstep
-// wait for each other, the more so the more there is to do: the few tiles that cost most have fewer rays in each group of LOCKSTEP.
+// An entry of the list: a tile's number, and above it 0, or PARTS and more for each of its parts. Work-items of one warp wait for
+// each other, the more so the more there is to do, so the few tiles that cost most have fewer rays in each warp. ASSUMED_WARP is
+// the size of NVIDIA's; on a device of another the picture is the same.
 #define PARTS 4u
 #define PART_SHIFT 26u    // tiles are fewer: their rays have numbers of 32 bits
 #define PARTED_CLASS 40u  // costs from 128 on (class_of in tile_list.cl)
-#define LOCKSTEP 32u
+#define ASSUMED_WARP 32u
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }

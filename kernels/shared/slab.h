@@ -14,7 +14,7 @@ typedef struct {
     single ix, iy, iz;  // 1 / direction, or MOST_INVERSE
     single t_min;       // in the hierarchy's own parameter
     single pad;         // single precision: by which boxes grow
-    truth hits_sphere;  // 0: nothing can be hit
+    lane_mask hits_sphere;  // 0: nothing can be hit
     real shift, length;  // the hierarchy's parameter is length * t - shift
 } slab_ray;
 
@@ -67,7 +67,7 @@ FN single box_passage(slab_ray s, BvhNode node, single* out) {
     return single_max(single_max(single_min(x0, x1), single_min(y0, y1)), single_max(single_min(z0, z1), s.t_min));
 }
 
-FN single_truth box_is_hit(slab_ray s, BvhNode node) {
+FN single_lane_mask box_is_hit(slab_ray s, BvhNode node) {
     single out;
     const single in = box_passage(s, node, &out);
     return in <= out;
