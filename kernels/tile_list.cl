@@ -62,13 +62,13 @@ __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 cou
 }
 
 // Fills what no ray will, of a picture of whole lines of the screen. A group of TILE * TILE items a tile.
-__kernel void put_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 lines, u32 planes,
-                             PlaneValues background, __global float* picture) {
+__kernel void put_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 lines,
+                             u32 channel_count, ChannelValues background, __global float* picture) {
     pixel_position at;
     u32 p;
     if (costs[get_group_id(0)]) return;
     at = pixel_of(first_ray + (u32)get_global_id(0), screen);
     if (!at.inside) return;
     picture += place_in_lines(screen, first_ray, at);
-    for (p = 0; p < planes; ++p) picture[(size_t)p * lines * width_of(screen)] = background.of[p];
+    for (p = 0; p < channel_count; ++p) picture[(size_t)p * lines * width_of(screen)] = background.of[p];
 }

@@ -122,7 +122,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
 // Stores the pixels of the active rays; those of the hit mask see something. Left a call: measured (bench/NOTES.md).
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture,
                             u32 active_mask, u32 hit_mask) {
-    const size_t size = plane_of(f);
+    const size_t size = channel_size(f);
     const u32 line = f->lines ? width_of(f->screen) : TILE;
     const int8 is_hit = of_bits(hit_mask);
     packet_view v;

@@ -69,7 +69,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
 
 // Stores what a ray sees, channel by channel; `picture`: its place in the batch's first.
 FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, Pixel p) {
-    const size_t size = plane_of(f);
+    const size_t size = channel_size(f);
     u32 i;
     if (f->channels & CHANNEL_COLOR)
         for (i = 0; i < 4; ++i, picture += size) *picture = p.rgba[i];

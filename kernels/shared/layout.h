@@ -221,11 +221,11 @@ typedef struct {
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
 } Frame;
 
-// A float for each plane of a picture.
-#define MOST_PLANES 13
+// A float for each channel of a picture.
+#define MOST_CHANNELS 13
 typedef struct {
-    float of[MOST_PLANES];
-} PlaneValues;
+    float of[MOST_CHANNELS];
+} ChannelValues;
 
 // Rays are numbered in tiles of 8 x 8 pixels, so that the work-items of a group look at neighbours.
 #define TILE 8u
@@ -327,7 +327,8 @@ typedef struct {
     u32 depth, partitions, overlap;
 } Pixel;
 
-// The picture: for each channel, in this order, a plane: a float of each of the batch's rays, or of each pixel of its lines.
+// Channels by groups, in the order in which they stand in the picture. A channel is a float for each of the batch's rays, or for each
+// pixel of its lines.
 #define CHANNEL_COLOR 1u     // R G B A
 #define CHANNEL_DISTANCE 2u  // Z
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z

@@ -25,11 +25,11 @@ FN size_t place_in_lines(ScreenBounds w, u32 first_ray, pixel_position at) {
     return (size_t)(at.y - top) * width_of(w) + (at.x - w.left);
 }
 
-// Where a ray's pixel stands in a plane of the batch's picture, and how many floats that has.
+// Where a ray's pixel stands in a channel of the batch's picture, and how many floats a channel has.
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
     return f->lines ? place_in_lines(f->screen, f->first_ray, at) : id;
 }
-FN size_t plane_of(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * width_of(f->screen) : f->ray_count; }
+FN size_t channel_size(GLOBAL const Frame* f) { return f->lines ? (size_t)f->lines * width_of(f->screen) : f->ray_count; }
 
 // Tells the host that the ray's tile shows something. Any number of them may say so at once.
 FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* tally, u32 number) {

@@ -32,6 +32,6 @@ static_assert(sizeof(RayTally) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
 static_assert(sizeof(TileNode) == 8);
-static_assert(sizeof(PlaneValues) == sizeof(Pixel));
+static_assert(sizeof(ChannelValues) == sizeof(Pixel));
 
 }  // namespace csgrt::kernel

@@ -8,8 +8,8 @@
 namespace csgrt {
 namespace {
 
-kernel::PlaneValues background_of(const RenderTarget& target) {
-    kernel::PlaneValues background{};
+kernel::ChannelValues background_of(const RenderTarget& target) {
+    kernel::ChannelValues background{};
     for (std::size_t p = 0; p < target.planes.size(); ++p) background.of[p] = target.planes[p].background;
     return background;
 }

@@ -23,7 +23,7 @@ std::array<Event, 2> TileList::list(const RayBatch& batch, BatchBuffers& buffers
 }
 
 Event TileList::put_background(const kernel::Frame& frame, const RayBatch& batch, const Buffer& costs,
-                                const kernel::PlaneValues& background, std::uint32_t planes, const Buffer& picture) {
+                                const kernel::ChannelValues& background, std::uint32_t planes, const Buffer& picture) {
     if (planes == 0) return {};
     return put_background_->launch(batch.rays, tile_rays, costs, frame.screen, cl_uint{batch.first},
                                    cl_uint{frame.lines}, cl_uint{planes}, background, picture);

@@ -22,7 +22,7 @@ public:
     /// nothing; only first hits know of parts, so that is 0 for every partition. Does not wait. Returns what the two kernels tell.
     std::array<Event, 2> list(const RayBatch& batch, BatchBuffers& buffers, std::uint32_t most_in_parts);
     /// The pixels of those that see nothing, in a picture of whole lines. Does not wait.
-    Event put_background(const kernel::Frame& frame, const RayBatch& batch, const Buffer& costs, const kernel::PlaneValues& background,
+    Event put_background(const kernel::Frame& frame, const RayBatch& batch, const Buffer& costs, const kernel::ChannelValues& background,
                          std::uint32_t planes, const Buffer& picture);
 
     /// Of first hits: more of the dearest tiles keep the device busy as they are.

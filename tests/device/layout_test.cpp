@@ -43,7 +43,7 @@ using namespace csgrt;
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
     RECORD(RayTally) FIELD(RayTally, partitions) FIELD(RayTally, overlaps) RECORD(Pixel) \
     FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(Pixel, normal) FIELD(Pixel, region) FIELD(Pixel, solid) \
-    FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap) RECORD(PlaneValues) FIELD(PlaneValues, of)
+    FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap) RECORD(ChannelValues) FIELD(ChannelValues, of)
 // clang-format on
 
 namespace {

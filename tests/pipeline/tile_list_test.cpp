@@ -83,7 +83,7 @@ TEST_CASE("tiles that see nothing are background, and the others are left alone"
         std::vector<unsigned char> costs(end - first);
         for (std::size_t i = 0; i < costs.size(); ++i) costs[i] = i % 3 == 0 ? 7 : 0;
         const Buffer on_device(device, "costs", costs);
-        kernel::PlaneValues background{};
+        kernel::ChannelValues background{};
         for (int p = 0; p < 3; ++p) background.of[p] = 10.0f + static_cast<float>(p);
         const Buffer picture(device, "lines", std::vector<float>(3 * lines.size(), -1));
         wait_for(list.put_background(frame, batch, on_device, background, 3, picture));
