@@ -46,7 +46,7 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
     solid = g.solids[c.solid];
     r = ray_at(solid, r);
     if (!collect_many(g, solid, c.solid, r, t_min, 0, &count)) {
-        const hits h = collect_few(g, solid, r, t_min);
+        const segments h = collect_few(g, solid, r, t_min);
         count = h.count;
         if (count == 1) put_segment(segment, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
     }

@@ -77,7 +77,7 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask
     ulong in_surface[PACKET], out_surface[PACKET];
     u32 met = 0, alone = active_mask;
     if ((active_mask & (active_mask - 1u)) && takes_packets(solid)) {
-        const packet_hits h = packet_intersect(g, solid, list->rays);
+        const packet_segments h = packet_intersect(g, solid, list->rays);
         met = bits_of(h.count == 1 && h.out0 >= list->t_min) & active_mask;
         alone &= bits_of(h.count == UNDECIDED);
         vstore8(h.in0, 0, in);

@@ -3,7 +3,7 @@
 #ifndef CSGRT_GEOMETRY_PLANE_H
 #define CSGRT_GEOMETRY_PLANE_H
 
-#include "hits.h"
+#include "segments.h"
 
 FN wide3 plane_normal(PlaneRecord p) { return make_wide3(p.nx, p.ny, p.nz); }
 FN real plane_above(PlaneRecord p, ray3 r) { return REAL(wide_dot(plane_normal(p), r.o) - p.d); }  // the origin's distance

@@ -38,7 +38,7 @@
 #define world_ray packet_world_ray
 #define ray3 packet_ray3
 #define slab_ray packet_slab_ray
-#define hits packet_hits
+#define segments packet_segments
 #define span packet_span
 #define local_ray packet_local_ray
 #define quadratic packet_quadratic
@@ -50,7 +50,7 @@
 // Functions whose arguments do not tell the two kinds apart.
 #define make_vec3 packet_make_vec3
 #define make_wide3 packet_make_wide3
-#define no_hits packet_no_hits
+#define no_segments packet_no_segments
 #define whole_line packet_whole_line
 #define plane_normal packet_plane_normal
 #define face_normal packet_face_normal
@@ -59,7 +59,7 @@
 #undef CSGRT_SHARED_VECTORS_H
 #undef CSGRT_SHARED_SLAB_H
 #undef CSGRT_TRAVERSAL_VIEW_H
-#undef CSGRT_GEOMETRY_HITS_H
+#undef CSGRT_GEOMETRY_SEGMENTS_H
 #undef CSGRT_GEOMETRY_AFFINE_H
 #undef CSGRT_GEOMETRY_PLANE_H
 #undef CSGRT_GEOMETRY_QUADRATIC_H

@@ -11,40 +11,40 @@
 // A packet's count of segments where it takes more than is here to know: the ray is to go alone.
 #define UNDECIDED 3u
 
-FN hits undecided_where(lane_mask mask, hits h) {
+FN segments undecided_where(lane_mask mask, segments h) {
     h.count = mask ? TAG(UNDECIDED) : h.count;
     return h;
 }
 
 // As one ray's (polynomial.h), where a > 0.
-FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
+FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
     return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
 }
 
 // As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be solved.
-FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
     span s = between_ends(g, solid, r);
     local_ray l;
-    if (none(s.low < s.high)) return no_hits();
+    if (none(s.low < s.high)) return no_segments();
     l = quartic_ray(p[16] == 0 ? QUARTIC_BRACKETED : QUARTIC_OF(g), p, r);
     if (p[16] == 0) {
         const real m0 = real_fma(p[13], l.o.z, p[12]);
         const quadratic f = round_side(l, m0, p[13] * l.d.z);
-        const hits h = quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
+        const segments h = quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
         return touching(s.touched || may_touch_side(l, f, m0), h);
     }
     s = tapered_piece(QUARTIC_OF(g), p, l, s);
-    return undecided_where(s.low < s.high, no_hits());
+    return undecided_where(s.low < s.high, no_segments());
 }
 
 // As far as no quartic is to be solved.
-FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     const span s = tor_bend(g, solid, r);
     tor_piece piece;
-    if (none(s.low < s.high)) return no_hits();
+    if (none(s.low < s.high)) return no_segments();
     piece = tor_piece_of(QUARTIC_OF(g), g.reals + solid.first_real, r);
-    return undecided_where(s.low < s.high && piece.low < piece.high, no_hits());
+    return undecided_where(s.low < s.high && piece.low < piece.high, no_segments());
 }
 
 #endif

@@ -15,7 +15,7 @@
 #undef world_ray
 #undef ray3
 #undef slab_ray
-#undef hits
+#undef segments
 #undef span
 #undef local_ray
 #undef quadratic
@@ -25,7 +25,7 @@
 #undef rgb
 #undef make_vec3
 #undef make_wide3
-#undef no_hits
+#undef no_segments
 #undef whole_line
 #undef plane_normal
 #undef face_normal

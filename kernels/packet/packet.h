@@ -33,7 +33,7 @@ FN int none(long8 x) { return !any(x); }
 #include "../shared/vectors.h"
 #include "../shared/slab.h"
 #include "../traversal/view.h"
-#include "../geometry/hits.h"
+#include "../geometry/segments.h"
 #include "../geometry/affine.h"
 #include "../geometry/plane.h"
 #include "../geometry/quadratic.h"
@@ -55,7 +55,7 @@ FN int takes_packets(SolidRecord solid) {
 }
 
 // What each ray meets of such a solid: a segment, none, or UNDECIDED; one that may only touch it is looked at alone.
-FN packet_hits packet_meet(Geometry g, SolidRecord solid, packet_ray3 r) {
+FN packet_segments packet_meet(Geometry g, SolidRecord solid, packet_ray3 r) {
 #if HAS_SOLID(SOLID_ARB)
     if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
 #endif
@@ -77,11 +77,11 @@ FN packet_hits packet_meet(Geometry g, SolidRecord solid, packet_ray3 r) {
 #if HAS_SOLID(SOLID_QUADRIC)
     if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
 #endif
-    return packet_no_hits();
+    return packet_no_segments();
 }
 
-FN packet_hits packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
-    packet_hits h = packet_meet(g, solid, r);
+FN packet_segments packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
+    packet_segments h = packet_meet(g, solid, r);
     h.count = h.touched ? (ulong8)UNDECIDED : h.count;
     return h;
 }

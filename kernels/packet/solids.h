@@ -25,7 +25,7 @@ FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
     u32 alone = active_mask, overflow_mask = 0;
     if ((active_mask & (active_mask - 1u)) && takes_packets(solid)) {
-        const packet_hits h = packet_intersect(g, solid, p->rays);
+        const packet_segments h = packet_intersect(g, solid, p->rays);
         u32 found = bits_of(h.count == 1 && h.out0 >= p->t_min) & active_mask;
         alone &= bits_of(h.count == UNDECIDED);
         if (found) {
