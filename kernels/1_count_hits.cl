@@ -1,19 +1,19 @@
-// Kernel 1: how many segments does each ray have, so that exactly that much memory is allocated, or it is
-// known whether what there is does (shared/capacity.h). First in float, from box
-// to box: which solids may the ray meet. Then a work-item for each such candidate, so that no ray waits for its many solids
-// one after the other.
+// Kernel 1: counts each ray's segments. Then the host allocates exactly the memory that they need, or the next
+// kernels see whether the buffers at hand suffice (shared/capacity.h). First each ray walks the hierarchy, in float,
+// and lists its candidates: the solids that it may meet. Then a work-item intersects each candidate, so that no ray
+// waits for its many solids one after the other.
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
 //
-// On processors the rays of a picture's tiles find their candidates eight at once (1_packet_candidates.cl).
+// On processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
 #include "traversal/beam.h"
 #include "traversal/camera.h"
 #include "geometry/collect.h"
 #include "shared/capacity.h"
 #include "traversal/candidates.h"
 
-// Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
-// in tiles.
+// Runs twice: it counts each ray's candidates if `candidates` is 0, and then lists them from the ray's place on.
+// `lists`: kernel 0's, or 0 if the rays do not come in tiles.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
                               __global const RayRecord* rays, __global RayCount* places, __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0), number;
@@ -31,14 +31,14 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     if (!candidates) places[id] = count;
 }
 
-static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global Candidate* candidate,
-                           __global End* segment) {
+static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
+                           __global Candidate* candidate, __global End* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
     ray3 r;
     real t_min;
     u32 count;
-#ifdef CSGRT_PACKETS  // some are counted, then
+#ifdef CSGRT_PACKETS  // then 1_packet_candidates.cl has counted some
     if (c.count != UNCOUNTED) return;
 #endif
     if (!ray_of(frame, rays, number_of(frame, rays, c.ray), &r)) return;
@@ -53,18 +53,19 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
     candidate->count = count;
 }
 
-// A candidate's only segment is kept in `found`, so that kernel 2 need not find it again; more are too rare for the room.
+// If a candidate has one segment, it is kept in `found`, so that kernel 2 need not find it again. Candidates of more
+// segments are too rare to be worth the memory.
 __kernel void count_hits(__global const Frame* frame, __global const SolidRecord* solids, __global const real* reals,
                          __global const PlaneRecord* planes, __global const PlaneRef* plane_refs, __global const u32* words,
                          __global const BvhNode* inner_nodes, __global const RayRecord* rays, __global const RayCount* places,
                          __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0);
     if (id < candidates_of(frame, places))
-        count_segments(frame, make_geometry(solids, reals, planes, plane_refs, words, inner_nodes), rays, candidates + id,
-                       found + 2 * (size_t)id);
+        count_segments(frame, make_geometry(solids, reals, planes, plane_refs, words, inner_nodes), rays,
+                       candidates + id, found + 2 * (size_t)id);
 }
 
-// Each ray's counts, and each of its candidates' place among the ray's segments.
+// Adds up each ray's counts, and gives each candidate its place among the ray's segments.
 __kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
                        __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;

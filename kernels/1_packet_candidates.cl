@@ -1,5 +1,6 @@
-// Kernel 1's first step on processors, for the rays of a picture's tiles: which solids may they meet, eight rays at once. And,
-// of solids that packets know, what they meet of them: count_hits (1_count_hits.cl) is left those that one ray alone comes to.
+// Kernel 1's first step on processors, for a picture's tiles: packets of eight rays list their candidates. Solids
+// that packets know are intersected here, too; count_hits (1_count_hits.cl) is left with what one ray alone can
+// answer.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
 #include "shared/capacity.h"
@@ -60,7 +61,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     }
 }
 
-// Where a packet's candidates go.
+// Where a packet's candidates are stored.
 typedef struct {
     packet_ray3 rays;
     real t_min;

@@ -7,11 +7,11 @@
 //   partitions    |P1|P2 |  P3 |4|  P5  |        a doubly linked list by index, a bit array each:
 //   bits A B C    100 101 111 110 010            which segments cover the partition
 //
-// First each end counts how many come before it (by t, then number): its place. Then one sweep, front to back, takes all ends
-// within Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that surfaces that
-// coincide change together, whichever comes first: a segment that begins and ends in one event vanishes. The event's t is
-// that of its first end, and a partition's node is in the place of that end, so the list needs no memory but the
-// 2 * segments nodes.
+// First each end counts how many come before it (by t, then number): its place. Then one sweep, front to back, takes
+// all ends within Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that
+// surfaces that coincide change together, whichever comes first: a segment that begins and ends in one event
+// vanishes. The event's t is that of its first end, and a partition's node is in the place of that end, so the list
+// needs no memory but the 2 * segments nodes.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 
@@ -28,7 +28,7 @@ static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __globa
     all_nodes[base + place].next = number;
 }
 
-// A work-item is an end. `rays`: whose each end is.
+// One work-item an end. `rays`: the ray of each end.
 __kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
                          __global const u32* rays, __global PartitionNode* all_nodes) {
     const u32 id = (u32)get_global_id(0);
@@ -61,7 +61,8 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     bits = all_bits + offset.words;
     words = words_of(segments);
     tolerance = tolerance_along(frame, r);
-    // The foremost end that is not taken yet, and the number of the one after it: what is loaded ahead is not waited for.
+    // The first end that is not taken yet, and the number of the next: loaded one step ahead, so that the loop does
+    // not wait.
     e = list[0].next;
     after_e = list[1].next;
     t_e = ends[e].t;

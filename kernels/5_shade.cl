@@ -1,4 +1,4 @@
-// Kernel 5: the first claimed partition -> a pixel.
+// Kernel 5: shades the first claimed partition of each ray and stores its pixel.
 #include "shared/capacity.h"
 #include "shading/pixel.h"
 
@@ -33,7 +33,8 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         const real t_min = t_min_along(frame, r);
         const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;
-        for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE; next = nodes[next].next) {
+        for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE;
+             next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += region >> 31;
             if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > t_min) seen = next;
@@ -46,7 +47,8 @@ __kernel void shade(__global const Frame* frame, __global const SolidRecord* sol
         End end = ends[partition.in_end];
         u32 region = partition.owner & ~OVERLAP;
         Geometry g = make_geometry(solids, reals, planes, plane_refs, words, inner_nodes);
-        pixel = seen_pixel(frame, lights, materials[regions[region].material], g, r, end, partition.in_end & 1u, region);
+        pixel =
+            seen_pixel(frame, lights, materials[regions[region].material], g, r, end, partition.in_end & 1u, region);
     }
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = tally.partitions;

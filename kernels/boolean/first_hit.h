@@ -1,8 +1,10 @@
-// The first claimed partition of a ray, without the others: front to back, in the ray's own memory.
+// Finds the first claimed partition of a ray, and no other: from front to back, in private memory.
 //
-// The nodes that the ray's tile may meet come nearest first (traversal/beam.h). What is still unseen lies behind the next of them,
-// so every event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim
-// ends it all. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
+// The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet lie behind
+// the next node, so every event before its distance is complete: no segment can join it. Complete events are passed,
+// and their partitions evaluated, as kernels 3 and 4 do it; the first claim ends the search. Segments that have ended
+// make room for others. A ray that has more than SWEEP_SEGMENTS at a time overflows, and the host has kernels 1 to 5
+// trace it.
 //
 //   nodes      |--seen--|   |--seen--|      |--unseen--|
 //   ends        i     o  i    i   o         :       o  o
@@ -18,20 +20,20 @@
 #define SWEEP_SEGMENTS FEW                 // segments that a ray holds at a time: its ends are not sorted by solid
 #define SLOT_WORDS (SWEEP_SEGMENTS / 32u)  // of a bit for each of them
 
-// The state of the sweep along a ray: the segments that have begun or will begin. Of each, one end comes next: `in` if it is not
-// open yet, else `out`.
+// The state of the sweep along a ray: the segments that have begun or will begin. Of each, one end comes next: `in`
+// if it is not open yet, else `out`.
 typedef struct {
     End ends[2 * SWEEP_SEGMENTS];  // of segment s: 2 s and 2 s + 1
-    u32 used[SLOT_WORDS];    // bit s: there is a segment s
-    u32 open[SLOT_WORDS];    // bit s: it covers the partition that the sweep is in
-    u32 starts[SLOT_WORDS];  // bit s: its solid starts some term
-    u32 entry[SLOT_WORDS];   // bit s: some term may begin to be true where it begins
-    u32 exit[SLOT_WORDS];    // bit s: or where it ends
-    real next_event;  // where the next of all these ends is; infinity: there is none
-    End seen;   // where that partition begins, if it is claimed
-    u32 region;  // by this one; NONE: it is not
-    u32 from_within;  // it begins where a solid ends
-    u32 marked;  // has any segment so far MISSED_... set?
+    u32 used[SLOT_WORDS];          // bit s: there is a segment s
+    u32 open[SLOT_WORDS];          // bit s: it covers the partition that the sweep is in
+    u32 starts[SLOT_WORDS];        // bit s: its solid starts some term
+    u32 entry[SLOT_WORDS];         // bit s: some term may begin to be true where it begins
+    u32 exit[SLOT_WORDS];          // bit s: or where it ends
+    real next_event;               // where the next of all these ends is; infinity: there is none
+    End seen;                      // where that partition begins, if it is claimed
+    u32 region;                    // by this one; NONE: it is not
+    u32 from_within;               // it begins where a solid ends
+    u32 marked;                    // has any segment so far MISSED_... set?
 } sweep;
 
 typedef struct {
@@ -88,7 +90,8 @@ FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     int fits = 1;
 #if (CSGRT_SOLIDS) & MANY_SEGMENTS
     End found[2 * SWEEP_SEGMENTS];
-    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS End*)0) > SWEEP_SEGMENTS) return 0;
+    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS End*)0) > SWEEP_SEGMENTS)
+        return 0;
 #else
     End found[4];
 #endif
@@ -97,7 +100,7 @@ FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     return fits;
 }
 
-// What claims where one segment alone covers; ALONE_UNKNOWN: there are others, or that has to be looked at.
+// The claim where one segment alone covers; ALONE_UNKNOWN: several do, or the solid's terms have to be looked at.
 FN u32 claim_of_one(const sweep* w, scene_tables s) {
     u32 i, several = 0, slot = NONE;
     for (i = 0; i < SLOT_WORDS; ++i) {
@@ -109,7 +112,8 @@ FN u32 claim_of_one(const sweep* w, scene_tables s) {
     return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->ends[2 * slot].solid].alone;
 }
 
-// NONE, too, if no picture shows what claims: all others are before it, so nothing else does.
+// The region that claims what the open segments cover. NONE, too, if it is one that no picture shows: such regions
+// have the last numbers, so no other claims.
 FN u32 first_claim(const sweep* w, scene_tables s) {
     u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
@@ -136,13 +140,13 @@ FN u32 first_claim(const sweep* w, scene_tables s) {
     return region;
 }
 
-// In the order in which kernel 3 links ends: by distance, then solid.
+// The order in which kernel 3 links ends: by distance, then by solid.
 FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid < b.solid); }
 
-// What happens at an event: the first end, if any, of those where a segment begins to cover, and of those where one ceases to.
+// What happens at an event: the first end where a segment begins to cover, and the first where one ceases to.
 typedef struct {
     End in, out;  // solid NONE: there is none
-    u32 begins;  // may it be that a term begins to be true
+    u32 begins;   // not 0: a term may begin to be true
 } event;
 
 // Passes the next event: the ends at w->next_event, and those within the tolerance behind it.
@@ -156,7 +160,8 @@ FN event pass_event(sweep* w, real tolerance) {
     for (word = 0; word < SLOT_WORDS; ++word) {
         u32 bits = w->used[word];
         while (bits) {
-            const u32 bit = bits & (0u - bits), slot = 32u * word + 31u - clz(bit), is_open = (w->open[word] & bit) != 0;
+            const u32 bit = bits & (0u - bits), slot = 32u * word + 31u - clz(bit),
+                      is_open = (w->open[word] & bit) != 0;
             real next = w->ends[2 * slot + is_open].t;
             bits ^= bit;
             if (next == t || next - t <= tolerance) {
@@ -178,7 +183,7 @@ FN event pass_event(sweep* w, real tolerance) {
     return e;
 }
 
-// May the next event not be joined any more by what comes at `horizon` or later?
+// Is the next event complete, if all segments still to come begin at `horizon` or later?
 FN int is_complete(const sweep* w, real tolerance, real horizon) {
     return w->next_event < REAL_INFINITY && horizon - w->next_event > tolerance;
 }
@@ -201,7 +206,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizo
         }
         going = !found && is_complete(w, tolerance, horizon);
     }
-    // What is claimed when no more events come is claimed for ever.
+    // What is claimed when no more events come is claimed to the end of the ray.
     return found || (w->region != NONE && horizon == REAL_INFINITY);
 }
 
@@ -223,8 +228,9 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
     bvh_cursor cursor = bvh_over(0);
     u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
     start_sweep(w);
-    // All rays of a tile come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
-    // have one way out, here and in what they call, and few conditions: work-items that leave in several ways run apart after.
+    // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Loops
+    // have one way out, here and in the functions that they call: work-items that leave a loop in several ways stay
+    // divergent.
     do {
         TileNode e;
         do {

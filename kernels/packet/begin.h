@@ -1,24 +1,27 @@
-// Opens the second compilation of some kernel headers: for a packet of eight rays side by side. packet/end.h closes it, and what
-// packet/packet.h includes in between is what is compiled twice.
+// Opens the second compilation of some kernel headers: for a packet of eight rays side by side. packet/end.h closes
+// it, and what packet/packet.h includes in between is what is compiled twice.
 //
-// How it works. The headers are written for one ray: its numbers are `real`, `single` and so on, and structs of these. Here those
-// names become vectors of eight (lane k is ray k), the structs that hold them get names of their own, and the guards of the
-// headers are lifted, so that the next #include of each compiles it once more. Functions keep their names: OpenCL C overloads them by
-// the types of their arguments (FN in shared/base.h). Only those whose arguments are the same both times are renamed.
+// How it works. The headers are written for one ray: its numbers are `real`, `single` and so on, and structs of
+// these. Here those names become vectors of eight (lane k is ray k), the structs that hold them get names of their
+// own, and the guards of the headers are lifted, so that the next #include of each compiles it once more. Functions
+// keep their names: OpenCL C overloads them by the types of their arguments (FN in shared/base.h). Only those whose
+// arguments are the same both times are renamed.
 //
-// Why the bits are the same. It is the same source, so each lane goes through the same operations in the same order; IEEE 754 rounds
-// an operation on vectors lane by lane as it rounds one on scalars; and nothing is contracted. A lane may compute numbers that
-// its ray has no use for, and NaNs: no lane sees another's.
+// Why the bits are the same. It is the same source, so each lane goes through the same operations in the same order;
+// IEEE 754 rounds an operation on vectors lane by lane as it rounds one on scalars; and nothing is contracted. A lane
+// may compute numbers that its ray has no use for, and NaNs: no lane sees another's.
 //
 // What a header must keep to, to be compiled twice:
-// - The types of shared/base.h say what a value belongs to. To a ray: real, wide, single, tag, and lane masks. To the scene, the same
-//   for all rays: parameter, u32, int, float.
-// - A comparison of rays' values is a lane_mask: 1 of one ray, but -1 in a lane. It chooses with ?: and is joined with && || ! (which
-//   leave nothing out in vectors), and is not calculated with.
-// - `if`, `return` and loops depend on what is the same for all rays, or on none(mask): work that no ray needs may be left out.
-// - Constants that stand beside rays' values in ?: are written REAL(x), SINGLE(x) or TAG(x). `sizeof(real)` is that of a vector:
-//   BY_PRECISION knows how many digits a ray's number has.
-// - A new type that holds rays' values, a function whose arguments do not, and each header's guard are listed here; the names in end.h, too.
+// - The types of shared/base.h say what a value belongs to. To a ray: real, wide, single, tag, and lane masks. To the
+//   scene, the same for all rays: parameter, u32, int, float.
+// - A comparison of rays' values is a lane_mask: 1 of one ray, but -1 in a lane. It chooses with ?: and is joined
+//   with && || ! (which leave nothing out in vectors), and is not calculated with.
+// - `if`, `return` and loops depend on what is the same for all rays, or on none(mask): work that no ray needs may be
+//   left out.
+// - Constants that stand beside rays' values in ?: are written REAL(x), SINGLE(x) or TAG(x). `sizeof(real)` is that
+//   of a vector: BY_PRECISION knows how many digits a ray's number has.
+// - A new type that holds rays' values, a function whose arguments do not, and each header's guard are listed here;
+//   the names in end.h, too.
 #ifndef CSGRT_PACKET_BEGIN_H
 #define CSGRT_PACKET_BEGIN_H
 

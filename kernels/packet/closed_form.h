@@ -1,5 +1,5 @@
-// What packets have in place of one ray's functions for solids whose general case is no closed form: where it begins, a ray is
-// UNDECIDED, and goes alone.
+// What packets have in place of one ray's functions for solids that need more than closed forms. Where they do, a ray
+// is UNDECIDED, and goes alone.
 //
 // Compiled for packets alone, between packet/begin.h and packet/end.h.
 #ifndef CSGRT_PACKET_CLOSED_FORM_H
@@ -8,7 +8,7 @@
 #include "../geometry/cone.h"
 #include "../geometry/torus.h"
 
-// A packet's count of segments where it takes more than is here to know: the ray is to go alone.
+// A packet's count of segments where this file does not know it.
 #define UNDECIDED 3u
 
 FN segments undecided_where(lane_mask mask, segments h) {
@@ -21,7 +21,8 @@ FN segments quadratic_inside(real a, real b, real c, real discriminant, real shi
     return undecided_where(s.low < s.high && !(a > 0), between_roots(a, b, c, discriminant, shift, s, surface));
 }
 
-// As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be solved.
+// As one ray's (tgc.h), of those that are less steep than the cone; and the others', as far as no quartic is to be
+// solved.
 FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
     span s = between_ends(g, solid, r);

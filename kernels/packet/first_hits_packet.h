@@ -1,4 +1,4 @@
-// The first hits of a packet of rays, drawn (first_hits.cl): two rows of four pixels.
+// What a work-item of first_hits.cl draws where it is a packet of rays: two rows of four pixels.
 #ifndef CSGRT_PACKET_FIRST_HITS_PACKET_H
 #define CSGRT_PACKET_FIRST_HITS_PACKET_H
 
@@ -24,10 +24,10 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     p->slabs = slabs_of(f, from_eye);
 }
 
-// Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the overflow
-// mask: the rays of which nothing is drawn. *hit_mask: those that see anything.
-FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position first,
-            __global float* picture, u32* hit_mask) {
+// Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the
+// overflow mask: the rays of which nothing is drawn. *hit_mask: those that see anything.
+FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
+            pixel_position first, __global float* picture, u32* hit_mask) {
     const u32 within = rays_inside(f, first);
     u32 overflow_mask;
     packet p;

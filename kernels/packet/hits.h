@@ -1,7 +1,8 @@
-// The first claimed partitions of a packet's rays: boolean/first_hit.h's work, but the rays go through their tile's nodes together. Each
-// ray's events are its own.
+// Finds the first claimed partitions of a packet's rays, as boolean/first_hit.h does for one ray. The rays go through
+// their tile's nodes together, and each ray passes its own events.
 //
-// Masks of rays are as in packet/solids.h; the hit mask stands for the rays that hit a box, or whose first hit is known.
+// Masks of rays are as in packet/solids.h; the hit mask stands for the rays that hit a box, or whose first hit is
+// known.
 #ifndef CSGRT_PACKET_HITS_H
 #define CSGRT_PACKET_HITS_H
 
@@ -14,7 +15,8 @@ FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 active_mask, pendin
     while ((leaf = next_leaf(p->slabs, s.nodes, &cursor, active_mask, &hit_mask))) {
         const u32 first = leaf >> BVH_LEAF_SHIFT, last = first + (leaf & BVH_LEAF_MASK);
         u32 solid;
-        for (solid = first; solid < last; ++solid) overflow_mask |= take_or_defer(p, s, solid, hit_mask & ~overflow_mask, pending);
+        for (solid = first; solid < last; ++solid)
+            overflow_mask |= take_or_defer(p, s, solid, hit_mask & ~overflow_mask, pending);
     }
     return overflow_mask;
 }
@@ -28,14 +30,16 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
     pending_solids pending;
     start_pending(&pending);
     *overflow_mask = 0;
-    for (k = 0; k < f->unbounded_count; ++k) *overflow_mask |= take_solid_by_packet(p, s.g, k, active_mask & ~*overflow_mask);
+    for (k = 0; k < f->unbounded_count; ++k)
+        *overflow_mask |= take_solid_by_packet(p, s.g, k, active_mask & ~*overflow_mask);
     do {
         u32 going;
         real horizon;
         e = *next++;
         horizon = e.node == NONE ? REAL_INFINITY : (wide)e.entry + p->offset;
-        // Which rays have events that nothing in this node can join; behind the last one all do, or stay in what they are in.
-        going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->next_events) < e.entry)) & active_mask & ~*overflow_mask & ~hit_mask;
+        // The rays whose next event nothing in this node can join. Behind the last node that is so for all rays.
+        going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->next_events) < e.entry)) & active_mask &
+                ~*overflow_mask & ~hit_mask;
         for (; going; going &= going - 1u) {
             sweep* w = p->sweeps + lowest(going);
             if (advance(w, s, p->tolerance, p->t_min, horizon)) {
@@ -49,10 +53,12 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             prefetch_node(s, next->node);
             *overflow_mask |= take_subtree(p, s, e.node, going, &pending);
         }
-        // What comes later may be taken up sooner, as long as no ray has an event to pass meanwhile.
-        while (!are_enough(&pending) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
+        // The solids of later nodes are taken up with these, as long as no ray has an event to pass before.
+        while (!are_enough(&pending) && e.node != NONE && next->node != NONE &&
+               !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
             prefetch_node(s, next[1].node);
-            if (going & ~*overflow_mask) *overflow_mask |= take_subtree(p, s, next->node, going & ~*overflow_mask, &pending);
+            if (going & ~*overflow_mask)
+                *overflow_mask |= take_subtree(p, s, next->node, going & ~*overflow_mask, &pending);
             ++next;
         }
         *overflow_mask |= take_pending(p, s, &pending);

@@ -1,6 +1,6 @@
-// The closed-form solids once more, for a packet of eight rays side by side, on processors, whose instructions work on vectors. A
-// packet is two rows of four pixels of a tile, which meet fewer boxes and solids than one row of eight. begin.h says how the source of
-// one ray is compiled for a packet, and why the bits are the same.
+// The closed-form solids once more, for a packet of eight rays side by side, on processors, whose instructions work
+// on vectors. A packet is two rows of four pixels of a tile, which meet fewer boxes and solids than one row of eight.
+// begin.h says how the source of one ray is compiled for a packet, and why the bits are the same.
 #ifndef CSGRT_PACKET_PACKET_H
 #define CSGRT_PACKET_PACKET_H
 
@@ -12,7 +12,8 @@
 
 #define PACKET 8u
 
-// Asks for the line of memory there, where a scene is larger than the processor's caches: no wait, and no harm if nothing is there.
+// Asks the processor for a line of memory ahead, in scenes larger than its caches. It does not wait, and any address
+// is harmless.
 #ifdef CSGRT_PREFETCH
 #define prefetch_line(place) __builtin_prefetch((const void*)(size_t)(place))
 #else
@@ -48,13 +49,15 @@ FN int none(long8 x) { return !any(x); }
 #include "../shading/plastic.h"
 #include "end.h"
 
-// Is it a solid that packets know?
+// Do packets know this type of solid?
 FN int takes_packets(SolidRecord solid) {
     return (1u << SOLID_ARB | 1u << SOLID_ELL | 1u << SOLID_HALF | 1u << SOLID_TGC | 1u << SOLID_TOR | 1u << SOLID_EHY |
-            1u << SOLID_QUADRIC) >> solid.type & 1u;
+            1u << SOLID_QUADRIC) >>
+               solid.type &
+           1u;
 }
 
-// What each ray meets of such a solid: a segment, none, or UNDECIDED; one that may only touch it is looked at alone.
+// What each ray meets of such a solid: a segment, none, or UNDECIDED, also for a ray that may only touch it.
 FN packet_segments packet_meet(Geometry g, SolidRecord solid, packet_ray3 r) {
 #if HAS_SOLID(SOLID_ARB)
     if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
@@ -86,7 +89,7 @@ FN packet_segments packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r
     return h;
 }
 
-// Along the outward normals where rays hit the same surface of such a solid at t; 0: it is a plane.
+// Along the outward normals where the rays hit one surface of such a solid at t. Returns 0 if the surface is a plane.
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
     surface &= ~MISSED;
     if (surface != 0 || solid.type == SOLID_ARB || solid.type == SOLID_HALF) return 0;
@@ -115,8 +118,8 @@ FN u32 bits_of(int8 x) {
 FN u32 bits_of(long8 x) { return bits_of(convert_int8(x)); }
 FN int8 of_bits(u32 bits) { return ((int8)((int)bits) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0; }
 
-// An item has a packet for every eight numbers (or places) in a row, but its rays have others: those of two rows of four pixels. From
-// the row's first to the first ray's; and how far from there ray k's is.
+// Work-items have eight numbers (or places) in a row each, but the rays of a packet are two rows of four pixels of
+// the tile. The first ray's number, from the first of the eight; and how far ray k's is from there.
 #define PACKET_ROW 4u
 FN u32 first_of_packet(u32 id) {
     const u32 within = id % (TILE * TILE) / PACKET;
@@ -126,17 +129,20 @@ FN u32 ray_of_packet(u32 k) { return k / PACKET_ROW * TILE + k % PACKET_ROW; }
 
 // The rays through the pixels of the packet whose first, which is in the picture, is given.
 FN packet_world_ray rays_through(__global const Frame* f, pixel_position first) {
-    return view_ray(f, (double)first.x + (double8)(0, 1, 2, 3, 0, 1, 2, 3), (double)first.y + (double8)(0, 0, 0, 0, 1, 1, 1, 1));
+    return view_ray(f, (double)first.x + (double8)(0, 1, 2, 3, 0, 1, 2, 3),
+                    (double)first.y + (double8)(0, 0, 0, 0, 1, 1, 1, 1));
 }
 
-// Those of them whose pixels are in it, too.
+// The mask of the rays whose pixels are in the picture, too.
 FN u32 rays_inside(__global const Frame* f, pixel_position first) {
-    const u32 columns = f->screen.right - first.x, row = columns < PACKET_ROW ? (1u << columns) - 1u : (1u << PACKET_ROW) - 1u;
+    const u32 columns = f->screen.right - first.x,
+              row = columns < PACKET_ROW ? (1u << columns) - 1u : (1u << PACKET_ROW) - 1u;
     return first.y + 1u < f->screen.bottom ? row | row << PACKET_ROW : row;
 }
 
 FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {
-    return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius, f->t_min);
+    return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius,
+                         f->t_min);
 }
 
 // As one ray's (traversal/bvh_cursor.h), for the active rays; *hit_mask: those of them that hit the leaf.

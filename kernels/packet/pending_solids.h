@@ -1,7 +1,8 @@
-// Solids whose boxes a packet's rays meet, on their way to being met themselves.
+// Solids whose boxes a packet's rays hit, and which the rays have not taken up yet.
 //
-// Of a scene that the processor's caches do not hold, each solid's numbers come from far: its record, then what that points to, then
-// what stands there. So several solids wait until what they need is asked for (CSGRT_PREFETCH); else none does.
+// In a scene that is larger than the processor's caches, a solid's numbers come from memory in three steps: its
+// record, what the record points to, and what that points to. So several solids are kept pending while their memory
+// is prefetched (CSGRT_PREFETCH). In other scenes no solid is kept.
 #ifndef CSGRT_PACKET_PENDING_SOLIDS_H
 #define CSGRT_PACKET_PENDING_SOLIDS_H
 
@@ -10,8 +11,8 @@
 
 #ifdef CSGRT_PREFETCH
 
-#define ENOUGH_PENDING 8u  // solids that are enough to begin with
-#define MOST_PENDING 24u   // that there is room for
+#define ENOUGH_PENDING 8u  // solids whose prefetches hide each other's time
+#define MOST_PENDING 24u   // and one leaf's solids more
 
 typedef struct {
     u32 solids[MOST_PENDING], rays[MOST_PENDING];
@@ -25,7 +26,7 @@ FN void prefetch_node(scene_tables s, u32 node) {
     prefetch_line(s.nodes + node + 4);
 }
 
-// What its record, which was asked for, points to.
+// What the solid's record points to. The record was prefetched before.
 FN void prefetch_solid(scene_tables s, u32 index) {
     GLOBAL const SolidRecord* const solid = s.g.solids + index;
     prefetch_line(s.starts + solid->first_start);
@@ -35,7 +36,7 @@ FN void prefetch_solid(scene_tables s, u32 index) {
     prefetch_line(s.g.plane_refs + solid->first_plane);
 }
 
-// What that points to.
+// What that points to, in turn.
 FN void prefetch_parts(scene_tables s, u32 index) {
     GLOBAL const SolidRecord* const solid = s.g.solids + index;
     if (solid->start_count) prefetch_line(s.trees + s.starts[solid->first_start].first_word);
@@ -47,15 +48,16 @@ FN void prefetch_parts(scene_tables s, u32 index) {
     }
 }
 
-// Of the rays of the hit mask: what their regions, which were asked for, are made of.
+// The materials of the regions that the rays of the hit mask see. The regions were prefetched before.
 FN void prefetch_materials(const packet* p, appearance_tables a, u32 hit_mask) {
-    for (; hit_mask; hit_mask &= hit_mask - 1u) prefetch_line(a.materials + a.regions[p->sweeps[lowest(hit_mask)].region].material);
+    for (; hit_mask; hit_mask &= hit_mask - 1u)
+        prefetch_line(a.materials + a.regions[p->sweeps[lowest(hit_mask)].region].material);
 }
 
 FN void start_pending(pending_solids* pending) { pending->count = 0; }
 FN int are_enough(const pending_solids* pending) { return pending->count >= ENOUGH_PENDING; }
 
-// The rays take up the solids that wait. Returns the overflow mask.
+// The rays take up the pending solids. Returns the overflow mask.
 FN u32 take_pending(packet* p, scene_tables s, pending_solids* pending) {
     u32 i, overflow_mask = 0;
     for (i = 0; i < pending->count && i < 2; ++i) prefetch_solid(s, pending->solids[i]);
@@ -68,7 +70,8 @@ FN u32 take_pending(packet* p, scene_tables s, pending_solids* pending) {
     return overflow_mask;
 }
 
-// The active rays take a solid up, or have it wait. Returns the overflow mask of what waited.
+// Makes a solid pending for the active rays, which take up the others first if there is no room. Returns the overflow
+// mask.
 FN u32 take_or_defer(packet* p, scene_tables s, u32 index, u32 active_mask, pending_solids* pending) {
     const u32 overflow_mask = pending->count == MOST_PENDING ? take_pending(p, s, pending) : 0;
     prefetch_line(s.g.solids + index);

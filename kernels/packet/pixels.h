@@ -1,4 +1,4 @@
-// From what a packet's rays see first to the channels of their pixels: shading/pixel.h's work, for eight at once.
+// From what a packet's rays see first to the channels of their pixels, as shading/pixel.h does for one ray.
 #ifndef CSGRT_PACKET_PIXELS_H
 #define CSGRT_PACKET_PIXELS_H
 
@@ -76,7 +76,8 @@ typedef struct {
 } packet_view;
 
 FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit_mask) {
-    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], glow[PACKET], t[PACKET];
+    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], glow[PACKET],
+        t[PACKET];
     ulong shine[PACKET];
     float region[PACKET], solid[PACKET];
     u32 within = 0, k;
@@ -120,15 +121,16 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
 }
 
 // Stores the pixels of the active rays; those of the hit mask see something. Left a call: measured (bench/NOTES.md).
-NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture,
-                            u32 active_mask, u32 hit_mask) {
+NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a,
+                            __global float* picture, u32 active_mask, u32 hit_mask) {
     const size_t size = channel_size(f);
     const u32 line = f->lines ? width_of(f->screen) : TILE;
     const int8 is_hit = of_bits(hit_mask);
     packet_view v;
     u32 k;
     if (hit_mask) v = view_of(p, f, g, a, hit_mask);
-#define PUT(value, background) put_channel(picture, line, active_mask, is_hit ? value : (float8)(background)), picture += size
+#define PUT(value, background) \
+    put_channel(picture, line, active_mask, is_hit ? value : (float8)(background)), picture += size
     if (f->channels & CHANNEL_COLOR) {
         PUT(convert_float8(v.sight.color.r), f->background[0]);
         PUT(convert_float8(v.sight.color.g), f->background[1]);

@@ -1,8 +1,8 @@
-// What a packet's rays meet of a solid, taken up by each of them: boolean/first_hit.h's work, but the closed-form solids are put to all of
-// them at once.
+// A packet's rays take up what they meet of a solid, as boolean/first_hit.h does for one ray. Closed-form solids are
+// intersected with all rays at once.
 //
-// A mask is a word whose bit k stands for ray k: the active mask for the rays that take part, the overflow mask for those whose
-// sweep has no room for a segment more.
+// A mask is a word whose bit k stands for ray k: the active mask for the rays that take part, the overflow mask for
+// those whose sweep has no room for a segment more.
 #ifndef CSGRT_PACKET_SOLIDS_H
 #define CSGRT_PACKET_SOLIDS_H
 
@@ -15,7 +15,7 @@ typedef struct {
     packet_lanes lanes;
     packet_slab_ray slabs;
     real t_min, tolerance;
-    wide offset;  // of distances in the tile's list
+    wide offset;                // of distances in the tile's list
     float next_events[PACKET];  // of each sweep, as event_distance() has it
     sweep sweeps[PACKET];
 } packet;

@@ -1,5 +1,4 @@
-// Points, and sums and products with what their rounding lost. As everything that a packet needs (packet/packet.h), it is written for
-// one ray or, with `real` redefined, for several side by side.
+// Points, and sums and products with what their rounding lost. Compiled for one ray and for packets (packet/begin.h).
 #ifndef CSGRT_SHARED_VECTORS_H
 #define CSGRT_SHARED_VECTORS_H
 

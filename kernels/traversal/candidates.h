@@ -1,15 +1,15 @@
 // The walk through the bounding volume hierarchy that finds a ray's candidates: the solids that it may meet.
 //
-// Solids are numbered in the order of the leaves, so a ray's candidates, and later its segments, come out sorted by solid. Every
-// segment along the ray is wanted, so the order of distance does not matter here.
+// Solids are numbered in the order of the leaves, so a ray's candidates, and later its segments, come out sorted by
+// solid. Every segment along the ray is wanted, so the order of distance does not matter here.
 #ifndef CSGRT_TRAVERSAL_CANDIDATES_H
 #define CSGRT_TRAVERSAL_CANDIDATES_H
 
 #include "bvh_cursor.h"
 #include "camera.h"
 
-// Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that the
-// ray's tile meets, as they stand in the hierarchy; 0: there is no such list.
+// Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that
+// the ray's tile meets, as they stand in the hierarchy; 0: there is no such list.
 FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, u32 ray,
             GLOBAL Candidate* candidates) {
     const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
