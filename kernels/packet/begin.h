@@ -1,31 +1,31 @@
 // Opens the second compilation of some kernel headers: for a packet of eight rays side by side. packet/end.h closes
-// it, and what packet/packet.h includes in between is what is compiled twice.
+// it. packet/packet.h includes between the two what is compiled twice.
 //
 // How it works. The headers are written for one ray: its numbers are `real`, `single` and so on, and structs of
-// these. Here those names become vectors of eight (lane k is ray k), the structs that hold them get names of their
-// own, and the guards of the headers are lifted, so that the next #include of each compiles it once more. Functions
-// keep their names: OpenCL C overloads them by the types of their arguments (FN in shared/base.h). Only those whose
-// arguments are the same both times are renamed.
+// these. This file redefines the names of those types as vectors of eight, of which lane k is ray k. It gives other
+// names to the structs that hold them, and lifts the guards of the headers, so that the next #include compiles each
+// once more. Functions keep their names: OpenCL C overloads them by the types of their arguments (FN in
+// shared/base.h). Functions whose arguments are the same both times get other names here.
 //
-// Why the bits are the same. It is the same source, so each lane goes through the same operations in the same order;
-// IEEE 754 rounds an operation on vectors lane by lane as it rounds one on scalars; and nothing is contracted. A lane
-// may compute numbers that its ray has no use for, and NaNs: no lane sees another's.
+// Why the bits are the same. The source is the same, so each lane goes through the same operations in the same order
+// as one ray does. IEEE 754 rounds an operation in each lane of a vector as it rounds it on scalars. The compiler
+// contracts nothing. A lane may compute numbers that its ray has no use for, and NaNs; no lane reads another's.
 //
 // What a header must keep to, to be compiled twice:
-// - The types of shared/base.h say what a value belongs to. To a ray: real, wide, single, tag, and lane masks. To the
-//   scene, the same for all rays: parameter, u32, int, float.
-// - A comparison of rays' values is a lane_mask: 1 of one ray, but -1 in a lane. It chooses with ?: and is joined
-//   with && || ! (which leave nothing out in vectors), and is not calculated with.
-// - `if`, `return` and loops depend on what is the same for all rays, or on none(mask): work that no ray needs may be
-//   left out.
-// - Constants that stand beside rays' values in ?: are written REAL(x), SINGLE(x) or TAG(x). `sizeof(real)` is that
-//   of a vector: BY_PRECISION knows how many digits a ray's number has.
-// - A new type that holds rays' values, a function whose arguments do not, and each header's guard are listed here;
-//   the names in end.h, too.
+// - The types of shared/base.h say what a value belongs to. real, wide, single, tag and lane masks belong to a ray;
+//   parameter, u32, int and float are the same for all rays.
+// - Rays' values compared give a lane_mask. It is 1 or 0 for one ray, and -1 or 0 in a lane, so nothing is calculated
+//   with it. It selects by ?:, and && || ! combine it. On vectors && and || evaluate both sides.
+// - `if`, `return` and loops depend on values that are the same for all rays, or on none(mask), to leave out work that
+//   no ray needs.
+// - A constant beside rays' values in ?: is written REAL(x), SINGLE(x) or TAG(x). sizeof(real) is the vector's size;
+//   BY_PRECISION asks for the size of one number.
+// - Each new type that holds rays' values, each function whose arguments do not tell, and each header's guard is
+//   listed here, and the names also in end.h.
 #ifndef CSGRT_PACKET_BEGIN_H
 #define CSGRT_PACKET_BEGIN_H
 
-// What shared/base.h calls these of one ray.
+// The types of shared/base.h.
 #define real double8
 #define wide double8
 #define single float8
@@ -33,7 +33,7 @@
 #define single_lane_mask int8
 #define tag ulong8
 
-// Types of them.
+// Structs of these.
 #define vec3 packet_vec3
 #define wide3 packet_wide3
 #define pair packet_pair
@@ -50,7 +50,7 @@
 #define finish packet_finish
 #define rgb packet_rgb
 
-// Functions whose arguments do not tell the two kinds apart.
+// Functions whose arguments are the same both times.
 #define make_vec3 packet_make_vec3
 #define make_wide3 packet_make_wide3
 #define no_segments packet_no_segments

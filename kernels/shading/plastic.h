@@ -1,7 +1,7 @@
 // BRL-CAD's plastic at a first hit: ambient light from the eye, diffuse and specular light from each light, no shadows.
 //
-//   colour * (ambient cos(n, eye)) + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r,
-//   eye)^shine
+//   colour * (ambient cos(n, eye))
+//   + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
 // A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What
 // shines itself adds colour * glow (SHAPED_LIGHTS).
