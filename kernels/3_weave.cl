@@ -44,22 +44,22 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     RayCount offset;
     ray3 r;
     real tolerance, t_e;
-    u32 segments, words, at = 0, open, open_bits, last, e, after_e;
+    u32 segment_count, words, at = 0, open, open_bits, last, e, after_e;
     __global End* ends;
     __global PartitionNode* list;
     __global u32* bits;
     if (id >= frame->ray_count || !segments_fit(frame, offsets)) return;
     tally.partitions = tally.overlaps = 0;
     offset = offsets[id];
-    segments = offsets[id + 1].segments - offset.segments;
-    if (segments == 0 || !ray_of(frame, rays, number_of(frame, rays, id), &r)) {
+    segment_count = offsets[id + 1].segments - offset.segments;
+    if (segment_count == 0 || !ray_of(frame, rays, number_of(frame, rays, id), &r)) {
         tallies[id] = tally;
         return;
     }
     ends = all_ends + 2 * (size_t)offset.segments;
     list = all_nodes + 2 * (size_t)offset.segments;
     bits = all_bits + offset.words;
-    words = words_of(segments);
+    words = words_of(segment_count);
     tolerance = tolerance_along(frame, r);
     // The first end that is not taken yet, and the number of the next: loaded one step ahead, so that the loop does
     // not wait.
@@ -70,7 +70,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     open = NONE;       // the partition that the sweep is in
     open_bits = NONE;  // where its bits are; NONE: no segment is open
     last = NONE;       // the last partition of the list
-    while (at < 2 * segments) {
+    while (at < 2 * segment_count) {
         const u32 event = at;
         const u32 first = e;
         const real t = t_e;
@@ -80,10 +80,10 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
             now[e >> 6] ^= 1u << (e >> 1 & 31u);
-            if (++at == 2 * segments) break;
+            if (++at == 2 * segment_count) break;
             e = after_e;
             t_e = ends[e].t;
-            if (at + 1 < 2 * segments) after_e = list[at + 1].next;
+            if (at + 1 < 2 * segment_count) after_e = list[at + 1].next;
         } while (t_e == t || t_e - t <= tolerance);
         // The surface there is the first end whose segment does not vanish: one that begins, for the partition behind;
         // one that ends, for the partition before.
