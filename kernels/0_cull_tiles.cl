@@ -1,16 +1,18 @@
-// Kernel 0: which tiles of a picture can see anything at all; the rays of the others are never made. And which nodes of
-// the hierarchy each of them meets: found once for 64 rays, which are put to little else.
+// Kernel 0: finds the tiles of a picture that can see anything; the other tiles get no rays. For each tile it also
+// lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests these alone.
 #include "traversal/beam.h"
+#include "traversal/bvh_cursor.h"
 
-// Nothing is counted yet, and no tile shows anything.
+// Clears the report: nothing is counted yet, and no tile shows anything.
 static void clear_report(__global BatchReport* report, u32 tiles, u32 id) {
     u32 k;
     for (k = id; k < sizeof(BatchReport) / sizeof(u32); k += (u32)get_global_size(0)) ((__global u32*)report)[k] = 0;
     if (id < tiles) ((__global unsigned char*)(report + 1))[id] = 0;
 }
 
-// From the root down, level by level, as long as there is room: a node gives way to those of its two children that the
-// beam meets. The entries are the hierarchy's parameter yet.
+// Lists nodes that hold all that the beam meets, from the root down, level by level: as long as the list has room,
+// each node is replaced by those of its two children that the beam meets. `entry` is still in the hierarchy's own
+// parameter.
 static u32 list_nodes(beam b, __global const BvhNode* nodes, TileNode* list) {
     u32 count, k, split = 1;
     list[0] = entry_of(b, nodes, 0);
@@ -44,7 +46,7 @@ static u32 list_nodes(beam b, __global const BvhNode* nodes, TileNode* list) {
     return count;
 }
 
-// By distance, or as they stand in the hierarchy.
+// Stores the list, sorted by distance or in the order of the hierarchy.
 static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __global TileNode* stored) {
     u32 i, k;
     for (i = 0; i < count; ++i) {
@@ -62,26 +64,25 @@ static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __g
     stored[count].entry = BOX_MISSED;
 }
 
-// Leaves and the nodes above them, as far as a byte goes: what a tile's rays cost is more or less in proportion.
+// Counts the listed nodes and all below them, up to what a byte holds. The time of a tile's rays is about proportional.
 static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count) {
     u32 i, sum = 0;
     for (i = 0; i < count; ++i) sum += nodes[list[i].node].skip - list[i].node;
     return sum < 254 ? sum : 254;
 }
 
-// The first leaf is enough.
+// Returns 1 if the beam meets any leaf.
 static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
-    u32 i = 0;
-    while (i < count) {
-        const BvhNode node = nodes[i];
-        const int hit = beam_entry(b, node) < BOX_MISSED;
-        if (hit && node.leaf) return 1;
-        i = hit ? i + 1 : node.skip;
+    bvh_cursor c = bvh_over(count);
+    while (bvh_goes_on(c)) {
+        const BvhNode node = nodes[c.node];
+        if (bvh_step(&c, node, beam_entry(b, node) < BOX_MISSED)) return 1;
     }
     return 0;
 }
 
-// A work-item is a tile: what it costs, 0 if none of its rays meets a solid, and its LISTED_NODES. `lists` 0: they are not wanted.
+// One work-item a tile. It stores the tile's cost, 0 if none of its rays meets a solid, and, unless `lists` is 0, the
+// tile's list of at most LISTED_NODES nodes.
 __kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
                           __global TileNode* lists, __global BatchReport* report) {
     const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);

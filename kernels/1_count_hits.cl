@@ -1,11 +1,11 @@
-// Kernel 1: how many segments does each ray have, so that exactly that much memory is allocated, or it is
-// known whether what there is does (shared/capacity.h). First in float, from box
-// to box: which solids may the ray meet. Then a work-item for each such candidate, so that no ray waits for its many solids
-// one after the other.
+// Kernel 1: counts each ray's segments. Then the host allocates exactly the memory that they need, or the next
+// kernels see whether the buffers at hand suffice (shared/capacity.h). First each ray walks the hierarchy, in float,
+// and lists its candidates: the solids that it may meet. Then a work-item intersects each candidate, so that no ray
+// waits for its many solids one after the other.
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
 //
-// On processors the rays of a picture's tiles find their candidates eight at once (1_packet_candidates.cl).
+// On processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
 #include "traversal/beam.h"
 #include "traversal/camera.h"
 #include "geometry/collect.h"
@@ -13,8 +13,8 @@
 #include "shared/scene_args.h"
 #include "traversal/candidates.h"
 
-// Once to count them (`candidates` is 0), once to list them from the ray's place on. `lists`: kernel 0's, 0 if rays do not come
-// in tiles.
+// Runs twice: it counts each ray's candidates if `candidates` is 0, and then lists them from the ray's place on.
+// `lists`: kernel 0's, or 0 if the rays do not come in tiles.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
                               __global const RayRecord* rays, __global const u32* listed, __global RayCount* places,
                               __global Candidate* candidates) {
@@ -33,15 +33,14 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     if (!candidates) places[id] = count;
 }
 
-static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global const u32* listed,
-                           __global Candidate* candidate,
-                           __global End* segment) {
+static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
+                           __global const u32* listed, __global Candidate* candidate, __global End* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
     ray3 r;
     real t_min;
     u32 count;
-#ifdef CSGRT_PACKETS  // some are counted, then
+#ifdef CSGRT_PACKETS  // then 1_packet_candidates.cl has counted some
     if (c.count != UNCOUNTED) return;
 #endif
     if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
@@ -49,23 +48,24 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
     solid = g.solids[c.solid];
     r = ray_at(solid, r);
     if (!collect_many(g, solid, c.solid, r, t_min, 0, &count)) {
-        const hits h = collect_few(g, solid, r, t_min);
+        const segments h = collect_few(g, solid, r, t_min);
         count = h.count;
         if (count == 1) put_segment(segment, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
     }
     candidate->count = count;
 }
 
-// A candidate's only segment is kept in `found`, so that kernel 2 need not find it again; more are too rare for the room.
-__kernel void count_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays, __global const u32* listed, __global const RayCount* places,
-                         __global Candidate* candidates, __global End* found) {
+// If a candidate has one segment, it is kept in `found`, so that kernel 2 need not find it again. Candidates of more
+// segments are too rare to be worth the memory.
+__kernel void count_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
+                         __global const u32* listed, __global const RayCount* places, __global Candidate* candidates,
+                         __global End* found) {
     const u32 id = (u32)get_global_id(0);
     if (id < candidates_of(frame, places))
-        count_segments(frame, GEOMETRY, rays, listed, candidates + id,
-                       found + 2 * (size_t)id);
+        count_segments(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
 }
 
-// Each ray's counts, and each of its candidates' place among the ray's segments.
+// Adds up each ray's counts, and gives each candidate its place among the ray's segments.
 __kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
                        __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;

@@ -1,5 +1,6 @@
-// Kernel 1's first step on processors, for the rays of a picture's tiles: which solids may they meet, eight rays at once. And,
-// of solids that packets know, what they meet of them: count_hits (1_count_hits.cl) is left those that one ray alone comes to.
+// Kernel 1's first step on processors, for a picture's tiles: packets of eight rays list their candidates. Solids
+// that packets know are intersected here, too; count_hits (1_count_hits.cl) is left with what one ray alone can
+// answer.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
 #include "shared/capacity.h"
@@ -12,8 +13,8 @@ typedef struct {
     packet_slab_ray slabs;
     __global const BvhNode* nodes;
     __global const TileNode* next;
-    u32 which;   // rays that pass near the scene
-    u32 i, end;  // of the subtree that it is in
+    bvh_cursor cursor;  // in the subtree of the list's last node
+    u32 active_mask;    // rays that pass near the scene
 } packet_walk;
 
 static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const TileNode* list,
@@ -22,20 +23,17 @@ static packet_walk start_walk(__global const Frame* f, __global const BvhNode* n
     w.slabs = slabs_of(f, r);
     w.nodes = nodes;
     w.next = list;
-    w.which = bits_of(w.slabs.hits_sphere) & within;
-    w.i = w.end = 0;
+    w.active_mask = bits_of(w.slabs.hits_sphere) & within;
+    w.cursor = bvh_over(0);
     return w;
 }
 
-// The next leaf that any ray meets, as BvhNode has it, and the rays that do; 0: there is none.
-static u32 next_packet_leaf(packet_walk* w, u32* hit) {
+// The next leaf that any ray hits, as BvhNode has it, and the mask of those that do; 0: there is none.
+static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
     u32 leaf = 0;
-    while (!leaf && w->which && (w->i < w->end || w->next->node != NONE)) {
-        if (w->i == w->end) {
-            w->i = (w->next++)->node;
-            w->end = w->nodes[w->i].skip;
-        }
-        leaf = next_leaf(w->slabs, w->nodes, &w->i, w->end, w->which, hit);
+    while (!leaf && w->active_mask && (bvh_goes_on(w->cursor) || w->next->node != NONE)) {
+        if (!bvh_goes_on(w->cursor)) w->cursor = bvh_below(w->nodes, (w->next++)->node);
+        leaf = next_leaf(w->slabs, w->nodes, &w->cursor, w->active_mask, hit_mask);
     }
     return leaf;
 }
@@ -52,10 +50,10 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     if (first.inside) {
         const u32 within = rays_inside(frame, first);
         packet_walk w = start_walk(frame, nodes, list_of(frame, lists, number), rays_through(frame, first), within);
-        u32 hit, leaf;
+        u32 hit_mask, leaf;
         for (k = 0; k < PACKET; ++k) counts[k] = within >> k & 1u ? frame->unbounded_count : 0;
-        while ((leaf = next_packet_leaf(&w, &hit)))
-            for (k = 0; k < PACKET; ++k) counts[k] += hit >> k & 1u ? leaf & BVH_LEAF_MASK : 0;
+        while ((leaf = next_packet_leaf(&w, &hit_mask)))
+            for (k = 0; k < PACKET; ++k) counts[k] += hit_mask >> k & 1u ? leaf & BVH_LEAF_MASK : 0;
     }
     for (k = 0; k < PACKET; ++k) {
         const u32 place = first_of_packet(id) + ray_of_packet(k);
@@ -64,7 +62,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     }
 }
 
-// Where a packet's candidates go.
+// Where a packet's candidates are stored.
 typedef struct {
     packet_ray3 rays;
     real t_min;
@@ -74,23 +72,23 @@ typedef struct {
     __global End* found;
 } packet_list;
 
-// A solid becomes a candidate of the rays of `which`.
-static void list_solid(packet_list* list, Geometry g, u32 index, u32 which) {
+// A solid becomes a candidate of the active rays.
+static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
     real in[PACKET], out[PACKET];
     ulong in_surface[PACKET], out_surface[PACKET];
-    u32 met = 0, alone = which;
-    if ((which & (which - 1u)) && takes_packets(solid)) {
-        const packet_hits h = packet_intersect(g, solid, list->rays);
-        met = bits_of(h.count == 1 && h.out0 >= list->t_min) & which;
+    u32 met = 0, alone = active_mask;
+    if ((active_mask & (active_mask - 1u)) && takes_packets(solid)) {
+        const packet_segments h = packet_intersect(g, solid, list->rays);
+        met = bits_of(h.count == 1 && h.out0 >= list->t_min) & active_mask;
         alone &= bits_of(h.count == UNDECIDED);
         vstore8(h.in0, 0, in);
         vstore8(h.out0, 0, out);
         vstore8(h.in0_surface, 0, in_surface);
         vstore8(h.out0_surface, 0, out_surface);
     }
-    for (; which; which &= which - 1u) {
-        const u32 k = lowest(which), place = list->next[k]++;
+    for (; active_mask; active_mask &= active_mask - 1u) {
+        const u32 k = lowest(active_mask), place = list->next[k]++;
         Candidate c;
         c.ray = list->ray + ray_of_packet(k);
         c.solid = index;
@@ -112,7 +110,7 @@ __kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS,
     packet_list list;
     packet_walk w;
     pixel_position first;
-    u32 number, within, hit, leaf, k, any = 0;
+    u32 number, within, hit_mask, leaf, k, any = 0;
     if (id >= frame->ray_count || !candidates_of(frame, places)) return;
     list.ray = first_of_packet(id);
     for (k = 0; k < PACKET; ++k) {
@@ -132,8 +130,8 @@ __kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS,
     list.found = found;
     for (k = 0; k < frame->unbounded_count; ++k) list_solid(&list, g, k, within);
     w = start_walk(frame, nodes, list_of(frame, lists, number), from_eye, within);
-    while ((leaf = next_packet_leaf(&w, &hit))) {
+    while ((leaf = next_packet_leaf(&w, &hit_mask))) {
         const u32 begin = leaf >> BVH_LEAF_SHIFT, end = begin + (leaf & BVH_LEAF_MASK);
-        for (k = begin; k < end; ++k) list_solid(&list, g, k, hit);
+        for (k = begin; k < end; ++k) list_solid(&list, g, k, hit_mask);
     }
 }

@@ -1,16 +1,17 @@
-// Kernel 2: a work-item for each candidate again; each segment's two ends go to the ray's own place. A candidate's only
-// segment was kept by kernel 1, several are found again.
+// Kernel 2: stores the two ends of each segment in the ray's part of `ends`. A work-item is a candidate, as in kernel
+// 1: it copies a candidate's only segment, which kernel 1 kept, and intersects the solid again if there are several.
 //
 //   ends of a ray:   in out | in out | in out ...      by ascending solid, then by distance
 //
-// Whose an end is stands in the end's word of `bits` until kernel 3 has read it: the nodes may lie where `found` does.
+// The number of an end's ray stands in the end's word of `bits` until kernel 3 has read it. It cannot stand in the
+// end's node: the nodes may lie in the same memory as `found`.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 #include "geometry/collect.h"
 
-static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global const u32* listed, Candidate c, __global const End* found,
-                  __global const RayCount* offsets, __global End* ends, __global u32* bits) {
+static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global const u32* listed,
+                  Candidate c, __global const End* found, __global const RayCount* offsets, __global End* ends, __global u32* bits) {
     const size_t base = 2 * ((size_t)offsets[c.ray].segments + c.before);
     u32 i;
     if (c.count == 0) return;

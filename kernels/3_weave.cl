@@ -7,11 +7,11 @@
 //   partitions    |P1|P2 |  P3 |4|  P5  |        a doubly linked list by index, a bit array each:
 //   bits A B C    100 101 111 110 010            which segments cover the partition
 //
-// First each end counts how many come before it (by t, then number): its place. Then one pass from the front takes all ends
-// within Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that surfaces that
-// coincide change together, whichever comes first: a segment that begins and ends in one event vanishes. The event's t is
-// that of its first end, and a partition's node is in the place of that end, so the list needs no memory but the
-// 2 * segments nodes.
+// First each end counts how many come before it (by t, then number): its place. Then one sweep, front to back, takes
+// all ends within Frame.tolerance (a length, whatever the direction's) of the first of them as one event, so that
+// surfaces that coincide change together, whichever comes first: a segment that begins and ends in one event
+// vanishes. The event's t is that of its first end, and a partition's node is in the place of that end, so the list
+// needs no memory but the 2 * segments nodes.
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 
@@ -28,7 +28,7 @@ static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __globa
     all_nodes[base + place].next = number;
 }
 
-// A work-item is an end. `rays`: whose each end is.
+// One work-item an end. `rays`: the ray of each end.
 __kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
                          __global const u32* rays, __global PartitionNode* all_nodes) {
     const u32 id = (u32)get_global_id(0);
@@ -45,32 +45,33 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     RayCount offset;
     ray3 r;
     real tolerance, t_e;
-    u32 segments, words, at = 0, open, open_bits, last, e, after_e;
+    u32 segment_count, words, at = 0, open, open_bits, last, e, after_e;
     __global End* ends;
     __global PartitionNode* list;
     __global u32* bits;
     if (id >= frame->ray_count || !segments_fit(frame, offsets)) return;
     tally.partitions = tally.overlaps = 0;
     offset = offsets[id];
-    segments = offsets[id + 1].segments - offset.segments;
-    if (segments == 0 || !ray_of(frame, rays, number_of(frame, listed, id), &r)) {
+    segment_count = offsets[id + 1].segments - offset.segments;
+    if (segment_count == 0 || !ray_of(frame, rays, number_of(frame, listed, id), &r)) {
         tallies[id] = tally;
         return;
     }
     ends = all_ends + 2 * (size_t)offset.segments;
     list = all_nodes + 2 * (size_t)offset.segments;
     bits = all_bits + offset.words;
-    words = words_of(segments);
+    words = words_of(segment_count);
     tolerance = tolerance_along(frame, r);
-    // The foremost end that is not taken yet, and the number of the one after it: what is loaded ahead is not waited for.
+    // The first end that is not taken yet, and the number of the next: loaded one step ahead, so that the loop does
+    // not wait.
     e = list[0].next;
     after_e = list[1].next;
     t_e = ends[e].t;
 
-    open = NONE;       // the partition that the front stands in
+    open = NONE;       // the partition that the sweep is in
     open_bits = NONE;  // where its bits are; NONE: no segment is open
     last = NONE;       // the last partition of the list
-    while (at < 2 * segments) {
+    while (at < 2 * segment_count) {
         const u32 event = at;
         const u32 first = e;
         const real t = t_e;
@@ -80,10 +81,10 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
         for (w = 0; w < words; ++w) now[w] = open_bits == NONE ? 0 : bits[open_bits * words + w];
         do {
             now[e >> 6] ^= 1u << (e >> 1 & 31u);
-            if (++at == 2 * segments) break;
+            if (++at == 2 * segment_count) break;
             e = after_e;
             t_e = ends[e].t;
-            if (at + 1 < 2 * segments) after_e = list[at + 1].next;
+            if (at + 1 < 2 * segment_count) after_e = list[at + 1].next;
         } while (t_e == t || t_e - t <= tolerance);
         // The surface there is the first end whose segment does not vanish: one that begins, for the partition behind;
         // one that ends, for the partition before.

@@ -1,14 +1,16 @@
-// Kernel 4: which region claims each partition. A work-item is a node, so that no partition waits for those before it.
+// Kernel 4: finds the region that claims each partition. A work-item is a node, so that no partition waits for those
+// before it.
 //
-// Overlap: the smallest index keeps the partition: solids before FASTGEN's plates, these before its volumes, air last, as in BRL-CAD,
-// and of one rank the first in the model. A rule that looked at the partition before would depend on the direction of the ray.
+// Where regions overlap, the one of the smallest index has the partition. As in BRL-CAD, solids come before FASTGEN's
+// plates, these before its volumes, and air comes last; regions of one rank come in the model's order. A rule that
+// looked at the partition before would depend on the ray's direction.
 #include "boolean/claim.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 
-// `c` holds the scene.
-static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets, __global const End* all_ends,
-                    __global const u32* all_bits) {
+// `c` comes with the scene's tables; the rest of it is set here.
+static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets,
+                    __global const End* all_ends, __global const u32* all_bits) {
     const RayCount offset = offsets[ray];
     covered_solids covered;
     u32 owner = ALONE_UNKNOWN;

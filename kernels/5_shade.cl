@@ -1,4 +1,4 @@
-// Kernel 5: the first claimed partition -> a pixel.
+// Kernel 5: shades the first claimed partition of each ray and stores its pixel.
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 #include "shading/pixel.h"
@@ -29,7 +29,8 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
         const real t_min = t_min_along(frame, r);
         const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;
-        for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE; next = nodes[next].next) {
+        for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE;
+             next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += region >> 31;
             if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > t_min) seen = next;

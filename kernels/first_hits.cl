@@ -1,15 +1,18 @@
-// The first hits of a picture, without segments in memory: from a tile's nodes to its pixels. How a work-item goes that way
-// comes before this: a ray at a time (shading/first_hits_ray.h), or on processors eight (packet/first_hits_packet.h).
+// Draws the first hits of a picture, from the nodes of a tile to its pixels, without segments in global memory. The
+// header that is compiled before this file says what a work-item draws: one ray (shading/first_hits_ray.h), or on
+// processors a packet of eight (packet/first_hits_packet.h).
 //
-// Of a batch whose pixels come by lines the host need not know how many tiles see anything: items without an entry end at once.
+// For a batch whose pixels come by lines the host launches a work-item for each ray of all tiles, before it knows how
+// many tiles the list has; items behind its end return at once.
 
-// The number that item `id` has by the list of tiles, see PART_SHIFT. COUNT_MAX, which no ray of a picture has: it has none.
+// The number of the ray of work-item `id`, by the list of tiles (PART_SHIFT). COUNT_MAX, which no ray of a picture
+// has: the item has none.
 FN u32 number_in_part(__global const u32* entries, u32 id) {
     const u32 entry = entries[id / (TILE * TILE)], code = entry >> PART_SHIFT, within = id % (TILE * TILE);
-    const u32 parts = code ? PARTS : 1u, rays = LOCKSTEP / parts, part = code ? code - PARTS : 0;
-    if (within % LOCKSTEP >= rays) return COUNT_MAX;
-    return (entry & ((1u << PART_SHIFT) - 1u)) * (TILE * TILE) + part * (TILE * TILE) / parts + within / LOCKSTEP * rays +
-           within % LOCKSTEP;
+    const u32 parts = code ? PARTS : 1u, rays = ASSUMED_WARP / parts, part = code ? code - PARTS : 0;
+    if (within % ASSUMED_WARP >= rays) return COUNT_MAX;
+    return (entry & ((1u << PART_SHIFT) - 1u)) * (TILE * TILE) + part * (TILE * TILE) / parts +
+           within / ASSUMED_WARP * rays + within % ASSUMED_WARP;
 }
 
 #include "shared/scene_args.h"
@@ -18,7 +21,7 @@ __kernel void first_hits(__global const Frame* frame, GEOMETRY_ARGS, __global co
                          __global const TileNode* tile_nodes, __global const u32* listed, __global BatchReport* report,
                          __global u32* overflown, __global float* picture) {
     const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
-    u32 number, lost, sees;
+    u32 number, overflow_mask, hit_mask;
     pixel_position at;
     scene_tables s;
     appearance_tables a;
@@ -37,7 +40,9 @@ __kernel void first_hits(__global const Frame* frame, GEOMETRY_ARGS, __global co
 #endif
     a.materials = materials;
     a.lights = lights;
-    lost = draw(frame, s, a, list_of(frame, tile_nodes, number), at, picture + place_of(frame, at, FIRST_OF_ITEM(id)), &sees);
-    if (sees) mark_shown(frame, report, number);
-    for (; lost; lost &= lost - 1u) overflown[atomic_inc(&report->overflows)] = number + RAY_OF_ITEM(lowest(lost));
+    overflow_mask = draw(frame, s, a, list_of(frame, tile_nodes, number), at,
+                         picture + place_of(frame, at, FIRST_OF_ITEM(id)), &hit_mask);
+    if (hit_mask) mark_shown(frame, report, number);
+    for (; overflow_mask; overflow_mask &= overflow_mask - 1u)
+        overflown[atomic_inc(&report->overflows)] = number + RAY_OF_ITEM(lowest(overflow_mask));
 }

@@ -9,7 +9,8 @@
 #define SCAN_EACH 16
 #define SCAN_BLOCK (SCAN_GROUP * SCAN_EACH)
 
-// Where an entry of a block stands in local memory: items that each go through SCAN_EACH of them must not all come to the same bank.
+// Where an entry of a block stands in local memory. The gaps keep items that each go through SCAN_EACH entries off
+// the same bank.
 #define SCAN_PLACE(i) ((i) + (i) / SCAN_EACH)
 #define SCAN_PLACES SCAN_PLACE(SCAN_BLOCK)
 
@@ -19,8 +20,10 @@ static RayCount plus(RayCount a, RayCount b) {
     return a;
 }
 
-// Of a block's `size` entries, by one group: each becomes the sum of those before it, and of `before`. Returns that of all.
-static RayCount scan_block(__global RayCount* counts, u32 size, RayCount before, __local RayCount* entries, __local RayCount* partial) {
+// By one group: replaces each of a block's `size` entries by the sum of `before` and the entries before it. Returns
+// the sum of all.
+static RayCount scan_block(__global RayCount* counts, u32 size, RayCount before, __local RayCount* entries,
+                           __local RayCount* partial) {
     const u32 item = (u32)get_local_id(0), first = item * SCAN_EACH;
     RayCount sum;
     u32 i;

@@ -1,5 +1,6 @@
-// Before the kernels of a batch whose pixels come by lines, on a GPU: which of its tiles see anything, those that cost most first,
-// so that the host need not say, and wait before it does; and the background of all others.
+// Runs on a GPU before the other kernels of a batch whose pixels come by lines. It lists the tiles that see anything,
+// the most expensive first, so that the host can launch those kernels without waiting for the list; and it writes the
+// other tiles' background.
 #include "traversal/camera.h"
 
 // A class for each cost below 16, then eight for every power of two.
@@ -8,7 +9,7 @@ static u32 class_of(u32 cost) {
     return cost < 16u ? cost : 8u * power - 16u + (cost >> (power - 3u) & 7u);
 }
 
-// costs: kernel 0's, of `count` tiles. An item a tile.
+// Counts the tiles of each class. `costs`: kernel 0's, of `count` tiles. One work-item a tile.
 __kernel void count_tiles(__global const unsigned char* costs, u32 count, __global BatchReport* report) {
     __local u32 tiles[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
@@ -19,18 +20,20 @@ __kernel void count_tiles(__global const unsigned char* costs, u32 count, __glob
     if (item < COST_CLASSES && tiles[item]) atomic_add(report->tiles + item, tiles[item]);
 }
 
-// Entries of a tile of that class.
+// How many entries of the list a tile of the class has.
 static u32 parts_of(u32 class_number, u32 in_parts) { return in_parts && class_number >= PARTED_CLASS ? PARTS : 1u; }
 
-// Are tiles listed in parts? The list has room for as many entries as there are tiles: those that see nothing make it.
+// Are the most expensive tiles listed in parts? The list has room for one entry a tile: the parts need that of tiles
+// that see nothing.
 static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
     u32 k, in_parts = 0;
     for (k = PARTED_CLASS; k < COST_CLASSES; ++k) in_parts += tiles[k];
     return in_parts <= most_in_parts && in_parts * (PARTS - 1u) <= tiles[0];
 }
 
-// The numbers of the batch's tiles that see anything, from `first` on, in `numbers`: those of the same class in any order. A device
-// that ends with the longest waits for it; so the dearest come first, and in parts if they are no more than `most_in_parts`.
+// Stores in `numbers` the batch's tiles that see anything; `first` is the number of its first tile. Tiles of one
+// class come in any order. The most expensive come first, and in parts if there are at most `most_in_parts`: else the
+// device waits for them at the end.
 __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global BatchReport* report,
                           __global u32* numbers) {
     __local u32 all[COST_CLASSES], tiles[COST_CLASSES], places[COST_CLASSES];
@@ -51,7 +54,8 @@ __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 cou
         u32 place = 0;
         for (k = item + 1; k < COST_CLASSES; ++k) place += all[k] * parts_of(k, in_parts);
         if (id == 0) report->entries = place;
-        if (tiles[item]) places[item] = place + atomic_add(report->listed + item, tiles[item]) * parts_of(item, in_parts);
+        if (tiles[item])
+            places[item] = place + atomic_add(report->listed + item, tiles[item]) * parts_of(item, in_parts);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (own > 0) {
@@ -61,9 +65,10 @@ __kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 cou
     }
 }
 
-// The background of tiles without rays, in a row-major picture of the screen's whole rows. A group of TILE * TILE items a tile.
-__kernel void write_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 rows, u32 channels,
-                               ChannelValues background, __global float* picture) {
+// Writes the background of tiles that see nothing, in a row-major picture. One group of TILE *
+// TILE items a tile.
+__kernel void write_background(__global const unsigned char* costs, ScreenBounds screen, u32 first_ray, u32 rows,
+                               u32 channels, ChannelValues background, __global float* picture) {
     pixel_position at;
     u32 c;
     if (costs[get_group_id(0)]) return;

@@ -1,8 +1,8 @@
-// Which region claims a partition.
+// Finds the regions that claim a partition.
 //
-// A region's tree is a union of terms (Goldfeather et al. 1986 have the name); a term that is no leaf is an intersection, a
-// difference or a xor. A term can only be true where one of the leaves that start it is covered (StartRecord), so only
-// terms are looked at that some solid of the partition starts, however large the region is.
+// A region's tree is a union of terms (Goldfeather et al. 1986 have the name); a term that is no leaf is an
+// intersection, a difference or a xor. A term can only be true where one of the leaves that start it is covered
+// (StartRecord), so only terms are looked at that some solid of the partition starts, however large the region is.
 //
 //   region   (a + b - c) u (d - e) u f
 //   starts    a or b        d        f       cover {c, d}: only d - e is evaluated
@@ -96,7 +96,7 @@ FN u32 is_covered(cover c, const covered_solids* list, u32 solid) {
 }
 
 // Bit 4 op + left + 2 right: the operator's value.
-#define TRUTHS                                                                                             \
+#define OPERATOR_TABLE                                                                                     \
     (0xeu << 4 * OP_UNION | 0x8u << 4 * OP_INTERSECTION | 0x2u << 4 * OP_DIFFERENCE | 0x6u << 4 * OP_XOR | \
      0x4u << 4 * OP_REVERSE_DIFFERENCE)
 
@@ -109,7 +109,7 @@ FN u32 scan_term(cover c, const covered_solids* list, u32 node, u32 end) {
         if (op == OP_LEAF) {
             values = values << 1 | is_covered(c, list, word & TREE_MASK);
         } else {
-            values = (values >> 1 & ~1u) | (TRUTHS >> (4 * op + (values & 3u)) & 1u);
+            values = (values >> 1 & ~1u) | (OPERATOR_TABLE >> (4 * op + (values & 3u)) & 1u);
         }
     }
     return values & 1u;
@@ -175,9 +175,9 @@ FN u32 find_leaf(leaf_cursor* w, cover c, u32 from, u32 end) {
 #define NEGATE_BIT 0x80000000u
 
 // The same for a large term, from covered leaf to covered leaf: a subtree with all its leaves outside is empty (the
-// compiler leaves no complements), so it is never entered, and a right subtree whose value cannot matter is skipped, too.
-// No recursion: a stack entry is an operator whose left operand is being looked at; `negate` turns the value around that
-// the current subtree hands up. How the compiler keeps the stack short stands in shared/layout.h.
+// compiler leaves no complements), so it is never entered, and a right subtree whose value cannot matter is skipped,
+// too. No recursion: a stack entry is an operator whose left operand is being looked at; `negate` turns the value
+// around that the current subtree hands up. How the compiler keeps the stack short stands in shared/layout.h.
 FN u32 walk_term(cover c, u32 node, u32 end) {
     u32 stack[TREE_STACK], ends[TREE_STACK];
     u32 depth = 0, negate = 0, value, term_end = end;
@@ -262,7 +262,8 @@ FN u32 ask_roles(GLOBAL const u32* roles, const covered_solids* list) {
 FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     const u32 size = start.end_word - start.first_word;
     u32 value = size == 1 ? 1u : within(start.needed, filter_of_covered(list)) ? ROLE_UNDECIDED : 0;
-    if (value == ROLE_UNDECIDED && start.roles != NONE && list->count <= FEW) value = ask_roles(c.trees + start.roles, list);
+    if (value == ROLE_UNDECIDED && start.roles != NONE && list->count <= FEW)
+        value = ask_roles(c.trees + start.roles, list);
     if (value == ROLE_UNDECIDED) {
 #ifdef CSGRT_LARGE_TERMS
         value = size > SCANNED_WORDS ? walk_term(c, start.first_word, start.end_word)
@@ -274,13 +275,13 @@ FN u32 term_holds(cover c, const covered_solids* list, StartRecord start) {
     return value;
 }
 
-// The regions that claim a partition: the least, and any other of its rank. NONE: there is none.
+// The regions that claim a partition: that of the least number, and any other of the same rank. NONE: there is none.
 typedef struct {
     u32 least, other;
 } claim;
 
-// Looks at the terms that the solids of `starting` start, some of those that c.bits cover. `ranks`: Frame.rank_ends; 0:
-// `other` is not wanted.
+// Evaluates the terms that start at the segments of `starting`, which are some of c.bits. `ranks`: Frame.rank_ends,
+// or 0 if `other` is not wanted.
 FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks) {
     claim found;
     u32 word, words = words_of(c.segments);
@@ -306,14 +307,14 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
     return found;
 }
 
-// Which regions claim what the segments of c.bits cover, which are listed; `starting`: those of them that start terms. The list is
-// used up.
+// As find_claim, also for a ray that runs in a face of a covering solid. `list`: the solids that c.bits cover,
+// overwritten here.
 //
-// Where the ray runs in a face of a covering solid, it is moved to either side of the face's plane. There it is within one of the
-// solids that meet, and claimed as that is: parts that touch do not overlap, and of a contact the first region has the partition.
-// Regions overlap if they do so on one side. A ray that runs along an edge of a solid may miss it on both sides: then it is within
-// what it touches. That the sides are those of one direction (faces_above) keeps them the same for all faces that meet in an edge,
-// of which some part holds either side.
+// Such a ray is looked at three times: as it is, and moved to either side of the face's plane. Beside the plane it is
+// within one of the solids that meet there. So parts that touch do not overlap, and at a contact the first region has
+// the partition. Regions overlap if they do so on one side. A ray along an edge of a solid may miss it on both sides:
+// then what it touches claims. The two sides are those of one direction (faces_above), so they are the same for all
+// faces that meet in an edge.
 FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks) {
     const u32 marked = list->missed;
     claim touched, found;

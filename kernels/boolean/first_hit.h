@@ -1,8 +1,10 @@
-// The first claimed partition of a ray, without the others: front to back, in the ray's own memory.
+// Finds the first claimed partition of a ray, and no other: from front to back, in private memory.
 //
-// The nodes that the ray's tile may meet come nearest first (traversal/beam.h). What is still unseen lies behind the next of them,
-// so every event before that distance is complete: its partition is evaluated as kernels 3 and 4 would, and the first claim
-// ends it all. Segments that have ended make room for others. A ray that needs more room than there is goes the long way.
+// The list of the ray's tile has the nearest nodes first (kernel 0). Solids that are not intersected yet lie behind
+// the next node, so every event before its distance is complete: no segment can join it. Complete events are passed,
+// and their partitions evaluated, as kernels 3 and 4 do it; the first claim ends the search. Segments that have ended
+// make room for others. A ray that has more than SWEEP_SEGMENTS at a time overflows, and the host has kernels 1 to 5
+// trace it.
 //
 //   nodes      |--seen--|   |--seen--|      |--unseen--|
 //   ends        i     o  i    i   o         :       o  o
@@ -13,25 +15,26 @@
 #include "../traversal/beam.h"
 #include "claim.h"
 #include "../geometry/collect.h"
-#include "../traversal/candidates.h"
+#include "../traversal/bvh_cursor.h"
 
-#define PENDING FEW                 // segments that a ray holds at a time: its ends are not sorted by solid
-#define SLOT_WORDS (PENDING / 32u)  // of a bit for each of them
+#define SWEEP_SEGMENTS FEW                 // segments that a ray holds at a time: its ends are not sorted by solid
+#define SLOT_WORDS (SWEEP_SEGMENTS / 32u)  // of a bit for each of them
 
-// The segments that have begun or will begin. Of each, one end comes next: `in` if it is not open yet, else `out`.
+// The state of the sweep along a ray: the segments that have begun or will begin. Of each, one end comes next: `in`
+// if it is not open yet, else `out`.
 typedef struct {
-    End ends[2 * PENDING];  // of segment s: 2 s and 2 s + 1
-    u32 used[SLOT_WORDS];    // bit s: there is a segment s
-    u32 open[SLOT_WORDS];    // bit s: it covers the partition that the front stands in
-    u32 starts[SLOT_WORDS];  // bit s: its solid starts some term
-    u32 entry[SLOT_WORDS];   // bit s: some term may begin to be true where it begins
-    u32 exit[SLOT_WORDS];    // bit s: or where it ends
-    real due;   // where the next of all these ends is; infinity: there is none
-    End seen;   // where that partition begins, if it is claimed
-    u32 region;  // by this one; NONE: it is not
-    u32 from_within;  // it begins where a solid ends
-    u32 marked;  // has any segment so far MISSED_... set?
-} front;
+    End ends[2 * SWEEP_SEGMENTS];  // of segment s: 2 s and 2 s + 1
+    u32 used[SLOT_WORDS];          // bit s: there is a segment s
+    u32 open[SLOT_WORDS];          // bit s: it covers the partition that the sweep is in
+    u32 starts[SLOT_WORDS];        // bit s: its solid starts some term
+    u32 entry[SLOT_WORDS];         // bit s: some term may begin to be true where it begins
+    u32 exit[SLOT_WORDS];          // bit s: or where it ends
+    real next_event;               // where the next of all these ends is; infinity: there is none
+    End seen;                      // where that partition begins, if it is claimed
+    u32 region;                    // by this one; NONE: it is not
+    u32 from_within;               // it begins where a solid ends
+    u32 marked;                    // has any segment so far MISSED_... set?
+} sweep;
 
 typedef struct {
     Geometry g;
@@ -43,16 +46,16 @@ typedef struct {
 #endif
 } scene_tables;
 
-FN void start_front(front* w) {
+FN void start_sweep(sweep* w) {
     u32 i;
     for (i = 0; i < SLOT_WORDS; ++i) w->used[i] = w->open[i] = w->starts[i] = w->entry[i] = w->exit[i] = 0;
     w->from_within = w->marked = 0;
     w->region = NONE;
-    w->due = REAL_INFINITY;
+    w->next_event = REAL_INFINITY;
 }
 
 // A place for one more segment; NONE: there is none.
-FN u32 take_slot(front* w, SolidRecord solid) {
+FN u32 take_slot(sweep* w, SolidRecord solid) {
     u32 i, slot = NONE;
     for (i = 0; i < SLOT_WORDS && slot == NONE; ++i) {
         const u32 bit = ~w->used[i] & (w->used[i] + 1u);
@@ -68,25 +71,26 @@ FN u32 take_slot(front* w, SolidRecord solid) {
 }
 
 // Takes up a segment. 0: there is no room.
-FN int take_segment(front* w, SolidRecord solid, End in, End out) {
+FN int take_segment(sweep* w, SolidRecord solid, End in, End out) {
     const u32 slot = take_slot(w, solid);
     if (slot != NONE) {
         w->marked |= in.surface & MISSED;
         w->ends[2 * slot] = in;
         w->ends[2 * slot + 1] = out;
-        w->due = real_min(w->due, in.t);
+        w->next_event = real_min(w->next_event, in.t);
     }
     return slot != NONE;
 }
 
 // Takes up the solid's segments. 0: there is no room.
-FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
+FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
     SolidRecord solid = g.solids[index];
     u32 count, i;
     int fits = 1;
 #if (CSGRT_SOLIDS) & MANY_SEGMENTS
-    End found[2 * PENDING];
-    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS End*)0) > PENDING) return 0;
+    End found[2 * SWEEP_SEGMENTS];
+    if ((MANY_SEGMENTS >> solid.type & 1u) && collect(g, solid, index, r, t_min, (ENDS End*)0) > SWEEP_SEGMENTS)
+        return 0;
 #else
     End found[4];
 #endif
@@ -95,8 +99,8 @@ FN int take_solid(front* w, Geometry g, u32 index, ray3 r, real t_min) {
     return fits;
 }
 
-// What claims where one segment alone covers; ALONE_UNKNOWN: there are others, or that has to be looked at.
-FN u32 claim_of_one(const front* w, scene_tables s) {
+// The claim where one segment alone covers; ALONE_UNKNOWN: several do, or the solid's terms have to be looked at.
+FN u32 claim_of_one(const sweep* w, scene_tables s) {
     u32 i, several = 0, slot = NONE;
     for (i = 0; i < SLOT_WORDS; ++i) {
         const u32 bits = w->open[i];
@@ -107,8 +111,9 @@ FN u32 claim_of_one(const front* w, scene_tables s) {
     return several || slot == NONE ? ALONE_UNKNOWN : s.g.solids[w->ends[2 * slot].solid].alone;
 }
 
-// NONE, too, if no picture shows what claims: all others are before it, so nothing else does.
-FN u32 first_claim(const front* w, scene_tables s) {
+// The region that claims what the open segments cover. NONE, too, if it is one that no picture shows: such regions
+// have the last numbers, so no other claims.
+FN u32 first_claim(const sweep* w, scene_tables s) {
     u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
     alone = any ? claim_of_one(w, s) : NONE;
@@ -118,7 +123,7 @@ FN u32 first_claim(const front* w, scene_tables s) {
         covered_solids covered;
         c.ends = w->ends;
         c.bits = w->open;
-        c.segments = PENDING;
+        c.segments = SWEEP_SEGMENTS;
         c.missed = 0;
         c.marked = w->marked;
         c.solids = s.g.solids;
@@ -133,27 +138,28 @@ FN u32 first_claim(const front* w, scene_tables s) {
     return region;
 }
 
-// In the order in which kernel 3 links ends: by distance, then solid.
+// The order in which kernel 3 links ends: by distance, then by solid.
 FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid < b.solid); }
 
-// What happens at an event: the first end, if any, of those where a segment begins to cover, and of those where one ceases to.
+// What happens at an event: the first end where a segment begins to cover, and the first where one ceases to.
 typedef struct {
     End in, out;  // solid NONE: there is none
-    u32 begins;  // may it be that a term begins to be true
+    u32 begins;   // not 0: a term may begin to be true
 } event;
 
-// Passes the ends at w->due, and those within the tolerance behind it.
-FN event pass_event(front* w, real tolerance) {
-    const real t = w->due;
+// Passes the next event: the ends at w->next_event, and those within the tolerance behind it.
+FN event pass_event(sweep* w, real tolerance) {
+    const real t = w->next_event;
     u32 word;
     event e;
-    e.in.t = e.out.t = w->due = REAL_INFINITY;
+    e.in.t = e.out.t = w->next_event = REAL_INFINITY;
     e.in.solid = e.out.solid = NONE;
     e.begins = 0;
     for (word = 0; word < SLOT_WORDS; ++word) {
         u32 bits = w->used[word];
         while (bits) {
-            const u32 bit = bits & (0u - bits), slot = 32u * word + 31u - clz(bit), is_open = (w->open[word] & bit) != 0;
+            const u32 bit = bits & (0u - bits), slot = 32u * word + 31u - clz(bit),
+                      is_open = (w->open[word] & bit) != 0;
             real next = w->ends[2 * slot + is_open].t;
             bits ^= bit;
             if (next == t || next - t <= tolerance) {
@@ -169,22 +175,22 @@ FN event pass_event(front* w, real tolerance) {
                 if (!is_open && !is_thin && comes_before(end, e.in)) e.in = end;
                 next = is_open || is_thin ? REAL_INFINITY : out;
             }
-            w->due = real_min(w->due, next);
+            w->next_event = real_min(w->next_event, next);
         }
     }
     return e;
 }
 
-// May the next event not be joined any more by what comes at `horizon` or later?
-FN int is_complete(const front* w, real tolerance, real horizon) {
-    return w->due < REAL_INFINITY && horizon - w->due > tolerance;
+// Is the next event complete, if all segments still to come begin at `horizon` or later?
+FN int is_complete(const sweep* w, real tolerance, real horizon) {
+    return w->next_event < REAL_INFINITY && horizon - w->next_event > tolerance;
 }
 
 // Passes all events that are complete. 1: the first partition to be seen is known.
-FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizon) {
+FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizon) {
     int found = 0, going = is_complete(w, tolerance, horizon);
     while (going) {
-        const real t = w->due;
+        const real t = w->next_event;
         const event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
         // What ends before t_min is not seen.
@@ -198,7 +204,7 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizo
         }
         going = !found && is_complete(w, tolerance, horizon);
     }
-    // What is claimed when no more events come is claimed for ever.
+    // What is claimed when no more events come is claimed to the end of the ray.
     return found || (w->region != NONE && horizon == REAL_INFINITY);
 }
 
@@ -207,32 +213,34 @@ FN int advance(front* w, scene_tables s, real tolerance, real t_min, real horizo
 #define RAY_OVERFLOWS 2u
 #define RAY_GOES_ON 3u
 
-// About where the first event is complete.
-FN float due_at(const front* w, real tolerance, wide offset) {
-    return w->due < REAL_INFINITY ? (float)((wide)(w->due + tolerance) - offset) : BOX_MISSED;
+// About where the next event is complete, in the distances of the tile's list.
+FN float event_distance(const sweep* w, real tolerance, wide offset) {
+    return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + tolerance) - offset) : BOX_MISSED;
 }
 
 // `next`: the nodes of the ray's tile.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, front* w) {
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, sweep* w) {
     const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
-    u32 solid = 0, end = f->unbounded_count, i = 0, subtree_end = 0, leaf, result = RAY_GOES_ON;
-    start_front(w);
-    // All rays of a tile come to the next of its nodes together, so that work-items in lockstep test the same solids. Loops
-    // have one way out, here and in what they call, and few conditions: work-items that leave in several ways run apart after.
+    bvh_cursor cursor = bvh_over(0);
+    u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
+    start_sweep(w);
+    // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Loops
+    // have one way out, here and in the functions that they call: work-items that leave a loop in several ways stay
+    // divergent.
     do {
         TileNode e;
         do {
             for (; solid < end && result == RAY_GOES_ON; ++solid)
                 if (!take_solid(w, s.g, solid, r, t_min)) result = RAY_OVERFLOWS;
-            leaf = next_leaf(slabs, s.nodes, &i, subtree_end);
+            leaf = next_leaf(slabs, s.nodes, &cursor);
             solid = leaf >> BVH_LEAF_SHIFT;
             end = solid + (leaf & BVH_LEAF_MASK);
         } while (leaf);
         e = *next;
         if (e.node != NONE) ++next;
-        if (result == RAY_GOES_ON && (e.entry > due_at(w, tolerance, offset) || e.node == NONE)) {
+        if (result == RAY_GOES_ON && (e.entry > event_distance(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
             if (advance(w, s, tolerance, t_min, horizon)) {
                 result = RAY_HITS;
@@ -240,11 +248,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
                 result = RAY_MISSES;
             }
         }
-        i = subtree_end = 0;
-        if (result == RAY_GOES_ON && slabs.hits_sphere && e.node != NONE) {
-            i = e.node;
-            subtree_end = s.nodes[i].skip;
-        }
+        cursor = bvh_over(0);
+        if (result == RAY_GOES_ON && slabs.hits_sphere && e.node != NONE) cursor = bvh_below(s.nodes, e.node);
     } while (result == RAY_GOES_ON);
     return result;
 }

@@ -8,7 +8,7 @@
 #ifndef CSGRT_GEOMETRY_AFFINE_H
 #define CSGRT_GEOMETRY_AFFINE_H
 
-#include "hits.h"
+#include "segments.h"
 
 typedef struct {
     vec3 o, d;   // local; o is the closest approach: o . d is about 0

@@ -5,14 +5,14 @@
 
 #include "plane.h"
 
-FN hits arb_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments arb_intersect(Geometry g, SolidRecord solid, ray3 r) {
     span s = whole_line();
     u32 i;
     for (i = 0; i < solid.plane_count; ++i) {
         s = clip_to_face(s, g, solid.first_plane + i, r, i);
-        if (none(s.low < s.high)) return no_hits();
+        if (none(s.low < s.high)) return no_segments();
     }
-    return append_span(no_hits(), s);
+    return append_span(no_segments(), s);
 }
 
 #endif

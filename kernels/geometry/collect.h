@@ -69,8 +69,8 @@ FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min
 }
 
 // The segments of any other solid that end at t_min or later.
-FN hits collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
-    hits h = intersect(g, solid, r);
+FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
+    segments h = intersect(g, solid, r);
     if (h.touched) h = mark_touched(g, solid, r, h);
     if (h.count > 1 && !(h.out1 >= t_min)) h.count = 1;
     if (h.count > 0 && !(h.out0 >= t_min)) {
@@ -86,7 +86,7 @@ FN hits collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
 // Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
 // two a segment, in then out, by ascending distance. `index` is the solid's own.
 WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
-    hits h;
+    segments h;
     u32 count;
     r = ray_at(solid, r);
     if (collect_many(g, solid, index, r, t_min, ends, &count)) return count;

@@ -39,8 +39,8 @@ FN quadratic round_side(local_ray l, real m0, real m1) {
 }
 
 // May the ray touch the side only: cross it near its rim, or run along it?
-FN truth may_touch_side(local_ray l, quadratic f, real m0) {
-    const truth along = real_abs(f.a) <= TOUCHED * TOUCHED * dot3(l.d, l.d) && real_abs(f.c) <= TOUCHED * (m0 * m0);
+FN lane_mask may_touch_side(local_ray l, quadratic f, real m0) {
+    const lane_mask along = real_abs(f.a) <= TOUCHED * TOUCHED * dot3(l.d, l.d) && real_abs(f.c) <= TOUCHED * (m0 * m0);
     return real_abs(f.discriminant) < f.most * TOUCHED || along;
 }
 

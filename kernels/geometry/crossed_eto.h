@@ -169,7 +169,7 @@ FN real crossed_between(quartic g, real first, quartic next, real second) {
     return REAL(0.5) * (first + second);
 }
 
-NOINLINE_FN hits crossed_eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
+NOINLINE_FN segments crossed_eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = tables.reals + solid.first_real;
     const u32 method = QUARTIC_OF(tables);
     const eto_piece s = eto_piece_of(p, method, r);
@@ -178,7 +178,7 @@ NOINLINE_FN hits crossed_eto_intersect(Geometry tables, SolidRecord solid, ray3 
     int count = 0, place_count, i, k;
     real low = s.low;
     quartic g;
-    if (!(s.low < s.high)) return no_hits();
+    if (!(s.low < s.high)) return no_segments();
     place_count = crossed_places(p, method, s.l.o, s.d, places);
     g = crossed_quartic(p, places[0], s.d);
     for (i = 0; i < place_count; ++i) {

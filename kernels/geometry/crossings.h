@@ -13,7 +13,7 @@
 #ifndef CSGRT_GEOMETRY_CROSSINGS_H
 #define CSGRT_GEOMETRY_CROSSINGS_H
 
-#include "hits.h"
+#include "segments.h"
 
 #define LEAVES 0x80000000u  // set in End.surface of an end where the ray leaves such a solid
 

@@ -8,7 +8,7 @@
 #ifndef CSGRT_GEOMETRY_CURVE_H
 #define CSGRT_GEOMETRY_CURVE_H
 
-#include "hits.h"
+#include "segments.h"
 
 #define SKETCH_WORDS 5  // before the curves
 #define CURVE_SIZE 13   // control points at most: degree 12 (Limits::curve_degree)

@@ -12,7 +12,7 @@
 #define EHY_SIDE 0
 #define EHY_BASE 1
 
-FN hits ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments ehy_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
     span s = clip_to_face(whole_line(), g, solid.first_plane, r, EHY_BASE);
     local_ray l = to_local(p, r);

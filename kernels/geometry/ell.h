@@ -5,17 +5,17 @@
 
 #include "affine.h"
 
-FN hits ell_intersect(GLOBAL const parameter* p, ray3 r) {
+FN segments ell_intersect(GLOBAL const parameter* p, ray3 r) {
     local_ray l = to_local(p, r);
     real dd = dot3(l.d, l.d);
     real residue = dot3(l.o, l.d) / dd;
     vec3 q = add_scaled(l.o, -residue, l.d);
     real inside = REAL(1) - dot3(q, q);
     real reach, middle;
-    if (none(inside > 0)) return no_hits();
+    if (none(inside > 0)) return no_segments();
     reach = real_sqrt(inside / dd);
     middle = l.shift - residue;
-    return touching(inside > 0 && inside < TOUCHED, append(no_hits(), middle - reach, 0, middle + reach, 0));
+    return touching(inside > 0 && inside < TOUCHED, append(no_segments(), middle - reach, 0, middle + reach, 0));
 }
 
 FN vec3 ell_normal(GLOBAL const parameter* p, ray3 r, real t) { return affine_normal(p, local_point(to_local(p, r), t)); }

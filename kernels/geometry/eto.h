@@ -171,7 +171,7 @@ FN eto_piece eto_piece_of(GLOBAL const real* p, u32 method, ray3 r) {
     return s;
 }
 
-FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
+FN segments eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = tables.reals + solid.first_real;
     const u32 method = QUARTIC_OF(tables);
     const eto_piece s = eto_piece_of(p, method, r);
@@ -181,7 +181,7 @@ FN hits eto_intersect(Geometry tables, SolidRecord solid, ray3 r) {
     real roots[4];
     int count, i;
     eto_pinch pinch;
-    if (!(low < high)) return no_hits();
+    if (!(low < high)) return no_segments();
     pinch = eto_pinch_of(p, method, s.l.o, d);
     if (pinch.passes) {
         g = eto_pinched(p, pinch, d);

@@ -10,6 +10,7 @@
 #ifndef CSGRT_GEOMETRY_EXTRUDE_H
 #define CSGRT_GEOMETRY_EXTRUDE_H
 
+#include "../traversal/bvh_cursor.h"
 #include "affine.h"
 #include "bernstein.h"
 #include "curve.h"
@@ -85,20 +86,14 @@ FN int enters_box(line2 l, BvhNode box) {
 }
 
 FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, ray3 r) {
-    u32 i = 0;
-    while (i < s.node_count) {
-        BvhNode node = s.nodes[i];
-        if (!enters_box(w.line, node)) {
-            i = node.skip;
-        } else if (node.leaf) {
-            u32 line = node.leaf >> BVH_LEAF_SHIFT, end = line + (node.leaf & BVH_LEAF_MASK);
-            for (; line < end; ++line) {
-                u32 surface = EXTRUDE_ENDS + line;
-                k = meet_line(k, w, s.lines + 4 * line, g, solid.first_plane + surface, r, surface);
-            }
-            i = node.skip;
-        } else {
-            ++i;
+    bvh_cursor c = bvh_over(s.node_count);
+    while (bvh_goes_on(c)) {
+        const BvhNode node = s.nodes[c.node];
+        const u32 leaf = bvh_step(&c, node, enters_box(w.line, node));
+        u32 line = leaf >> BVH_LEAF_SHIFT, end = line + (leaf & BVH_LEAF_MASK);
+        for (; line < end; ++line) {
+            u32 surface = EXTRUDE_ENDS + line;
+            k = meet_line(k, w, s.lines + 4 * line, g, solid.first_plane + surface, r, surface);
         }
     }
     return k;

@@ -4,9 +4,9 @@
 
 #include "plane.h"
 
-FN hits half_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments half_intersect(Geometry g, SolidRecord solid, ray3 r) {
     span s = clip_to_face(whole_line(), g, solid.first_plane, r, 0);
-    return append_span(no_hits(), s);
+    return append_span(no_segments(), s);
 }
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef CSGRT_GEOMETRY_MESH_H
 #define CSGRT_GEOMETRY_MESH_H
 
-#include "../shared/slab.h"
+#include "../traversal/bvh_cursor.h"
 #include "crossings.h"
 #include "triangle.h"
 
@@ -16,7 +16,7 @@ typedef struct {
     GLOBAL const u32* triangles;
     upright_ray ray;
     slab_ray slab;
-    u32 node, node_count;  // the next node
+    bvh_cursor cursor;
     u32 next, last;        // triangles of the leaf that are left
     u32 triangle;          // the one that was met; NONE: no more
     real t;                // where
@@ -31,8 +31,7 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
     w.ray = make_upright(to_local(place, r));
     w.slab = make_slab_ray(offset_from(widen(make_vec3(0, 0, 0)), widen(w.ray.ray.o)), w.ray.ray.d, MESH_RADIUS,
                            -REAL_INFINITY);
-    w.node = 0;
-    w.node_count = w.slab.hits_sphere ? mesh[MESH_NODE_COUNT] : 0;
+    w.cursor = bvh_over(w.slab.hits_sphere ? mesh[MESH_NODE_COUNT] : 0);
     w.next = w.last = 0;
     w.triangle = NONE;
     w.t = 0;
@@ -43,6 +42,7 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
 FN mesh_walk next_triangle(mesh_walk w) {
     w.triangle = NONE;
     for (;;) {
+        u32 leaf;
         while (w.next < w.last) {
             triangle_hit h = meet_triangle(w.ray, w.vertices, w.triangles + 3 * (size_t)w.next);
             ++w.next;
@@ -53,19 +53,10 @@ FN mesh_walk next_triangle(mesh_walk w) {
                 return w;
             }
         }
-        if (w.node >= w.node_count) return w;
-        {
-            BvhNode node = w.nodes[w.node];
-            if (!box_is_hit(w.slab, node)) {
-                w.node = node.skip;
-            } else if (node.leaf) {
-                w.next = node.leaf >> BVH_LEAF_SHIFT;
-                w.last = w.next + (node.leaf & BVH_LEAF_MASK);
-                w.node = node.skip;
-            } else {
-                ++w.node;
-            }
-        }
+        leaf = next_leaf(w.slab, w.nodes, &w.cursor);
+        if (!leaf) return w;
+        w.next = leaf >> BVH_LEAF_SHIFT;
+        w.last = w.next + (leaf & BVH_LEAF_MASK);
     }
 }
 

@@ -15,14 +15,14 @@
 #include "tgc.h"
 
 // The one segment around `s` and all of `h`.
-FN span hull_of(span s, hits h) {
+FN span hull_of(span s, segments h) {
     if (h.count == 0) return s;
     s.low = real_min(s.low, h.in0);
     s.high = real_max(s.high, h.out0);
     return s;
 }
 
-FN hits ball_inside(local_ray l, real z, real radius) {
+FN segments ball_inside(local_ray l, real z, real radius) {
     vec3 o = make_vec3(l.o.x, l.o.y, l.o.z - z);
     real x = difference_of_products(o.y, l.d.z, o.z, l.d.y);
     real y = difference_of_products(o.z, l.d.x, o.x, l.d.z);
@@ -34,7 +34,7 @@ FN hits ball_inside(local_ray l, real z, real radius) {
                             whole_line(), 0);
 }
 
-FN hits part_intersect(GLOBAL const real* p, ray3 r) {
+FN segments part_intersect(GLOBAL const real* p, ray3 r) {
     local_ray l = to_local(p, r);
     span all = whole_line();
     all.low = REAL_INFINITY;
@@ -55,7 +55,7 @@ FN hits part_intersect(GLOBAL const real* p, ray3 r) {
             all = hull_of(all, cone_inside(l, round_side(l, m0, m1), m0, m1, s));
         }
     }
-    return append(no_hits(), all.low, 0, all.high, 0);
+    return append(no_segments(), all.low, 0, all.high, 0);
 }
 
 FN vec3 part_normal(GLOBAL const real* p, ray3 r, real t) {

@@ -3,13 +3,13 @@
 #ifndef CSGRT_GEOMETRY_PLANE_H
 #define CSGRT_GEOMETRY_PLANE_H
 
-#include "hits.h"
+#include "segments.h"
 
 FN wide3 plane_normal(PlaneRecord p) { return make_wide3(p.nx, p.ny, p.nz); }
 FN real plane_above(PlaneRecord p, ray3 r) { return REAL(wide_dot(plane_normal(p), r.o) - p.d); }  // the origin's distance
 
 // Does the ray run in the plane, as far as rounding lets one say?
-FN truth runs_in(PlaneRecord plane, ray3 r) {
+FN lane_mask runs_in(PlaneRecord plane, ray3 r) {
     const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d);
     const real from_origin = sum_of_sizes(narrow(r.o)) + real_abs(REAL(plane.d));
     return real_abs(rate) <= ROUNDING * sum_of_sizes(r.d) && real_abs(above) <= ROUNDING * from_origin;
@@ -19,12 +19,12 @@ FN truth runs_in(PlaneRecord plane, ray3 r) {
 // in the plane is on the side that is kept: it touches the face, on whichever side of it rounding has put the ray.
 FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
     const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
-    const truth parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);
-    truth enters = flipped ? rate > 0 : rate < 0, leaves = flipped ? rate < 0 : rate > 0;
+    const lane_mask parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);
+    lane_mask enters = flipped ? rate > 0 : rate < 0, leaves = flipped ? rate < 0 : rate > 0;
     if (!none(parallel)) {
         const real sizes = sum_of_sizes(narrow(r.o)) + real_abs(REAL(plane.d));
-        const truth within = parallel && real_abs(above) <= ROUNDING * sizes;
-        const truth outside = rate == 0 && !within && (flipped ? above < 0 : above > 0);
+        const lane_mask within = parallel && real_abs(above) <= ROUNDING * sizes;
+        const lane_mask outside = rate == 0 && !within && (flipped ? above < 0 : above > 0);
         enters = enters && !within;
         leaves = leaves && !within;
         s.touched = s.touched || within;
@@ -32,7 +32,7 @@ FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
         s.high = outside ? -REAL_INFINITY : s.high;
     }
     {
-        const truth raises = enters && t > s.low, lowers = leaves && t < s.high;
+        const lane_mask raises = enters && t > s.low, lowers = leaves && t < s.high;
         s.low_surface = raises ? TAG(surface) : s.low_surface;
         s.high_surface = lowers ? TAG(surface) : s.high_surface;
         s.low = raises ? t : s.low;

@@ -9,8 +9,8 @@
 // that never subtracts near-equal numbers.
 //
 //   a > 0:  between the roots          a < 0:  outside them, or everywhere
-FN hits quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
-    hits h = no_hits();
+FN segments quadratic_inside(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
+    segments h = no_segments();
     real low, high;
     if (!(s.low < s.high)) return h;
     if (a == 0) {
@@ -182,8 +182,8 @@ FN int sign_changes(quartic p, real low, real high, real* roots) {
 }
 
 // The inside pieces of `s` (bounded, in u + shift), given the sign changes in it.
-FN hits spans_between(span s, int inside, const real* roots, int count, u32 surface) {
-    hits h = no_hits();
+FN segments spans_between(span s, int inside, const real* roots, int count, u32 surface) {
+    segments h = no_segments();
     real low = s.low;
     u32 low_surface = s.low_surface;
     int i;

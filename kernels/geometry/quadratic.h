@@ -2,7 +2,7 @@
 #ifndef CSGRT_GEOMETRY_QUADRATIC_H
 #define CSGRT_GEOMETRY_QUADRATIC_H
 
-#include "hits.h"
+#include "segments.h"
 
 // a b - c d with an error of at most 1.5 ulps (Kahan; Jeannerod, Louvet, Muller 2013).
 FN real difference_of_products(real a, real b, real c, real d) {
@@ -13,10 +13,10 @@ FN real difference_of_products(real a, real b, real c, real d) {
 
 // As quadratic_inside (polynomial.h), for a > 0: the piece of `s` that lies between the roots, taken in the form that never
 // subtracts near-equal numbers.
-FN hits between_roots(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
-    const truth real_roots = discriminant > 0, inside_at_0 = c < 0;
+FN segments between_roots(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
+    const lane_mask real_roots = discriminant > 0, inside_at_0 = c < 0;
     real root, q, u1, u2, low, high;
-    if (none(real_roots || inside_at_0)) return no_hits();
+    if (none(real_roots || inside_at_0)) return no_segments();
     // Inside at u = 0, so there are roots, however far: along an asymptote, where a is rounding, the discriminant is, too.
     discriminant = real_roots ? discriminant : real_fma(b, b, -a * c);
     root = real_sqrt(discriminant);
@@ -30,7 +30,7 @@ FN hits between_roots(real a, real b, real c, real discriminant, real shift, spa
     s.high_surface = high < s.high ? TAG(surface) : s.high_surface;
     s.high = high < s.high ? high : s.high;
     s.high = real_roots || inside_at_0 ? s.high : -REAL_INFINITY;
-    return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+    return append(no_segments(), s.low, s.low_surface, s.high, s.high_surface);
 }
 
 #endif

@@ -23,7 +23,7 @@ FN real quadric_size(GLOBAL const parameter* p, vec3 v, vec3 w) {
     return real_abs(p[12] * v.x * w.x) + real_abs(p[13] * v.y * w.y) + real_abs(p[14] * v.z * w.z);
 }
 
-FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
     const parameter qx = p[12], qy = p[13], qz = p[14], linear = p[15], at_zero = p[16];
     span s = whole_line();
@@ -31,7 +31,7 @@ FN hits quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     u32 i;
     real a, b, c, xy, yz, zx, discriminant;
     for (i = 0; i < solid.plane_count; ++i) s = clip_to_face(s, g, solid.first_plane + i, r, QUADRIC_PLANES + i);
-    if (none(s.low < s.high)) return no_hits();
+    if (none(s.low < s.high)) return no_segments();
     l = to_local(p, r);
     a = real_fma(qx * l.d.x, l.d.x, real_fma(qy * l.d.y, l.d.y, qz * l.d.z * l.d.z));
     b = real_fma(qx * l.o.x, l.d.x, real_fma(qy * l.o.y, l.d.y, qz * l.o.z * l.d.z));

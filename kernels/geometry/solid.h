@@ -27,7 +27,7 @@
 
 #define HAS_SOLID(type) ((CSGRT_SOLIDS) >> (type) & 1u)
 
-FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_ELL)
     if (solid.type == SOLID_ELL) return ell_intersect(g.reals + solid.first_real, r);
 #endif
@@ -58,7 +58,7 @@ FN hits intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) return part_intersect(g.reals + solid.first_real, r);
 #endif
-    return no_hits();
+    return no_segments();
 }
 
 // Along the outward normal of a solid where its `surface` is hit at t, of any length.

@@ -13,7 +13,7 @@
 
 // The piece of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each, and m
 // changes sign between them: the piece on which m > 0 is the cone's.
-FN hits cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
+FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     if (f.a < 0) {
         real u = -m0 / m1;
         if (f.discriminant > 0) {
@@ -30,7 +30,7 @@ FN hits cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
             s.high = u;
             s.high_surface = TGC_SIDE;
         }
-        return append(no_hits(), s.low, s.low_surface, s.high, s.high_surface);
+        return append(no_segments(), s.low, s.low_surface, s.high, s.high_surface);
     }
     return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
 }
@@ -81,7 +81,7 @@ FN int has_edge(GLOBAL const real* p) {
 }
 
 // The quartic is solved on a bounded piece, with u in units of the direction's length.
-FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
+FN segments tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     real length = real_sqrt(dot3(l.d, l.d)), shift = 0;
     real a0, a1, b0, b1;
     vec3 o = l.o;
@@ -89,7 +89,7 @@ FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     real roots[4];
     int count, i, inside, edge;
     s = tapered_piece(method, p, l, s);
-    if (!(s.low < s.high)) return no_hits();
+    if (!(s.low < s.high)) return no_segments();
     edge = has_edge(p) && method != QUARTIC_UNSHIFTED;
     if (edge) {
         const vec3 d = scale(l.d, REAL(1) / length);
@@ -108,7 +108,7 @@ FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     b1 = b1 / length;
     if (edge) {
         s = on_this_side(on_this_side(s, a0, a1), b0, b1);
-        if (!(s.low < s.high)) return no_hits();
+        if (!(s.low < s.high)) return no_segments();
     }
     {
         real dx = l.d.x / length, dy = l.d.y / length;
@@ -137,13 +137,13 @@ FN hits tapered_inside(u32 method, GLOBAL const real* p, local_ray l, span s) {
     return spans_between(s, inside, roots, count, TGC_SIDE);
 }
 
-FN hits tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const real* p = g.reals + solid.first_real;
     span s = between_ends(g, solid, r);
     quadratic f;
     local_ray l;
     real m0, m1;
-    if (!(s.low < s.high)) return no_hits();
+    if (!(s.low < s.high)) return no_segments();
     if (p[16] != 0) return touching(s.touched, tapered_inside(QUARTIC_OF(g), p, quartic_ray(QUARTIC_OF(g), p, r), s));
     l = to_local(p, r);
     m0 = real_fma(p[13], l.o.z, p[12]);

@@ -64,7 +64,7 @@ FN real tor_polish(vec3 o, vec3 d, real u, real ratio, int pinched) {
 // So short that the ray may only touch the torus there.
 FN int is_short(real in, real out, real length) { return (out - in) * length < REAL(0x1p-6); }
 
-FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
+FN segments tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
     const tor_piece piece = tor_piece_of(method, p, r);
     const vec3 o = piece.l.o, d = piece.d;
     const real ratio = p[12], beta = dot3(o, d), omega = dot3(o, o);
@@ -72,8 +72,8 @@ FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
     quartic g;
     real roots[4];
     int count, i, pinched;
-    hits h;
-    if (!(piece.low < piece.high)) return no_hits();
+    segments h;
+    if (!(piece.low < piece.high)) return no_segments();
     pinched = ratio > PINCH_RATIO && omega < PINCH_REACH * PINCH_REACH;
     m = omega - REAL(1) - ratio * ratio;
     g.c[4] = 1;
@@ -97,7 +97,7 @@ FN hits tor_pieces(u32 method, GLOBAL const real* p, ray3 r) {
     return touching(is_short(h.in0, h.out0, piece.length) || (h.count > 1 && is_short(h.in1, h.out1, piece.length)), h);
 }
 
-FN hits append_within(hits h, span s, real in, u32 in_surface, real out, u32 out_surface) {
+FN segments append_within(segments h, span s, real in, u32 in_surface, real out, u32 out_surface) {
     if (s.low > in) {
         in = s.low;
         in_surface = s.low_surface;
@@ -109,9 +109,9 @@ FN hits append_within(hits h, span s, real in, u32 in_surface, real out, u32 out
     return append(h, in, in_surface, out, out_surface);
 }
 
-FN hits tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
+FN segments tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     const span s = tor_bend(g, solid, r);
-    hits all, h = no_hits();
+    segments all, h = no_segments();
     if (!(s.low < s.high)) return h;
     all = tor_pieces(QUARTIC_OF(g), g.reals + solid.first_real, r);
     if (solid.plane_count == 0) return all;

@@ -26,7 +26,7 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     const real outer = (REAL(1) + ratio) * TOR_MARGIN, tube = ratio * TOR_MARGIN;
     const real inner = (REAL(1) - ratio) * (REAL(2) - TOR_MARGIN);
     real middle, reach, z0, z1, first, last;
-    truth crosses, outside;
+    lane_mask crosses, outside;
     tor_piece s;
     s.l = quartic_ray(method, p, r);
     s.length = real_sqrt(dot3(s.l.d, s.l.d));

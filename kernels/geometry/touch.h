@@ -32,7 +32,7 @@ FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
     return missed;
 }
 
-FN hits mark(hits h, u32 missed) {
+FN segments mark(segments h, u32 missed) {
     h.in0_surface |= missed;
     h.out0_surface |= missed;
     h.in1_surface |= missed;
@@ -40,7 +40,7 @@ FN hits mark(hits h, u32 missed) {
     return h;
 }
 
-FN hits mark_ell(GLOBAL const real* p, ray3 r, hits h) {
+FN segments mark_ell(GLOBAL const real* p, ray3 r, segments h) {
     const vec3 q = local_point(to_local(p, r), REAL(0.5) * (h.in0 + h.out0));
     return REAL(1) - real_sqrt(dot3(q, q)) <= local_rounding(p, r) ? mark(h, missed_side(affine_normal(p, q))) : h;
 }
@@ -51,13 +51,13 @@ FN real depth_in_side(GLOBAL const real* p, vec3 at) {
 }
 
 // A ray along the side is within it from end to end, on whichever side of it rounding has put the ray.
-FN hits mark_side(GLOBAL const real* p, ray3 r, span ends, hits h) {
+FN segments mark_side(GLOBAL const real* p, ray3 r, span ends, segments h) {
     const local_ray l = to_local(p, r);
     const real most = local_rounding(p, r);
     const int along = ends.low < ends.high && real_abs(depth_in_side(p, local_point(l, ends.low))) <= most &&
                       real_abs(depth_in_side(p, local_point(l, ends.high))) <= most;
     vec3 at;
-    if (along) h = append(no_hits(), ends.low, ends.low_surface, ends.high, ends.high_surface);
+    if (along) h = append(no_segments(), ends.low, ends.low_surface, ends.high, ends.high_surface);
     at = local_point(l, REAL(0.5) * (h.in0 + h.out0));
     if (h.count != 1 || depth_in_side(p, at) > most) return h;
     return mark(h, missed_side(affine_normal(p, make_vec3(at.x, at.y, -real_fma(p[13], at.z, p[12]) * p[13]))));
@@ -72,7 +72,7 @@ FN u32 missed_of_tor(GLOBAL const real* p, ray3 r, real in, real out) {
 }
 
 // What is met of a solid that the ray may touch only, marked if it does.
-RARE_FN hits mark_touched(Geometry g, SolidRecord solid, ray3 r, hits h) {
+RARE_FN segments mark_touched(Geometry g, SolidRecord solid, ray3 r, segments h) {
     GLOBAL const real* p = g.reals + solid.first_real;
     if (solid.type == SOLID_ELL) h = mark_ell(p, r, h);
     if (solid.type == SOLID_TGC && p[16] == 0) h = mark_side(p, r, between_ends(g, solid, r), h);

@@ -1,4 +1,4 @@
-// The first hits of a packet of rays, drawn (first_hits.cl): two rows of four pixels.
+// What a work-item of first_hits.cl draws where it is a packet of rays: two rows of four pixels.
 #ifndef CSGRT_PACKET_FIRST_HITS_PACKET_H
 #define CSGRT_PACKET_FIRST_HITS_PACKET_H
 
@@ -12,8 +12,8 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);
     u32 k;
     for (k = 0; k < PACKET; ++k) {
-        start_front(p->fronts + k);
-        p->due[k] = BOX_MISSED;
+        start_sweep(p->sweeps + k);
+        p->next_events[k] = BOX_MISSED;
     }
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;
@@ -24,18 +24,17 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     p->slabs = slabs_of(f, from_eye);
 }
 
-// Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the rays
-// that had no room, of which nothing is drawn. `seen`: those that see anything.
-FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position first,
-            __global float* picture, u32* seen) {
+// Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the
+// overflow mask: the rays of which nothing is drawn. *hit_mask: those that see anything.
+FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
+            pixel_position first, __global float* picture, u32* hit_mask) {
     const u32 within = rays_inside(f, first);
-    u32 hit, lost;
+    u32 overflow_mask;
     packet p;
     start_packet(&p, f, first);
-    hit = first_hits_of(&p, f, s, a.materials, list, within, &lost);
-    put_pixels(&p, f, s.g, a, picture, within & ~lost, hit);
-    *seen = hit;
-    return lost;
+    *hit_mask = first_hits_of(&p, f, s, a.materials, list, within, &overflow_mask);
+    put_pixels(&p, f, s.g, a, picture, within & ~overflow_mask, *hit_mask);
+    return overflow_mask;
 }
 
 #endif

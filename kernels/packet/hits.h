@@ -1,63 +1,69 @@
-// The first claimed partitions of a packet's rays: boolean/first_hit.h's work, but the rays go through their tile's nodes together. Each
-// ray's events are its own.
+// Finds the first claimed partitions of a packet's rays, as boolean/first_hit.h does for one ray. The rays go through
+// their tile's nodes together, and each ray passes its own events.
 //
-// Some of the rays (`which`, `lost`, `hit`) are a word whose bit k stands for ray k.
+// Masks of rays are as in packet/solids.h; the hit mask stands for the rays that hit a box, or whose first hit is
+// known.
 #ifndef CSGRT_PACKET_HITS_H
 #define CSGRT_PACKET_HITS_H
 
-#include "batch.h"
+#include "pending_solids.h"
 
-// The rays among `which` that meet what a subtree holds take it up, or have it wait. Returns those that have no room.
-FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 which, solid_batch* waiting) {
-    const u32 end = s.nodes[root].skip;
-    u32 i = root, lost = 0, hit, leaf;
-    while ((leaf = next_leaf(p->slabs, s.nodes, &i, end, which, &hit))) {
+// The active rays that hit the leaves of a subtree take up their solids, or have them wait. Returns the overflow mask.
+FN u32 take_subtree(packet* p, scene_tables s, u32 root, u32 active_mask, pending_solids* pending) {
+    bvh_cursor cursor = bvh_below(s.nodes, root);
+    u32 overflow_mask = 0, hit_mask, leaf;
+    while ((leaf = next_leaf(p->slabs, s.nodes, &cursor, active_mask, &hit_mask))) {
         const u32 first = leaf >> BVH_LEAF_SHIFT, last = first + (leaf & BVH_LEAF_MASK);
         u32 solid;
-        for (solid = first; solid < last; ++solid) lost |= take_or_wait(p, s, solid, hit & ~lost, waiting);
+        for (solid = first; solid < last; ++solid)
+            overflow_mask |= take_or_defer(p, s, solid, hit_mask & ~overflow_mask, pending);
     }
-    return lost;
+    return overflow_mask;
 }
 
-// Of the rays of `which`, those whose first seen partition is known; `lost`: those that hold more than there is room for.
+// Finds the first hits of the active rays. Returns the hit mask; *overflow_mask: the rays of which nothing is known.
 FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __global const MaterialRecord* materials,
-                     __global const TileNode* next, u32 which, u32* lost) {
+                     __global const TileNode* next, u32 active_mask, u32* overflow_mask) {
     const u32 near_scene = bits_of(p->slabs.hits_sphere);
-    u32 hit = 0, k;
+    u32 hit_mask = 0, k;
     TileNode e;
-    solid_batch waiting;
-    start_batch(&waiting);
-    *lost = 0;
-    for (k = 0; k < f->unbounded_count; ++k) *lost |= take_solid_by_packet(p, s.g, k, which & ~*lost);
+    pending_solids pending;
+    start_pending(&pending);
+    *overflow_mask = 0;
+    for (k = 0; k < f->unbounded_count; ++k)
+        *overflow_mask |= take_solid_by_packet(p, s.g, k, active_mask & ~*overflow_mask);
     do {
         u32 going;
         real horizon;
         e = *next++;
         horizon = e.node == NONE ? REAL_INFINITY : (wide)e.entry + p->offset;
-        // Which have events that nothing in this node can join; behind the last one all do, or stay in what they are in.
-        going = (e.node == NONE ? which : bits_of(vload8(0, p->due) < e.entry)) & which & ~*lost & ~hit;
+        // The rays whose next event nothing in this node can join. Behind the last node that is so for all rays.
+        going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->next_events) < e.entry)) & active_mask &
+                ~*overflow_mask & ~hit_mask;
         for (; going; going &= going - 1u) {
-            front* w = p->fronts + lowest(going);
+            sweep* w = p->sweeps + lowest(going);
             if (advance(w, s, p->tolerance, p->t_min, horizon)) {
-                hit |= going & (0u - going);
-                fetch(materials + w->region);
+                hit_mask |= going & (0u - going);
+                prefetch_line(materials + w->region);
             }
-            p->due[lowest(going)] = due_at(w, p->tolerance, p->offset);
+            p->next_events[lowest(going)] = event_distance(w, p->tolerance, p->offset);
         }
-        going = which & ~*lost & ~hit & near_scene;
+        going = active_mask & ~*overflow_mask & ~hit_mask & near_scene;
         if (e.node != NONE && going) {
-            fetch_node(s, next->node);
-            *lost |= take_subtree(p, s, e.node, going, &waiting);
+            prefetch_node(s, next->node);
+            *overflow_mask |= take_subtree(p, s, e.node, going, &pending);
         }
-        // What comes later may be taken up sooner, as long as no ray has an event to pass meanwhile.
-        while (!is_enough(&waiting) && e.node != NONE && next->node != NONE && !(bits_of(vload8(0, p->due) < next->entry) & going)) {
-            fetch_node(s, next[1].node);
-            if (going & ~*lost) *lost |= take_subtree(p, s, next->node, going & ~*lost, &waiting);
+        // The solids of later nodes are taken up with these, as long as no ray has an event to pass before.
+        while (!are_enough(&pending) && e.node != NONE && next->node != NONE &&
+               !(bits_of(vload8(0, p->next_events) < next->entry) & going)) {
+            prefetch_node(s, next[1].node);
+            if (going & ~*overflow_mask)
+                *overflow_mask |= take_subtree(p, s, next->node, going & ~*overflow_mask, &pending);
             ++next;
         }
-        *lost |= take_batch(p, s, &waiting);
-    } while (e.node != NONE && (which & ~*lost & ~hit));
-    return hit;
+        *overflow_mask |= take_pending(p, s, &pending);
+    } while (e.node != NONE && (active_mask & ~*overflow_mask & ~hit_mask));
+    return hit_mask;
 }
 
 #endif

@@ -1,22 +1,22 @@
-// From what a packet's rays see first to the channels of their pixels: shading/pixel.h's work, for eight at once.
+// From what a packet's rays see first to the channels of their pixels, as shading/pixel.h does for one ray.
 #ifndef CSGRT_PACKET_PIXELS_H
 #define CSGRT_PACKET_PIXELS_H
 
 #include "hits.h"
 #include "../shading/pixel.h"
 
-// Of what the rays of `hit` see first: along the surface's outward normal. The others look like the first of them.
-FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
+// Along the outward normals of what the rays of the hit mask see first. The others look like the first of them.
+FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit_mask, double8 t) {
     real x[PACKET], y[PACKET], z[PACKET];
     packet_vec3 n;
-    u32 rest = hit, k;
+    u32 rest = hit_mask, k;
     while (rest) {
         const u32 first = lowest(rest);
-        const End seen = p->fronts[first].seen;
+        const End seen = p->sweeps[first].seen;
         const SolidRecord solid = g.solids[seen.solid];
         u32 same = 0;
         for (k = first; k < PACKET; ++k) {
-            const End other = p->fronts[k].seen;
+            const End other = p->sweeps[k].seen;
             same |= other.solid == seen.solid && other.surface == seen.surface ? 1u << k & rest : 0;
         }
         if (!takes_packets(solid)) same = 1u << first;
@@ -43,10 +43,10 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
         rest &= ~same;
     }
     for (k = 0; k < PACKET; ++k)
-        if (!(hit >> k & 1u)) {
-            x[k] = x[lowest(hit)];
-            y[k] = y[lowest(hit)];
-            z[k] = z[lowest(hit)];
+        if (!(hit_mask >> k & 1u)) {
+            x[k] = x[lowest(hit_mask)];
+            y[k] = y[lowest(hit_mask)];
+            z[k] = z[lowest(hit_mask)];
         }
     n.x = vload8(0, x);
     n.y = vload8(0, y);
@@ -55,28 +55,29 @@ FN packet_vec3 seen_normals(const packet* p, Geometry g, u32 hit, double8 t) {
 }
 
 // `channel`: where the first pixel is; the second row is `line` further.
-FN void put_channel(__global float* channel, u32 line, u32 which, float8 values) {
-    if (which == 0xff) {
+FN void put_channel(__global float* channel, u32 line, u32 active_mask, float8 values) {
+    if (active_mask == 0xff) {
         vstore4(values.lo, 0, channel);
         vstore4(values.hi, 0, channel + line);
     } else {
         float one[PACKET];
         vstore8(values, 0, one);
-        for (; which; which &= which - 1u) {
-            const u32 k = lowest(which);
+        for (; active_mask; active_mask &= active_mask - 1u) {
+            const u32 k = lowest(active_mask);
             channel[k / PACKET_ROW * line + k % PACKET_ROW] = one[k];
         }
     }
 }
 
-// What the rays of `hit` see, of which there are some. The others look like the first of them.
+// What the rays of the hit mask see; at least one is set. The others look like the first of them.
 typedef struct {
     packet_sight sight;
     float8 region, solid;
 } packet_view;
 
-FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit) {
-    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], glow[PACKET], t[PACKET];
+FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit_mask) {
+    real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], glow[PACKET],
+        t[PACKET];
     ulong shine[PACKET];
     float region[PACKET], solid[PACKET];
     u32 within = 0, k;
@@ -85,7 +86,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     packet_vec3 n;
     packet_view view;
     for (k = 0; k < PACKET; ++k) {
-        const front* w = p->fronts + (hit >> k & 1u ? k : lowest(hit));
+        const sweep* w = p->sweeps + (hit_mask >> k & 1u ? k : lowest(hit_mask));
         const MaterialRecord m = a.materials[w->region];
         t[k] = w->seen.t;
         region[k] = (float)(w->region + 1);
@@ -108,7 +109,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     finish.ambient = vload8(0, ambient);
     finish.glow = vload8(0, glow);
     finish.shine = vload8(0, shine);
-    n = unit_or_against(seen_normals(p, g, hit, vload8(0, t)), p->rays.d);
+    n = unit_or_against(seen_normals(p, g, hit_mask, vload8(0, t)), p->rays.d);
     flipped = convert_long8(of_bits(within));
     n.x = flipped ? -n.x : n.x;
     n.y = flipped ? -n.y : n.y;
@@ -119,16 +120,17 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     return view;
 }
 
-// The pixels of `which`; those of `hit` see something. Left a call: measured (docs/experiments/processors.md).
-NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, __global float* picture,
-                            u32 which, u32 hit) {
+// Stores the pixels of the active rays; those of the hit mask see something. Left a call: measured (docs/experiments/processors.md).
+NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a,
+                            __global float* picture, u32 active_mask, u32 hit_mask) {
     const size_t size = channel_size(f);
     const u32 line = f->rows ? width_of(f->screen) : TILE;
-    const int8 seen = of_bits(hit);
+    const int8 is_hit = of_bits(hit_mask);
     packet_view v;
     u32 k;
-    if (hit) v = view_of(p, f, g, a, hit);
-#define PUT(value, background) put_channel(picture, line, which, seen ? value : (float8)(background)), picture += size
+    if (hit_mask) v = view_of(p, f, g, a, hit_mask);
+#define PUT(value, background) \
+    put_channel(picture, line, active_mask, is_hit ? value : (float8)(background)), picture += size
     if (f->channels & CHANNEL_COLOR) {
         PUT(convert_float8(v.sight.color.r), f->background[0]);
         PUT(convert_float8(v.sight.color.g), f->background[1]);

@@ -1,7 +1,8 @@
-// What a packet's rays meet of a solid, taken up by each of them: boolean/first_hit.h's work, but the closed-form solids are put to all of
-// them at once.
+// A packet's rays take up what they meet of a solid, as boolean/first_hit.h does for one ray. Closed-form solids are
+// intersected with all rays at once.
 //
-// Some of the rays (`which`, `lost`) are a word whose bit k stands for ray k.
+// A mask is a word whose bit k stands for ray k: the active mask for the rays that take part, the overflow mask for
+// those whose sweep has no room for a segment more.
 #ifndef CSGRT_PACKET_SOLIDS_H
 #define CSGRT_PACKET_SOLIDS_H
 
@@ -14,18 +15,18 @@ typedef struct {
     packet_lanes lanes;
     packet_slab_ray slabs;
     real t_min, tolerance;
-    wide offset;  // of distances in the tile's list
-    float due[PACKET];  // about where the first event of each is complete
-    front fronts[PACKET];
+    wide offset;                // of distances in the tile's list
+    float next_events[PACKET];  // of each sweep, as event_distance() has it
+    sweep sweeps[PACKET];
 } packet;
 
-// What the rays of `which` meet of a solid. Returns those that have no room for it.
-FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 which) {
+// The active rays take up what they meet of a solid. Returns the overflow mask.
+FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
-    u32 alone = which, lost = 0;
-    if ((which & (which - 1u)) && takes_packets(solid)) {
-        const packet_hits h = packet_intersect(g, solid, p->rays);
-        u32 found = bits_of(h.count == 1 && h.out0 >= p->t_min) & which;
+    u32 alone = active_mask, overflow_mask = 0;
+    if ((active_mask & (active_mask - 1u)) && takes_packets(solid)) {
+        const packet_segments h = packet_intersect(g, solid, p->rays);
+        u32 found = bits_of(h.count == 1 && h.out0 >= p->t_min) & active_mask;
         alone &= bits_of(h.count == UNDECIDED);
         if (found) {
             real in[PACKET], out[PACKET];
@@ -38,17 +39,17 @@ FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 which) {
                 const u32 k = lowest(found);
                 End ends[2];
                 put_segment(ends, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
-                if (!take_segment(p->fronts + k, solid, ends[0], ends[1])) lost |= 1u << k;
-                p->due[k] = due_at(p->fronts + k, p->tolerance, p->offset);
+                if (!take_segment(p->sweeps + k, solid, ends[0], ends[1])) overflow_mask |= 1u << k;
+                p->next_events[k] = event_distance(p->sweeps + k, p->tolerance, p->offset);
             }
         }
     }
     for (; alone; alone &= alone - 1u) {
         const u32 k = lowest(alone);
-        if (!take_solid(p->fronts + k, g, index, lane(&p->lanes, k), p->t_min)) lost |= 1u << k;
-        p->due[k] = due_at(p->fronts + k, p->tolerance, p->offset);
+        if (!take_solid(p->sweeps + k, g, index, lane(&p->lanes, k), p->t_min)) overflow_mask |= 1u << k;
+        p->next_events[k] = event_distance(p->sweeps + k, p->tolerance, p->offset);
     }
-    return lost;
+    return overflow_mask;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// The first hit of one ray, drawn (first_hits.cl).
+// What a work-item of first_hits.cl draws where it is one ray.
 #ifndef CSGRT_SHADING_FIRST_HITS_RAY_H
 #define CSGRT_SHADING_FIRST_HITS_RAY_H
 
@@ -9,14 +9,15 @@
 #define FIRST_OF_ITEM(id) (id)
 #define RAY_OF_ITEM(k) (k)
 
-// Draws the pixel at `at`, whose channels begin at `picture`. 1: the ray had no room, nothing is drawn. `seen`: does it see anything?
-FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list, pixel_position at,
-            __global float* picture, u32* seen) {
+// Draws the pixel at `at`, whose channels begin at `picture`. Returns the overflow mask, of one ray: 1 if it has more
+// segments than there is room for, and nothing is drawn. *hit_mask: 1 if it sees anything.
+FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
+            pixel_position at, __global float* picture, u32* hit_mask) {
     const ray3 r = geometry_ray(f, camera_ray(f, at));
-    front w;
+    sweep w;
     const u32 found = first_hit(f, s, list, r, &w);
     Pixel pixel;
-    *seen = found == RAY_HITS;
+    *hit_mask = found == RAY_HITS;
     if (found == RAY_OVERFLOWS) return 1;
     if (found == RAY_HITS) {
         const MaterialRecord material = a.materials[w.region];

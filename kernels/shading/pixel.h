@@ -54,9 +54,10 @@ FN Pixel hit_pixel(sight s, ray3 r) {
 }
 
 // Region `region` where the ray comes upon it at the end `seen`. If the region begins where another solid ends
-// (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal computed: one a ray.
-FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r, End seen,
-                    u32 from_within, u32 region) {
+// (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal computed:
+// one a ray.
+FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r,
+                    End seen, u32 from_within, u32 region) {
     vec3 n = normal_at(g, g.solids[seen.solid], r, seen.t, seen.surface);
     Pixel p;
     if (from_within) n = scale(n, REAL(-1));

@@ -1,9 +1,10 @@
 // BRL-CAD's plastic at a first hit: ambient light from the eye, diffuse and specular light from each light, no shadows.
 //
-//   colour * (ambient cos(n, eye)) + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
+//   colour * (ambient cos(n, eye))
+//   + sum over lights: colour * light * diffuse cos(n, l) + light * specular cos(r, eye)^shine
 //
-// A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What shines itself adds
-// colour * glow (SHAPED_LIGHTS).
+// A light that is infinitely far away comes from one direction; one with a beam lights what lies in its cone. What
+// shines itself adds colour * glow (SHAPED_LIGHTS).
 //
 // The power is by squaring: multiplications only, so every device gives the same bits.
 #ifndef CSGRT_SHADING_PLASTIC_H
@@ -54,10 +55,12 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m
         const vec3 to_light = normalize3(narrow(wide_subtract(make_wide3(light.x, light.y, light.z), from)));
         const real cosine = dot3(n, to_light), diffuse = cosine * m.diffuse;
         const real mirrored = dot3(subtract(scale(n, REAL(2) * cosine), to_light), view);
-        truth lit = cosine > 0, shines;
+        lane_mask lit = cosine > 0, shines;
         real specular = REAL(0);
 #if SHAPED_LIGHTS
-        if (light.beam) lit = lit && dot3(to_light, make_vec3(REAL(light.bx), REAL(light.by), REAL(light.bz))) <= REAL(-light.cosine);
+        if (light.beam)
+            lit =
+                lit && dot3(to_light, make_vec3(REAL(light.bx), REAL(light.by), REAL(light.bz))) <= REAL(-light.cosine);
 #endif
         shines = lit && mirrored > 0;
         if (none(lit)) continue;
@@ -77,8 +80,9 @@ typedef struct {
 } sight;
 
 // Inside already (t < t_min): the hit is the eye itself, seen face on.
-FN sight look_at(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n, real t_min) {
-    const truth inside = t < t_min;
+FN sight look_at(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
+                 real t_min) {
+    const lane_mask inside = t < t_min;
     sight seen;
     if (!none(inside)) {
         const vec3 face_on = scale(normalize3(r.d), REAL(-1));

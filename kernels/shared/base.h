@@ -29,7 +29,7 @@ typedef real wide;
 #endif
 typedef uint u32;
 #define GLOBAL __global
-// Where a ray's ends are: in global memory, unless a program keeps them to the work-item.
+// Where a ray's ends are: in global memory, or, in programs for first hits, in private memory.
 #ifdef CSGRT_PRIVATE_ENDS
 #define ENDS __private
 #else
@@ -40,22 +40,22 @@ typedef uint u32;
 #else
 #define FN static
 #endif
-// What is so often called with so much that a call takes longer than its work.
-#ifdef CSGRT_NO_INLINE  // for a simulator that does not know all that inlining leaves behind
+// A function whose call takes longer than its work.
+#ifdef CSGRT_NO_INLINE  // for a simulator that does not know all instructions that inlining leaves
 #define INLINE_FN FN
 #else
 #define INLINE_FN FN inline __attribute__((always_inline))
 #endif
-// What is seldom reached, in the midst of what is hot: a call for a processor. On a GPU a call takes registers from all that is around
-// it (measured: docs/experiments/contact.md).
+// Rare code within hot code. On a processor it is a call. On a GPU it is inlined, because a call takes registers from
+// all code around it (measured: docs/experiments/contact.md).
 #if defined(CSGRT_PACKETS) || defined(CSGRT_NO_INLINE)
 #define RARE_FN NOINLINE_FN
 #else
 #define RARE_FN FN
 #endif
-// What is large and seldom reached: inlined, it takes a GPU's registers from all that is.
+// Large rare code, which would take a GPU's registers from all other code if it were inlined.
 #define NOINLINE_FN FN __attribute__((noinline))
-// What takes all that it calls into itself where that pays: a compiler for a device does so in any case.
+// A function that inlines all that it calls, where that pays. A compiler for a device does so in any case.
 #define WHOLE_FN FN
 #define REAL_INFINITY ((real)INFINITY)
 FN real real_sqrt(real x) { return sqrt(x); }
@@ -83,30 +83,34 @@ FN real real_scaled(real x, int e) { return host::scaled(x, e); }
 FN u32 clz(u32 x) { return (u32)__builtin_clz(x); }  // x > 0
 #endif
 
-// A value that is one for each ray, as far as packets need the source (packet/packet.h): of one ray, what it is called.
-typedef real parameter;  // of a solid, whatever the number of rays
+// Types whose names packets give to vectors, to compile the same source once more (packet/begin.h). Here they are one
+// ray's.
 typedef float single;
-typedef int truth;  // of two reals compared
-typedef int single_truth;
-typedef u32 tag;  // a count or a surface
-FN int none(truth x) { return !x; }
+typedef int lane_mask;         // what two reals compared give: 1 or 0; -1 or 0 in each lane of a vector
+typedef int single_lane_mask;  // the same of two singles
+typedef u32 tag;               // a count or a surface
+// A number of a solid, which is the same for all rays, also in a packet.
+typedef real parameter;
+FN int none(lane_mask x) { return !x; }
 FN single to_single(real x) { return (float)x; }
 
 #define REAL(x) ((real)(x))
 #define SINGLE(x) ((single)(x))
 #define TAG(x) ((tag)(x))
-// A limit that depends on how many digits `real` has: 24 bits, 53, 113.
+// A limit that depends on how many bits a number has: 24, 53 or 113. `parameter` has as many as `real`, which may be
+// a vector.
 #define BY_PRECISION(single, twofold, quadruple) \
-    (sizeof(real) == 4 ? REAL(single) : sizeof(real) == 8 ? REAL(twofold) : REAL(quadruple))
+    (sizeof(parameter) == 4 ? REAL(single) : sizeof(parameter) == 8 ? REAL(twofold) : REAL(quadruple))
 
-// By how much rounding of a point's, a direction's or a surface's own numbers may change a product of two of them, in units of
-// their sizes: some roundings of each. In 113 bits as in double, whose numbers they are.
+// By how much rounding of a point's, a direction's or a surface's own numbers may change a product of two of them, in
+// units of their sizes: some roundings of each. In 113 bits as in double, whose numbers they are.
 #define ROUNDING BY_PRECISION(0x1p-21, 0x1p-50, 0x1p-50)
 
 // The number of the lowest bit that is set; bits > 0.
 FN u32 lowest(u32 bits) { return 31u - clz(bits & (0u - bits)); }
 
-// Of numbers: a GPU has fmin as one instruction, a processor only the comparison, for fmin passes NaNs by.
+// A GPU has fmin as one instruction. A processor has the comparison alone: fmin, which ignores NaNs, takes it several
+// instructions.
 #if defined(__OPENCL_VERSION__) && !defined(CSGRT_PACKETS)
 FN float single_min(float a, float b) { return fmin(a, b); }
 FN float single_max(float a, float b) { return fmax(a, b); }

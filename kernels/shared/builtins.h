@@ -1,6 +1,6 @@
-// OpenCL C's functions, so far as kernels use them, for a compiler that is kept from reading its declarations of them all
-// (src/device/program.cpp). As Khronos's specification has them: what depends on nothing but its arguments is const, what all
-// work-items of a group must come to together is convergent.
+// The functions of OpenCL C that kernels use, for a compiler that is kept from reading its own declarations of them
+// all (src/device/program.cpp). They are as Khronos's specification has them: a function that depends on its
+// arguments alone is const, one that all work-items of a group must reach together is convergent.
 #ifndef CSGRT_SHARED_BUILTINS_H
 #define CSGRT_SHARED_BUILTINS_H
 
@@ -21,7 +21,7 @@ PURE uint min(uint a, uint b);
 PURE uint popcount(uint bits);
 PURE uint clz(uint bits);
 PURE uint add_sat(uint a, uint b);
-PURE int any(long8 truths);
+PURE int any(long8 lanes);
 
 #define REAL_FUNCTIONS(T)  \
     PURE T sqrt(T x);      \

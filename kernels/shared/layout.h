@@ -1,5 +1,5 @@
-// THE one file for every record that crosses the bus, every opcode and every limit that host and device share.
-// Sizes and offsets are asserted on the host (src/kernel_host/kernels.hpp) and reported by a probe kernel from the device.
+// THE one file for every record that crosses the bus, every opcode and every limit that host and device share. Sizes
+// and offsets are asserted on the host (src/kernel_host/kernels.hpp) and reported by a probe kernel from the device.
 #ifndef CSGRT_SHARED_LAYOUT_H
 #define CSGRT_SHARED_LAYOUT_H
 
@@ -58,13 +58,14 @@ typedef struct {
 #define BEGINS_AT_EXIT 2u   // where it leaves it: it is removed from some term
 #define ALONE_UNKNOWN 0xffffffffu  // its terms have to be looked at
 
-// A plane of the world: inside is n . p <= d. Shared by all faces that lie in it, so that they are hit at the very same t.
+// A plane of the world: inside is n . p <= d. Shared by all faces that lie in it, so that they are hit at the very
+// same t.
 typedef struct {
     wide nx, ny, nz, d;
 } PlaneRecord;
 
-// Above a surface is the side to which this direction points, which faces of models seldom contain: a ray that touches several
-// surfaces is moved to the same side of all.
+// Above a surface is the side to which this direction points, which faces of models seldom contain: a ray that
+// touches several surfaces is moved to the same side of all.
 #define ABOVE_Y 0.6180339887498949
 #define ABOVE_Z 0.3472963553338607
 FN int faces_above(PlaneRecord p) { return p.nx + p.ny * ABOVE_Y + p.nz * ABOVE_Z >= 0; }  // its normal
@@ -73,8 +74,9 @@ FN int faces_above(PlaneRecord p) { return p.nx + p.ny * ABOVE_Y + p.nz * ABOVE_
 typedef u32 PlaneRef;
 
 // ---- Regions and their trees ----
-// Depth-first order, one word a node: 3 high bits the operator, 29 low bits the right child's position in `trees` or, for a leaf, the
-// solid. The left child is the next word. There are no complements: the compiler has them vanish in differences.
+// Depth-first order, one word a node: 3 high bits the operator, 29 low bits the right child's position in `trees` or,
+// for a leaf, the solid. The left child is the next word. There are no complements: the compiler has them vanish in
+// differences.
 
 #define OP_LEAF 0
 #define OP_UNION 1
@@ -85,8 +87,8 @@ typedef u32 PlaneRef;
 #define TREE_SHIFT 29
 #define TREE_MASK 0x1fffffffu
 
-// The walk of a large term pushes only on the way into a left child, and the compiler puts the child that needs the deeper
-// stack second, so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
+// The walk of a large term pushes only on the way into a left child, and the compiler puts the child that needs the
+// deeper stack second, so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
 #define TREE_STACK 30
 
 #define REGION_UNION_ONLY 1u  // the tree holds unions only: any of its segments claims
@@ -96,8 +98,9 @@ typedef struct {
     u32 flags;
 } RegionRecord;
 
-// Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the first in the
-// model among those of the first rank. Regions of different ranks never overlap: the later one yields, without a word.
+// Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the
+// first in the model among those of the first rank. Regions of different ranks never overlap: the later one yields,
+// without a word.
 #define RANK_SOLID 0
 #define RANK_PLATE 1   // FASTGEN's
 #define RANK_VOLUME 2  // FASTGEN's
@@ -130,17 +133,19 @@ FN SolidFilter with(SolidFilter a, SolidFilter b) {
 }
 FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.odd & ~b.odd); }
 
-// What a term is, as far as one solid alone says it: X - (A + B + (C - D)) is empty wherever A or B is covered, and needs X;
-// only where C or D is covered have its words to be looked at. The table is open (linear probing): 32 - log2 of its size,
-// how many solids the term needs (NONE: more than solids), then entries, role << TREE_SHIFT | solid, NONE if free.
+// What a term is, as far as one solid alone says it: X - (A + B + (C - D)) is empty wherever A or B is covered, and
+// needs X; only where C or D is covered have its words to be looked at. The table is open (linear probing): 32 - log2
+// of its size, how many solids the term needs (NONE: more than solids), then entries, role << TREE_SHIFT | solid,
+// NONE if free.
 #define ROLE_BLOCKS 1u
 #define ROLE_NEEDED 2u
 #define ROLE_UNDECIDED 3u
 #define ROLES_HEADER 2u
 FN u32 place_of_role(u32 solid, u32 shift) { return solid * 0x9e3779b1u >> shift; }
 
-// A region's tree is a union of terms. A term's starts are leaves such that some one of them is covered wherever the term
-// is: all of a union, those of A in A - B, those of either in A and B. A record for each solid and term that it starts.
+// A region's tree is a union of terms. A term's starts are leaves such that some one of them is covered wherever the
+// term is: all of a union, those of A in A - B, those of either in A and B. A record for each solid and term that it
+// starts.
 typedef struct {
     u32 region;
     u32 first_word, end_word;  // of the term, in trees
@@ -166,8 +171,8 @@ typedef struct {
     u32 beam;         // 0: it shines everywhere, without regard to the axis
 } LightRecord;
 
-// A program for a scene whose lights are plain points, without glow and without hidden regions, is compiled without these: they
-// take a GPU's registers.
+// A program for a scene whose lights are plain points, without glow and without hidden regions, is compiled without
+// these: they take a GPU's registers.
 #if defined(CSGRT_SHAPED_LIGHTS) || !defined(__OPENCL_VERSION__)
 #define SHAPED_LIGHTS 1
 #else
@@ -264,12 +269,13 @@ typedef struct {
     RayCount total;            // the same
 } BatchReport;
 
-// An entry of the list: a tile's number, and above it 0, or PARTS and more for each of its parts. Work-items that go in lockstep
-// wait for each other, the more so the more there is to do: the few tiles that cost most have fewer rays in each group of LOCKSTEP.
+// An entry of the list: a tile's number, and above it 0, or PARTS and more for each of its parts. Work-items of one
+// warp wait for each other, the more so the more there is to do, so the few tiles that cost most have fewer rays in
+// each warp. ASSUMED_WARP is the size of NVIDIA's; on a device of another the picture is the same.
 #define PARTS 4u
 #define PART_SHIFT 26u    // tiles are fewer: their rays have numbers of 32 bits
 #define PARTED_CLASS 40u  // costs from 128 on (class_of in tile_list.cl)
-#define LOCKSTEP 32u
+#define ASSUMED_WARP 32u
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }
 FN u32 partitions_of(u32 segments) { return 2u * segments; }
@@ -290,9 +296,9 @@ typedef struct {
     u32 surface;  // which surface of the solid, see geometry/<solid>.h; and MISSED_...
 } End;
 
-// Set in End.surface of both ends of a segment along which the ray touches the solid, as far as rounding lets one say, because
-// it runs in a face of it or along its wall: moved a little above that surface, or below it, the ray misses the solid. boolean/claim.h
-// tells what for.
+// Set in End.surface of both ends of a segment along which the ray touches the solid, as far as rounding lets one
+// say, because it runs in a face of it or along its wall: moved a little above that surface, or below it, the ray
+// misses the solid. boolean/claim.h tells what for.
 #define MISSED_ABOVE 0x40000000u
 #define MISSED_BELOW 0x20000000u
 #define MISSED (MISSED_ABOVE | MISSED_BELOW)
@@ -302,8 +308,8 @@ typedef struct {
 typedef struct {
     u32 in_end, out_end;  // ends (2 * segment + side) of this ray that bound the partition; NONE: the node is none
     u32 next;             // before weaving: the end that is in this place by distance; NONE: no more
-    u32 owner;            // before evaluation: the ray; after it: the region that claimed the partition, or NONE; OVERLAP is
-                          // set if several of its rank wanted it
+    u32 owner;  // before evaluation: the ray; after it: the region that claimed the partition, or NONE; OVERLAP is set
+                // if several of its rank wanted it
 } PartitionNode;
 #define NONE 0x7fffffffu
 #define OVERLAP 0x80000000u
@@ -329,7 +335,8 @@ typedef struct {
     u32 depth, partitions, overlap;
 } Pixel;
 
-// The picture: for each channel, in this order, a plane: a float of each of the batch's rays, or of each pixel of its lines.
+// Channels by groups, in the order in which they stand in the picture. A channel is a float for each of the batch's
+// rays, or for each pixel of its lines.
 #define CHANNEL_COLOR 1u     // R G B A
 #define CHANNEL_DISTANCE 2u  // Z
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z

@@ -1,9 +1,9 @@
 // Rays against boxes of a bounding volume hierarchy, in float.
 //
-// The slab test may enter a box that the ray misses, never the reverse: the origin is moved to the ray's closest approach
-// to the hierarchy's center, so |p| <= radius; then the errors of p, 1/d and the products amount to less than
-// radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single precision
-// boxes grow with the distance of the ray's origin: there a solid may be met where it is not.
+// The slab test may enter a box that the ray misses, never the reverse: the origin is moved to the ray's closest
+// approach to the hierarchy's center, so |p| <= radius; then the errors of p, 1/d and the products amount to less
+// than radius * 2^-21 of displacement an axis, and boxes are padded by radius * 2^-20 when they are built. In single
+// precision boxes grow with the distance of the ray's origin: there a solid may be met where it is not.
 #ifndef CSGRT_SHARED_SLAB_H
 #define CSGRT_SHARED_SLAB_H
 
@@ -14,22 +14,23 @@ typedef struct {
     single ix, iy, iz;  // 1 / direction, or MOST_INVERSE
     single t_min;       // in the hierarchy's own parameter
     single pad;         // single precision: by which boxes grow
-    truth hits_sphere;  // 0: nothing can be hit
+    lane_mask hits_sphere;  // 0: nothing can be hit
     real shift, length;  // the hierarchy's parameter is length * t - shift
 } slab_ray;
 
 #define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)
 #define SLAB_SLACK BY_PRECISION(0x1p-10, 0x1p-20, 0x1p-20)  // covers the rounding of t_min to float
 
-// So large that a ray which runs along a slab never leaves it within the sphere, and no infinity, which times 0 is no number.
+// So large that a ray which runs along a slab never leaves it within the sphere, and no infinity, which times 0 is no
+// number.
 #define MOST_INVERSE 1e30f
 FN single inverse(single x) {
     const single i = SINGLE(1) / x;
     return i < SINGLE(-MOST_INVERSE) ? SINGLE(-MOST_INVERSE) : i > SINGLE(MOST_INVERSE) ? SINGLE(MOST_INVERSE) : i;
 }
 
-// `o`: the ray's origin relative to the center, around which all boxes lie within `radius`. What ends before t_min is not
-// wanted.
+// `o`: the ray's origin relative to the center, around which all boxes lie within `radius`. What ends before t_min is
+// not wanted.
 FN slab_ray make_slab_ray(offset3 o, vec3 direction, real radius, real t_min) {
     slab_ray s;
     real length = real_sqrt(dot3(direction, direction));
@@ -57,8 +58,8 @@ FN single grown(float x, single pad) { return sizeof(real) == 4 ? x + pad : SING
 
 #define BOX_MISSED 3.0e38f
 
-// Where the ray enters the box, or before that, in the hierarchy's parameter; it misses the box if that is behind `out`. A ray
-// along a padded face, which is outside the true box, may be told either.
+// Where the ray enters the box, or before that, in the hierarchy's parameter; it misses the box if that is behind
+// `out`. A ray along a padded face, which is outside the true box, may be told either.
 FN single box_passage(slab_ray s, BvhNode node, single* out) {
     const single x0 = (grown(node.low[0], -s.pad) - s.px) * s.ix, x1 = (grown(node.high[0], s.pad) - s.px) * s.ix;
     const single y0 = (grown(node.low[1], -s.pad) - s.py) * s.iy, y1 = (grown(node.high[1], s.pad) - s.py) * s.iy;
@@ -67,7 +68,7 @@ FN single box_passage(slab_ray s, BvhNode node, single* out) {
     return single_max(single_max(single_min(x0, x1), single_min(y0, y1)), single_max(single_min(z0, z1), s.t_min));
 }
 
-FN single_truth box_is_hit(slab_ray s, BvhNode node) {
+FN single_lane_mask box_is_hit(slab_ray s, BvhNode node) {
     single out;
     const single in = box_passage(s, node, &out);
     return in <= out;

@@ -1,5 +1,4 @@
-// Points, and sums and products with what their rounding lost. As everything that a packet needs (packet/packet.h), it is written for
-// one ray or, with `real` redefined, for several side by side.
+// Points, and sums and products with what their rounding lost. Compiled for one ray and for packets (packet/begin.h).
 #ifndef CSGRT_SHARED_VECTORS_H
 #define CSGRT_SHARED_VECTORS_H
 
@@ -28,7 +27,7 @@ FN vec3 normalize3(vec3 a) { return scale(a, REAL(1) / real_sqrt(dot3(a, a))); }
 // The same where n has a direction, else against d.
 FN vec3 unit_or_against(vec3 n, vec3 d) {
     const real length2 = dot3(n, n);
-    const truth has_direction = length2 > 0 && length2 < REAL_INFINITY;
+    const lane_mask has_direction = length2 > 0 && length2 < REAL_INFINITY;
     n.x = has_direction ? n.x : d.x * REAL(-1);
     n.y = has_direction ? n.y : d.y * REAL(-1);
     n.z = has_direction ? n.z : d.z * REAL(-1);

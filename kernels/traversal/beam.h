@@ -11,8 +11,8 @@
 
 typedef struct {
     slab_ray slabs;
-    float pad;     // by which boxes grow
-    wide start;    // of the middle ray's own parameter, from the eye
+    float pad;   // by which boxes grow
+    wide start;  // of the middle ray's own parameter, from the eye
     wide to_center;
 } beam;
 
@@ -43,12 +43,12 @@ FN beam make_beam(GLOBAL const Frame* f, u32 tile) {
     return b;
 }
 
-// The nodes of the tile of a picture's ray, out of the lists of the frame's tiles.
+// The list of the tile that holds a picture's ray.
 FN GLOBAL const TileNode* list_of(GLOBAL const Frame* f, GLOBAL const TileNode* lists, u32 number) {
     return lists + (size_t)((number - f->first_ray) / (TILE * TILE)) * LISTED_NODES;
 }
 
-// As box_entry, before any of the beam's rays.
+// Where the middle ray enters the larger box; BOX_MISSED: no ray of the beam enters the box.
 FN float beam_entry(beam b, BvhNode node) {
     u32 k;
     for (k = 0; k < 3; ++k) {
@@ -71,7 +71,7 @@ FN float entry_from_center(beam b, float at) {
     return (float)(b.start + (wide)distance_before(b.slabs, at) - b.to_center) - b.pad;
 }
 
-// What is added to it for the parameter of one of the beam's rays.
+// What is added to that for the parameter of one of the beam's rays.
 FN wide offset_along(GLOBAL const Frame* f, ray3 r) { return distance_of_center(f) - (wide)distance_along(r, 0); }
 
 #endif

@@ -1,5 +1,5 @@
-// From a ray's number to the ray. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by row from the top
-// left.
+// From a ray's number to the ray. Rays of a picture are numbered in tiles of 8 x 8 pixels of its screen, row by row
+// from the top left.
 #ifndef CSGRT_TRAVERSAL_CAMERA_H
 #define CSGRT_TRAVERSAL_CAMERA_H
 
@@ -25,13 +25,16 @@ FN size_t row_major_place(ScreenBounds w, u32 first_ray, pixel_position at) {
     return (size_t)(at.y - top) * width_of(w) + (at.x - w.left);
 }
 
-// The place of a ray's pixel in a channel of the batch's picture, and how many floats a channel has.
+// Where a ray's pixel stands in a channel of the batch's picture, and how many floats a channel has.
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
     return f->rows ? row_major_place(f->screen, f->first_ray, at) : id;
 }
-FN size_t channel_size(GLOBAL const Frame* f) { return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count; }
+FN size_t channel_size(GLOBAL const Frame* f) {
+    return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count;
+}
 
-// Tells the host that the ray's tile shows something. Any number of them may say so at once.
+// Marks the ray's tile, for the host, as one that shows something. Rays may do so at the same time: all store the
+// same value.
 FN void mark_shown(GLOBAL const Frame* f, GLOBAL BatchReport* report, u32 number) {
     if (f->rows) ((GLOBAL unsigned char*)(report + 1))[(number - f->first_ray) / (TILE * TILE)] = 1;
 }
@@ -41,8 +44,8 @@ FN world_ray camera_ray(GLOBAL const Frame* f, pixel_position at) { return view_
 FN wide3 frame_center(GLOBAL const Frame* f) { return make_wide3(f->center[0], f->center[1], f->center[2]); }
 
 #ifdef CSGRT_EYE_RELATIVE
-// The direction becomes a unit vector; an origin outside the sphere around the scene is moved to its closest approach to
-// the center. So distances along the ray are small where there is anything.
+// The direction becomes a unit vector; an origin outside the sphere around the scene is moved to its closest approach
+// to the center. So distances along the ray are small where there is anything.
 FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
     ray3 r;
     wide3 from = wide_subtract(w.o, frame_center(f));

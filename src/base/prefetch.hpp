@@ -6,7 +6,7 @@
 namespace csgrt {
 
 /// Asks for memory that will be read.
-inline void fetch([[maybe_unused]] const void* memory) {
+inline void prefetch_line([[maybe_unused]] const void* memory) {
 #if defined(__GNUC__)
     __builtin_prefetch(memory);
 #endif
@@ -14,9 +14,9 @@ inline void fetch([[maybe_unused]] const void* memory) {
 
 /// Asks for all of an object.
 template <class T>
-void fetch_whole(const T& object) {
+void prefetch_whole(const T& object) {
     constexpr std::size_t line = 64;
-    for (std::size_t i = 0; i < sizeof(T); i += line) fetch(reinterpret_cast<const char*>(&object) + i);
+    for (std::size_t i = 0; i < sizeof(T); i += line) prefetch_line(reinterpret_cast<const char*>(&object) + i);
 }
 
 }  // namespace csgrt

@@ -87,13 +87,13 @@ public:
             for (std::size_t i = first; i < last; ++i) {
                 constexpr std::size_t soon = 4, later = 8;
                 if (i + later < last) {
-                    fetch(&flat_.instances[order_[i + later]]);
-                    fetch_whole(measured_.boxes[order_[i + later]]);
+                    prefetch_line(&flat_.instances[order_[i + later]]);
+                    prefetch_whole(measured_.boxes[order_[i + later]]);
                 }
                 if (i + soon < last) {
                     const Instance& instance = flat_.instances[order_[i + soon]];
-                    fetch_whole(scene_.objects[instance.object]);
-                    fetch_whole(*instance.matrix);
+                    prefetch_whole(scene_.objects[instance.object]);
+                    prefetch_whole(*instance.matrix);
                 }
                 prepare(i, chunks_[number], planes);
             }
@@ -189,8 +189,8 @@ private:
             const auto part_at = [&](std::size_t i) -> auto& { return chunk_at(i).parts[surface_at(i).first]; };
             for (std::size_t i = 0; i < members.size(); ++i) {
                 constexpr std::size_t soon = 6, later = 12;
-                if (i + later < members.size()) fetch_whole(surface_at(i + later));
-                if (i + soon < members.size()) fetch(&part_at(i + soon));
+                if (i + later < members.size()) prefetch_whole(surface_at(i + later));
+                if (i + soon < members.size()) prefetch_line(&part_at(i + soon));
                 const SurfaceTable::Surface& surface = surface_at(i).second;
                 PackedChunk::Part& part = part_at(i);
                 part.stands = table.add(surface, part.stands, reals_of, axes);

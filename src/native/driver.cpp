@@ -276,7 +276,7 @@ cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const cha
     const bool is_first_hits = has(options, "-DCSGRT_PRIVATE_ENDS");
     if (!was_compiled(options)) return CL_BUILD_PROGRAM_FAILURE;
     const Level& level = level_of(*devices);
-    p.program = level.program(!is_first_hits ? "partitions" : has(options, "-DCSGRT_FETCH") ? "first_hits_fetch" : "first_hits");
+    p.program = level.program(!is_first_hits ? "partitions" : has(options, "-DCSGRT_PREFETCH") ? "first_hits_prefetch" : "first_hits");
     return CL_SUCCESS;
 }
 cl_int release_program(cl_program program) {

@@ -21,7 +21,7 @@ struct CompiledKernel {
 
 /// What a program may be: one of these, with every type of solid.
 struct Program {
-    const char* name;  ///< first_hits, first_hits_fetch (CSGRT_FETCH), partitions
+    const char* name;  ///< first_hits, first_hits_prefetch (CSGRT_PREFETCH), partitions
     std::span<const CompiledKernel> kernels;
 };
 

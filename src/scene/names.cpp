@@ -58,7 +58,7 @@ Names::Names(const Scene& scene)
     std::uint64_t children = 0;
     for (std::size_t object = 0; object < count; ++object) {
         constexpr std::size_t soon = 16;
-        if (object + soon < count) fetch(&slots_[hashes[object + soon] & (slots - 1)]);
+        if (object + soon < count) prefetch_line(&slots_[hashes[object + soon] & (slots - 1)]);
         std::size_t i = hashes[object] & (slots_.size() - 1);
         for (; slots_[i].object != none; i = (i + 1) & (slots_.size() - 1)) {
             if (slots_[i].hash == hashes[object] &&
@@ -83,12 +83,12 @@ Names::Names(const Scene& scene)
             for (std::size_t k = 0; k < nodes.size(); ++k) {
                 if (nodes[k].op != Operator::leaf) continue;
                 own[k] = hash_of(nodes[k].object);
-                fetch(&slots_[own[k] & (slots - 1)]);
+                prefetch_line(&slots_[own[k] & (slots - 1)]);
             }
             for (std::size_t k = 0; k < nodes.size(); ++k) {
                 if (nodes[k].op != Operator::leaf) continue;
                 if (const Slot& slot = slots_[own[k] & (slots - 1)]; slot.object != none)
-                    fetch_whole(scene.objects[slot.object]);
+                    prefetch_whole(scene.objects[slot.object]);
             }
             for (std::size_t k = 0; k < nodes.size(); ++k)
                 own[k] = nodes[k].op == Operator::leaf ? find(nodes[k].object, own[k]) : operation;

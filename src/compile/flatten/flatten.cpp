@@ -102,13 +102,13 @@ struct TermsPart {
 };
 
 /// Asks for what the terms after number `i` will read first, most of the time.
-void fetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, std::size_t i) {
+void prefetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, std::size_t i) {
     const auto object_at = [&](std::size_t term) { return terms[term].forest->leftmost_start(terms[term].node).object; };
-    if (i + 2 < terms.size()) fetch_whole(scene.objects[object_at(i + 2)]);
+    if (i + 2 < terms.size()) prefetch_whole(scene.objects[object_at(i + 2)]);
     if (i + 1 == terms.size() || index.kind(object_at(i + 1)) >= Names::Kind::solid) return;
     const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[object_at(i + 1)]).tree.nodes;
     constexpr std::size_t most = 8;
-    for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) fetch_whole(nodes[k]);
+    for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) prefetch_whole(nodes[k]);
 }
 
 TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms) {
@@ -116,7 +116,7 @@ TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<c
     part.regions.reserve(terms.size());
     Flattener flattener(scene, index, part.flat);
     for (std::size_t i = 0; i < terms.size(); ++i) {
-        fetch_ahead(scene, index, terms, i);
+        prefetch_ahead(scene, index, terms, i);
         const auto& [forest, term] = terms[i];
         const RegionStart& start = forest->leftmost_start(term);
         const Object& origin = scene.objects[forest->origin_of(start)];

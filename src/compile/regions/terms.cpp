@@ -317,7 +317,7 @@ void list_terms(CompiledScene& compiled) {
             compiled.has_large_terms = compiled.has_large_terms || words > SCANNED_WORDS;
             for (; i < chunk.ends[term]; ++i) {
                 constexpr std::size_t soon = 16;
-                if (i + soon < chunk.starts.size()) fetch(&compiled.solids[chunk.starts[i + soon]]);
+                if (i + soon < chunk.starts.size()) prefetch_line(&compiled.solids[chunk.starts[i + soon]]);
                 kernel::SolidRecord& solid = compiled.solids[chunk.starts[i]];
                 compiled.starts[solid.first_start + solid.start_count++] = record;
                 claim_alone(compiled, solid, chunk.alone[i], record.region);

@@ -56,8 +56,8 @@ public:
         return slots_[slot_of(hash)].number;
     }
     /// Asks for the memory where a cell's number is.
-    void fetch(std::uint64_t hash) const {
-        if (!slots_.empty()) csgrt::fetch(&slots_[first_slot_of(hash)]);
+    void prefetch(std::uint64_t hash) const {
+        if (!slots_.empty()) prefetch_line(&slots_[first_slot_of(hash)]);
     }
     /// Gives a cell a number and returns the one that it had.
     std::uint32_t exchange(std::uint64_t hash, std::uint32_t number) {

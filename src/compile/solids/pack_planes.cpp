@@ -138,10 +138,10 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         for (std::size_t i = 0; i < members.size(); ++i) {
             // They lie far apart: most of the time would go by in waiting for memory.
             constexpr std::size_t soon = 6, later = 12;
-            if (i + later < members.size()) fetch(&plane_at(i + later));
+            if (i + later < members.size()) prefetch_line(&plane_at(i + later));
             if (i + soon < members.size()) {
-                fetch(&box_at(i + soon));
-                table.fetch(plane_at(i + soon).key);
+                prefetch_line(&box_at(i + soon));
+                table.prefetch(plane_at(i + soon).key);
             }
             PackedPlane& plane = plane_at(i);
             const std::size_t before = table.size();

@@ -66,7 +66,7 @@ public:
     }
     std::vector<kernel::PlaneRecord> records() const;
     /// Asks for the memory that a search for it begins with.
-    void fetch(const Key& key) const { cells_.fetch(key.cell); }
+    void prefetch(const Key& key) const { cells_.prefetch(key.cell); }
 
 private:
     /// A record as it is looked up: on one side of space, see facing().

@@ -7,7 +7,7 @@ std::vector<std::string> options_of(const Device& device, const CompiledScene& s
     std::vector<std::string> options = program_options(device, scene, settings);
     options.push_back("CSGRT_PRIVATE_ENDS");
     constexpr std::size_t cached_nodes = 1u << 18;  // of a larger scene the processor's caches hold too little
-    if (traces_packets(device, settings) && scene.nodes.size() > cached_nodes) options.push_back("CSGRT_FETCH");
+    if (traces_packets(device, settings) && scene.nodes.size() > cached_nodes) options.push_back("CSGRT_PREFETCH");
     if (scene.solids.size() > 32) options.push_back("CSGRT_FEW=64u");  // measured: docs/experiments/gpu-kernels.md
     return options;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/parts.hpp"
-#include "device/compiling_device.hpp"
+#include "integration/same_answers.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
 #include "pipeline/passes/scene_tables.hpp"
 #include "reference/reference.hpp"

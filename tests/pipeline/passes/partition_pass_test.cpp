@@ -2,6 +2,7 @@
 // written if the buffers at hand hold too little.
 #include "pipeline/passes/partitions.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "catch.hpp"
@@ -45,7 +46,8 @@ TEST_CASE("the partition pass answers rays as they come") {
     test::OnDevice on(bench::scene_of_parts(200));
     PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
     const std::vector<Ray> rays = test::random_rays(on.compiled.bounds, 200);
-    const PreparedFrame prepared = prepare_rays(on.compiled, 200);
+    PreparedFrame prepared = prepare_rays(on.compiled, 200);
+    prepared.frame.ray_count = 200;
     on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(prepared.frame));
     on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(rays));
     TimedKernels timed;

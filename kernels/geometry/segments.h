@@ -4,8 +4,8 @@
 //   -----|=========|-----------|=========|-----> t        count = 2
 //
 // `surface` numbers the surfaces of a solid; each <solid>.h says which is which.
-#ifndef CSGRT_GEOMETRY_HITS_H
-#define CSGRT_GEOMETRY_HITS_H
+#ifndef CSGRT_GEOMETRY_SEGMENTS_H
+#define CSGRT_GEOMETRY_SEGMENTS_H
 
 #include "tables.h"
 
@@ -13,18 +13,18 @@ typedef struct {
     tag count;  // segments: 0, 1 or 2
     real in0, out0, in1, out1;
     tag in0_surface, out0_surface, in1_surface, out1_surface;
-    truth touched;  // may the ray touch the solid only? touch.h looks more closely
-} hits;
+    lane_mask touched;  // may the ray touch the solid only? touch.h looks more closely
+} segments;
 
 // A piece of the ray, with the surfaces that bound it.
 typedef struct {
     real low, high;
     tag low_surface, high_surface;
-    truth touched;  // the ray runs in one of its planes
+    lane_mask touched;  // the ray runs in one of its planes
 } span;
 
-FN hits no_hits(void) {
-    hits h;
+FN segments no_segments(void) {
+    segments h;
     h.count = 0;
     h.in0 = h.out0 = h.in1 = h.out1 = 0;
     h.in0_surface = h.out0_surface = h.in1_surface = h.out1_surface = 0;
@@ -42,8 +42,8 @@ FN span whole_line(void) {
 }
 
 // Appends [in, out] unless it is empty. A ray that only touches has no segment there.
-FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
-    const truth first = in < out && h.count == 0, second = in < out && h.count == 1;
+FN segments append(segments h, real in, tag in_surface, real out, tag out_surface) {
+    const lane_mask first = in < out && h.count == 0, second = in < out && h.count == 1;
     h.in0 = first ? in : h.in0;
     h.out0 = first ? out : h.out0;
     h.in0_surface = first ? in_surface : h.in0_surface;
@@ -56,12 +56,12 @@ FN hits append(hits h, real in, tag in_surface, real out, tag out_surface) {
     return h;
 }
 
-FN hits touching(truth touched, hits h) {
+FN segments touching(lane_mask touched, segments h) {
     h.touched = touched;
     return h;
 }
 
-FN hits append_span(hits h, span s) {
+FN segments append_span(segments h, span s) {
     return touching(s.touched, append(h, s.low, s.low_surface, s.high, s.high_surface));
 }
 
