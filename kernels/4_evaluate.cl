@@ -22,7 +22,7 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     list_covered(c, &covered);
     if (covered.count == 1) owner = c.solids[covered.solids[0]].alone;
     if (owner == ALONE_UNKNOWN) {
-        const claim found = find_claim_beside(c, c.bits, &covered, ranks);
+        const claim found = find_claim_beside(c, c.bits, &covered, ranks, all_solids());
         owner = found.least | (found.other != NONE ? OVERLAP : 0u);
     }
     return owner;

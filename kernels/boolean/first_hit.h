@@ -113,7 +113,7 @@ FN u32 claim_of_one(const sweep* w, scene_tables s) {
 
 // The region that claims what the open segments cover. NONE, too, if it is one that no picture shows: such regions
 // have the last numbers, so no other claims.
-FN u32 first_claim(const sweep* w, scene_tables s) {
+FN u32 first_claim(const sweep* w, scene_tables s, SolidFilter changed) {
     u32 starting[SLOT_WORDS], i, any = 0, alone, region;
     for (i = 0; i < SLOT_WORDS; ++i) any |= starting[i] = w->open[i] & w->starts[i];
     alone = any ? claim_of_one(w, s) : NONE;
@@ -130,7 +130,7 @@ FN u32 first_claim(const sweep* w, scene_tables s) {
         c.starts = s.starts;
         c.trees = s.trees;
         list_covered(c, &covered);
-        region = find_claim_beside(c, starting, &covered, 0).least;
+        region = find_claim_beside(c, starting, &covered, 0, changed).least;
     }
 #if SHAPED_LIGHTS
     region = region < s.seen_end ? region : NONE;
@@ -144,6 +144,7 @@ FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid <
 // What happens at an event: the first end where a segment begins to cover, and the first where one ceases to.
 typedef struct {
     End in, out;  // solid NONE: there is none
+    SolidFilter changed;  // the solids that come or go
     u32 begins;   // not 0: a term may begin to be true
 } event;
 
@@ -154,6 +155,7 @@ FN event pass_event(sweep* w, real tolerance) {
     event e;
     e.in.t = e.out.t = w->next_event = REAL_INFINITY;
     e.in.solid = e.out.solid = NONE;
+    e.changed.even = e.changed.odd = 0;
     e.begins = 0;
     for (word = 0; word < SLOT_WORDS; ++word) {
         u32 bits = w->used[word];
@@ -169,6 +171,7 @@ FN event pass_event(sweep* w, real tolerance) {
                 if (is_open || is_thin) w->used[word] ^= bit;
                 if (!is_thin) {
                     w->open[word] ^= bit;
+                    e.changed = with(e.changed, filter_of(end.solid));
                     e.begins |= (is_open ? w->exit[word] : w->entry[word]) & bit;
                 }
                 if (is_open && comes_before(end, e.out)) e.out = end;
@@ -191,12 +194,13 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizo
     int found = 0, going = is_complete(w, tolerance, horizon);
     while (going) {
         const real t = w->next_event;
-        const event e = pass_event(w, tolerance);
+        event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
         // What ends before t_min is not seen.
         found = matters && w->region != NONE && t > t_min;
         if (matters && !found) {
-            w->region = first_claim(w, s);
+            if (w->region != NONE) e.changed = all_solids();
+            w->region = first_claim(w, s, e.changed);
             w->from_within = e.in.solid == NONE;
             w->seen = w->from_within ? e.out : e.in;
             w->seen.t = t;

@@ -3,7 +3,7 @@
 //
 // How it works. The headers are written for one ray: its numbers are `real`, `single` and so on, and structs of
 // these. This file redefines the names of those types as vectors of eight, of which lane k is ray k. It gives other
-// names to the structs that hold them, and lifts the guards of the headers, so that the next #include compiles each
+// names to the structs that hold them, and lifts the guards of the headers, so that the next inclusion compiles each
 // once more. Functions keep their names: OpenCL C overloads them by the types of their arguments (FN in
 // shared/base.h). Functions whose arguments are the same both times get other names here.
 //

@@ -131,6 +131,7 @@ FN SolidFilter with(SolidFilter a, SolidFilter b) {
     a.odd |= b.odd;
     return a;
 }
+FN u32 meet(SolidFilter a, SolidFilter b) { return (a.even & b.even) || (a.odd & b.odd); }
 FN u32 within(SolidFilter a, SolidFilter b) { return !(a.even & ~b.even) && !(a.odd & ~b.odd); }
 
 // What a term is, as far as one solid alone says it: X - (A + B + (C - D)) is empty wherever A or B is covered, and
@@ -150,6 +151,7 @@ typedef struct {
     u32 region;
     u32 first_word, end_word;  // of the term, in trees
     SolidFilter needed;        // solids that all cover wherever the term is
+    SolidFilter solids;        // all of the term's
     u32 roles;                 // where its table of roles begins, in trees; NONE: it has none
 } StartRecord;
 #define PLAIN_WORDS 16u      // of a term; a larger one has a table of roles
@@ -274,7 +276,7 @@ typedef struct {
 // each warp. ASSUMED_WARP is the size of NVIDIA's; on a device of another the picture is the same.
 #define PARTS 4u
 #define PART_SHIFT 26u    // tiles are fewer: their rays have numbers of 32 bits
-#define PARTED_CLASS 40u  // costs from 128 on (class_of in tile_list.cl)
+#define PARTED_CLASS 44u  // costs from 192 on (class_of in tile_list.cl)
 #define ASSUMED_WARP 32u
 
 FN u32 words_of(u32 segments) { return (segments + 31u) >> 5; }

@@ -163,7 +163,7 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
     const std::size_t before = chunk.starts.size();
     if (term.end - term.first == 1) {
         const kernel::SolidFilter solid = kernel::filter_of(solid_at(term.first));
-        chunk.records.push_back({term.region, term.first, term.end, solid, NONE});
+        chunk.records.push_back({term.region, term.first, term.end, solid, solid, NONE});
         chunk.starts.push_back(solid_at(term.first));
         chunk.alone.push_back(Alone::holds);
     } else {
@@ -171,10 +171,12 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
         std::vector<Part> stack;
         stack.reserve(TREE_STACK);
         std::vector<std::uint32_t> next(term.end - term.first, NONE);
+        kernel::SolidFilter solids{0, 0};
         for (std::uint32_t node = term.end; node-- > term.first;) {
             const std::uint32_t op = trees[node] >> TREE_SHIFT;
             if (op == OP_LEAF) {
                 stack.push_back({node, node, 1, kernel::filter_of(solid_at(node))});
+                solids = kernel::with(solids, stack.back().needed);
                 continue;
             }
             const Part left = stack.back();
@@ -193,7 +195,7 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
             }
         }
         const Part& whole = stack.back();
-        chunk.records.push_back({term.region, term.first, term.end, whole.needed, NONE});
+        chunk.records.push_back({term.region, term.first, term.end, whole.needed, solids, NONE});
         for (std::uint32_t node = whole.first; node != NONE; node = next[node - term.first])
             chunk.starts.push_back(solid_at(node));
         const auto own = chunk.starts.begin() + static_cast<std::ptrdiff_t>(before);

@@ -7,7 +7,12 @@ CullPass::CullPass(Device& device, const Program& program) : device_(device), cu
 Event CullPass::launch(const SceneTables& scene, BatchBuffers& batch, const kernel::Frame& frame) {
     const std::uint32_t tiles = frame.ray_count / tile_rays;
     batch.costs.reserve(tiles);
-    batch.tile_nodes.reserve(tiles * LISTED_NODES * sizeof(kernel::TileNode));
+    // A GPU finds the candidates of every partition as fast without lists, which take most of culling's time
+    // (docs/architecture.md, modes).
+    if (frame.every_partition && device_.info().type != "cpu")
+        batch.tile_nodes.release();
+    else
+        batch.tile_nodes.reserve(tiles * LISTED_NODES * sizeof(kernel::TileNode));
     if (frame.rows) batch.report.reserve(BatchBuffers::report_bytes({0, frame.ray_count}));
     return cull_tiles_.launch(tiles, divergent_group(device_), batch.frame, scene.nodes(), batch.costs, batch.tile_nodes, batch.report);
 }

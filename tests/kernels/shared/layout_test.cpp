@@ -20,7 +20,7 @@ using namespace csgrt;
     RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
-    FIELD(StartRecord, needed) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
+    FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
     FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
     FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) FIELD(MaterialRecord, glow) RECORD(LightRecord) \
     FIELD(LightRecord, x) FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, w) FIELD(LightRecord, bx) FIELD(LightRecord, by) \

@@ -29,7 +29,7 @@ TEST_CASE("a batch's tiles are listed once each, those that cost most first, the
         std::vector<unsigned char> costs(tiles);
         for (std::uint32_t i = 0; i < tiles; ++i) {
             const bool is_dear = dearest > 0 && i % dearest == 0;
-            costs[i] = static_cast<unsigned char>(is_dear ? 128 + random() % 128 : random() % 3 ? 0 : random() % 128);
+            costs[i] = static_cast<unsigned char>(is_dear ? 192 + random() % 64 : random() % 3 ? 0 : random() % 128);
         }
         buffers.costs = Buffer(device, "costs", costs);
         const RayBatch batch{70 * tile_rays, tiles * tile_rays};
@@ -53,7 +53,7 @@ TEST_CASE("a batch's tiles are listed once each, those that cost most first, the
             CHECK((listed[tile] & quarters) == 0);
             listed[tile] |= quarters;
             any_parts |= part > 0;
-            CHECK((part == 0 || (cost >= 128 && part >= PARTS && part < 2 * PARTS)));
+            CHECK((part == 0 || (cost >= 192 && part >= PARTS && part < 2 * PARTS)));
             ordered &= cost > 0 && (cost <= before || (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
             before = cost;
         }
