@@ -13,13 +13,13 @@ namespace csgrt::bench {
 using Times = decltype(Statistics::ms);
 struct Stage {
     const char* name;
-    double Times::* time;
+    double Times::*time;
 };
 /// Of the device; their sum is its part of a frame.
 inline constexpr Stage stages[] = {{"count_hits", &Times::count_hits}, {"scan", &Times::scan},
                                    {"store", &Times::store_segments},  {"weave", &Times::weave},
                                    {"evaluate", &Times::evaluate},     {"shade", &Times::shade},
-                                   {"cull", &Times::cull_tiles},      {"first_hits", &Times::first_hits}};
+                                   {"cull", &Times::cull_tiles},       {"first_hits", &Times::first_hits}};
 
 struct Figures {
     std::string workload, device, mode;  ///< mode: "first hits" or "every partition"

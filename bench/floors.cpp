@@ -47,7 +47,7 @@ Floor count_floor(const std::string& workload, const Scene& scene, const std::ve
     floor.segments = per_pixel(run.ends.size()) / 2;
     floor.partitions = per_pixel(partitions);
     floor.bytes = per_pixel(bytes_of(run.offsets) + bytes_of(run.ends) + bytes_of(run.nodes) + bytes_of(run.bits) +
-                          bytes_of(run.tallies) + bytes_of(run.picture));
+                            bytes_of(run.tallies) + bytes_of(run.picture));
     return floor;
 }
 

@@ -85,8 +85,7 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     renderer.render(view_of(options, every_partition, 0), framebuffer);  // compiles kernels and takes memory
     Figures f;
     f.ms = {{"compile", renderer.statistics().ms.compile}, {"build", renderer.statistics().ms.build}};
-    f.ms.emplace_back("first",
-                      renderer.statistics().ms.compile + setup + milliseconds_since(start));
+    f.ms.emplace_back("first", renderer.statistics().ms.compile + setup + milliseconds_since(start));
     std::vector<Statistics> frames;
     const int count = options.orbit > 0 ? options.orbit : options.frames;
     for (int i = 0; i < count; ++i) {

@@ -60,7 +60,7 @@ void print(const std::vector<Figures>& all) {
         if (f.orbit) std::printf(" %8.2f", f.time("worst"));
         std::printf(" | %8.1f %8.1f %8.1f |", f.time("compile"), f.time("build"), f.time("first"));
         const Workload* workload = workload_of(f);
-        for (double Workload::* figure :
+        for (double Workload::*figure :
              {&Workload::thesis_ms, &Workload::brlcad_cpu_ms, &Workload::brlcad_pocl_ms, &Workload::brlcad_h200_ms})
             print_figure(workload != nullptr && f.size == 1024 ? workload->*figure : 0);
         std::printf("\n");

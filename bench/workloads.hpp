@@ -15,7 +15,8 @@ struct Workload {
     /// Domingues 2017, figure 4.2: OpenCL on a GTX 1060; table 4.2: segments. 0: not given.
     double thesis_ms = 0;
     double thesis_segments = 0;
-    /// BRL-CAD 7.32.6, first hits, shooting time only: 2 CPU cores; its OpenCL path on PoCL with 2 cores, and on an H200.
+    /// BRL-CAD 7.32.6, first hits, shooting time only: 2 CPU cores; its OpenCL path on PoCL with 2 cores, and on an
+    /// H200.
     double brlcad_cpu_ms = 0, brlcad_pocl_ms = 0, brlcad_h200_ms = 0;
     std::uint32_t parts = 0;  ///< solids of a generated scene, see parts.hpp
 };

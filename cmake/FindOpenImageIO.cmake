@@ -1,7 +1,6 @@
 # find_package(OpenImageIO MODULE): the target OpenImageIO::OpenImageIO. OpenImageIO_ROOT and Imath_ROOT name folders to
-# look in first.
-# OpenImageIO's own package file is not used: it stops CMake where the tools of OpenImageIO or the headers of OpenCV are not
-# installed. csgrt needs neither.
+# look in first. OpenImageIO's own package file is not used: it stops CMake where the tools of OpenImageIO or the
+# headers of OpenCV are not installed. csgrt needs neither.
 include(FindPackageHandleStandardArgs)
 
 find_path(OpenImageIO_INCLUDE_DIR OpenImageIO/imageio.h)

@@ -1,15 +1,16 @@
 # The native device: the files of kernels/, compiled ahead of time by clang's OpenCL C front end.
 #
-# native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without clang, or with
-# CSGRT_NATIVE=OFF, the table is empty. The same file is the script that writes what is compiled: cmake -DFOLDER=... -DOUTPUT=...
-# -DLEVELS=... -P native_kernels.cmake
+# native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without clang, or
+# with CSGRT_NATIVE=OFF, the table is empty. The same file is the script that writes what is compiled: cmake
+# -DFOLDER=... -DOUTPUT=... -DLEVELS=... -P native_kernels.cmake
 #
 # A program is compiled with all types of solids and all lights: for one scene's own this costs 1 to 5 %. An entry is a
 # loop over work-items around a kernel: a call for each of them took up to five times as long.
 set(programs first_hits first_hits_prefetch partitions)
 set(first_hits_files 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl)
 set(first_hits_prefetch_files ${first_hits_files})
-set(partitions_files 0_cull_tiles.cl 1_packet_candidates.cl 1_count_hits.cl 2_store_segments.cl 3_weave.cl 4_evaluate.cl 5_shade.cl)
+set(partitions_files 0_cull_tiles.cl 1_packet_candidates.cl 1_count_hits.cl 2_store_segments.cl 3_weave.cl 4_evaluate.cl
+    5_shade.cl)
 set(first_hits_options -DCSGRT_PRIVATE_ENDS -DCSGRT_FEW=64u)
 set(first_hits_prefetch_options ${first_hits_options} -DCSGRT_PREFETCH)
 set(partitions_options "")
@@ -49,7 +50,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             "or the processor or the system is not known")
     elseif(NOT CSGRT_NATIVE)
         set(native_levels "")
-        message(NOTICE "No native device: it needs clang (Debian, Ubuntu: clang) and x86-64 or aarch64. OpenCL alone draws.")
+        message(NOTICE "No native device: it needs clang (Debian, Ubuntu: clang) and x86-64 or aarch64. "
+            "OpenCL alone draws.")
     endif()
 
     function(native_kernels target)
@@ -58,10 +60,12 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
         foreach(program IN LISTS programs)
             list(APPEND sources ${folder}/${program}_program.cl)
         endforeach()
-        file(GLOB_RECURSE kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.h ${PROJECT_SOURCE_DIR}/kernels/*.cl)
+        file(GLOB_RECURSE kernels CONFIGURE_DEPENDS
+            ${PROJECT_SOURCE_DIR}/kernels/*.h ${PROJECT_SOURCE_DIR}/kernels/*.cl)
         add_custom_command(
             OUTPUT ${folder}/table.cpp ${sources}
-            COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/kernels -DOUTPUT=${folder} "-DLEVELS=${native_levels}"
+            COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/kernels -DOUTPUT=${folder}
+                "-DLEVELS=${native_levels}"
                 -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
             DEPENDS ${kernels} ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
             COMMENT "Listing the kernels for the native device" VERBATIM)
@@ -72,18 +76,21 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             return()
         endif()
 
-        execute_process(COMMAND ${CSGRT_CLANG} -print-resource-dir OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
-        # clang tells kernels no version of OpenCL C where its target is a processor, nor, on aarch64, that it has doubles.
-        # Contraction: as of the host's code.
+        execute_process(COMMAND ${CSGRT_CLANG} -print-resource-dir
+            OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
+        # clang tells kernels no version of OpenCL C where its target is a processor, nor, on aarch64, that it has
+        # doubles. Contraction: as of the host's code.
         set(options -x cl -cl-std=CL1.2 -Xclang -cl-ext=+cl_khr_fp64 -cl-no-stdinc -target ${native_target} -w -fPIC
             -fvisibility=hidden -fno-math-errno -ffp-contract=off
             -include ${resources}/include/opencl-c-base.h -D__OPENCL_VERSION__=120 -DCSGRT_LDEXP="${native_ldexp}"
             -include ${PROJECT_SOURCE_DIR}/src/native/builtins.h -I${PROJECT_SOURCE_DIR}/kernels
-            -DCSGRT_REAL=double "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS -DCSGRT_LARGE_TERMS
+            -DCSGRT_REAL=double "-DCSGRT_SOLIDS=((1u << SOLID_TYPES) - 1u)" -DCSGRT_QUARTIC=0 -DCSGRT_PACKETS
+            -DCSGRT_LARGE_TERMS
             -DCSGRT_SHAPED_LIGHTS)
         if(CSGRT_SANITIZE)
             # An empty buffer is a null pointer, to which kernels add 0: C++ allows it, C does not.
-            list(APPEND options -O1 -g -fsanitize=${CSGRT_SANITIZE} -fno-sanitize=pointer-overflow -fno-sanitize-recover=all
+            list(APPEND options -O1 -g -fsanitize=${CSGRT_SANITIZE} -fno-sanitize=pointer-overflow
+                -fno-sanitize-recover=all
                 -fno-omit-frame-pointer)
         elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")  # to step through them: docs/native.md
             list(APPEND options -O0 -g)
@@ -101,7 +108,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
                 set(object ${folder}/${program}_${suffix}${CMAKE_CXX_OUTPUT_EXTENSION})
                 add_custom_command(
                     OUTPUT ${object}
-                    COMMAND ${CSGRT_CLANG} ${options} ${march} ${${program}_options} "-DNATIVE_NAME(x)=csgrt_${suffix}_${program}_##x"
+                    COMMAND ${CSGRT_CLANG} ${options} ${march} ${${program}_options}
+                        "-DNATIVE_NAME(x)=csgrt_${suffix}_${program}_##x"
                         -MD -MF ${object}.d -c ${folder}/${program}_program.cl -o ${object}
                     DEPENDS ${folder}/${program}_program.cl ${PROJECT_SOURCE_DIR}/src/native/builtins.h
                     DEPFILE ${object}.d
@@ -166,7 +174,8 @@ function(entry_of kernel name_out count_out text_out)
         else()
             list(APPEND sizes "sizeof(${type})")
             string(APPEND taken "    ${type} ${parameter_name};\n")
-            string(APPEND taken "    __builtin_memcpy(&${parameter_name}, arguments + ${count}, sizeof ${parameter_name});\n")
+            string(APPEND taken
+                "    __builtin_memcpy(&${parameter_name}, arguments + ${count}, sizeof ${parameter_name});\n")
         endif()
         list(APPEND names ${parameter_name})
         math(EXPR count "${count} + 1")
@@ -216,7 +225,8 @@ foreach(level IN LISTS LEVELS)
             list(GET kernel 0 name)
             list(GET kernel 1 count)
             set(entry csgrt_${suffix}_${program}_${name})
-            string(APPEND declarations "void ${entry}(std::size_t first, std::size_t end, const std::uint64_t* arguments);\n")
+            string(APPEND declarations
+                "void ${entry}(std::size_t first, std::size_t end, const std::uint64_t* arguments);\n")
             string(APPEND declarations "extern const std::uint32_t ${entry}_sizes[];\n")
             string(APPEND rows "    {\"${name}\", ${entry}, ${entry}_sizes, ${count}},\n")
         endforeach()

@@ -1,4 +1,5 @@
-# What most files include is read once. A compiler cache does not keep what is compiled so; with one every file reads it.
+# What most files include is read once. A compiler cache does not keep what is compiled so; with one every file reads
+# it.
 set(CSGRT_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <sstream>
     <string> <string_view> <unordered_map> <utility> <variant> <vector> <csgrt/scene.hpp>)
 if(CSGRT_TOGETHER AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -19,7 +19,8 @@ function(csgrt_target_options target)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
         # All false where "literal" + string is inlined (GCC bug 105651).
-        target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+        target_compile_options(${target} PRIVATE
+            -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
     endif()
 endfunction()
 

@@ -84,7 +84,7 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
 // One work-item a tile. It stores the tile's cost, 0 if none of its rays meets a solid, and, unless `lists` is 0, the
 // tile's list of at most LISTED_NODES nodes.
 __kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
-                          __global TileNode* lists, __global BatchReport* report) {
+                         __global TileNode* lists, __global BatchReport* report) {
     const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);
     u32 cost = 0;
     beam b;

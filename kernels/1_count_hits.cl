@@ -15,9 +15,9 @@
 
 // Runs twice: it counts each ray's candidates if `candidates` is 0, and then lists them from the ray's place on.
 // `lists`: kernel 0's, or 0 if the rays do not come in tiles.
-__kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
-                              __global const RayRecord* rays, __global const u32* listed, __global RayCount* places,
-                              __global Candidate* candidates) {
+__kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes,
+                              __global const TileNode* lists, __global const RayRecord* rays,
+                              __global const u32* listed, __global RayCount* places, __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0), number;
     RayCount count;
     ray3 r;

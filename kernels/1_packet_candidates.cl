@@ -38,8 +38,9 @@ static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
     return leaf;
 }
 
-__kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes, __global const TileNode* lists,
-                                      __global const u32* listed, __global RayCount* places) {
+__kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes,
+                                      __global const TileNode* lists, __global const u32* listed,
+                                      __global RayCount* places) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     pixel_position first;
     u32 counts[PACKET], number, k;
@@ -66,7 +67,7 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
 typedef struct {
     packet_ray3 rays;
     real t_min;
-    u32 ray;            // the first one's place
+    u32 ray;           // the first one's place
     u32 next[PACKET];  // a ray's next candidate
     __global Candidate* candidates;
     __global End* found;
@@ -100,10 +101,10 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask
     }
 }
 
-__kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS,
-                                     __global const BvhNode* nodes, __global const TileNode* lists,
-                                     __global const u32* listed, __global const RayCount* places,
-                                     __global Candidate* candidates, __global End* found) {
+__kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes,
+                                     __global const TileNode* lists, __global const u32* listed,
+                                     __global const RayCount* places, __global Candidate* candidates,
+                                     __global End* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     const Geometry g = GEOMETRY;
     packet_world_ray from_eye;

@@ -11,7 +11,8 @@
 #include "geometry/collect.h"
 
 static void store(__global const Frame* frame, Geometry g, __global const RayRecord* rays, __global const u32* listed,
-                  Candidate c, __global const End* found, __global const RayCount* offsets, __global End* ends, __global u32* bits) {
+                  Candidate c, __global const End* found, __global const RayCount* offsets, __global End* ends,
+                  __global u32* bits) {
     const size_t base = 2 * ((size_t)offsets[c.ray].segments + c.before);
     u32 i;
     if (c.count == 0) return;
@@ -29,11 +30,11 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
     for (i = 0; i < 2 * c.count; ++i) bits[base + i] = c.ray;
 }
 
-__kernel void store_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays, __global const u32* listed, __global const RayCount* places,
+__kernel void store_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
+                             __global const u32* listed, __global const RayCount* places,
                              __global const Candidate* candidates, __global const End* found,
                              __global const RayCount* offsets, __global End* ends, __global u32* bits) {
     const u32 id = (u32)get_global_id(0);
     if (segments_fit(frame, offsets) && id < candidates_of(frame, places))
-        store(frame, GEOMETRY, rays, listed, candidates[id],
-              found + 2 * (size_t)id, offsets, ends, bits);
+        store(frame, GEOMETRY, rays, listed, candidates[id], found + 2 * (size_t)id, offsets, ends, bits);
 }

@@ -37,9 +37,9 @@ __kernel void order_ends(__global const Frame* frame, __global const RayCount* o
 
 static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }
 
-__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed, __global const RayCount* offsets,
-                    __global End* all_ends, __global PartitionNode* all_nodes, __global u32* all_bits,
-                    __global RayTally* tallies) {
+__kernel void weave(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
+                    __global const RayCount* offsets, __global End* all_ends, __global PartitionNode* all_nodes,
+                    __global u32* all_bits, __global RayTally* tallies) {
     const u32 id = (u32)get_global_id(0);
     RayTally tally;
     RayCount offset;

@@ -17,9 +17,9 @@ FN u32 number_in_part(__global const u32* entries, u32 id) {
 
 #include "shared/scene_args.h"
 
-__kernel void first_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes, REGION_ARGS, APPEARANCE_ARGS,
-                         __global const TileNode* tile_nodes, __global const u32* listed, __global BatchReport* report,
-                         __global u32* overflown, __global float* picture) {
+__kernel void first_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes, REGION_ARGS,
+                         APPEARANCE_ARGS, __global const TileNode* tile_nodes, __global const u32* listed,
+                         __global BatchReport* report, __global u32* overflown, __global float* picture) {
     const u32 id = (u32)get_global_id(0) * RAYS_AN_ITEM;
     u32 number, overflow_mask, hit_mask;
     pixel_position at;

@@ -34,8 +34,8 @@ static u32 are_in_parts(__local const u32* tiles, u32 most_in_parts) {
 // Stores in `numbers` the batch's tiles that see anything; `first` is the number of its first tile. Tiles of one
 // class come in any order. The most expensive come first, and in parts if there are at most `most_in_parts`: else the
 // device waits for them at the end.
-__kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts, __global BatchReport* report,
-                          __global u32* numbers) {
+__kernel void list_tiles(__global const unsigned char* costs, u32 first, u32 count, u32 most_in_parts,
+                         __global BatchReport* report, __global u32* numbers) {
     __local u32 all[COST_CLASSES], tiles[COST_CLASSES], places[COST_CLASSES];
     const u32 id = (u32)get_global_id(0), item = (u32)get_local_id(0);
     u32 own = 0, before = 0, in_parts, k;

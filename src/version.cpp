@@ -2,8 +2,6 @@
 
 namespace csgrt {
 
-const char* version() {
-    return CSGRT_VERSION_STRING;
-}
+const char* version() { return CSGRT_VERSION_STRING; }
 
 }  // namespace csgrt

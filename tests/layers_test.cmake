@@ -6,7 +6,8 @@ cmake_minimum_required(VERSION 3.25)
 
 set(below_compile scene formats)
 set(below_pipeline compile device native ${below_compile})
-set(may_cli scene image)  # image: functions.hpp, by which it is loaded late. Else it sees what every program sees: the public headers
+# Of image it sees functions.hpp, by which it is loaded late; else what every program sees: the public headers.
+set(may_cli scene image)
 set(may_render pipeline reference ${below_pipeline})
 set(may_pipeline ${below_pipeline})
 set(may_reference compile ${below_compile})
@@ -58,7 +59,8 @@ function(layer_at path out)
     endif()
 endfunction()
 
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.?pp ${ROOT}/include/*.hpp ${ROOT}/kernels/*.h ${ROOT}/kernels/*.cl)
+file(GLOB_RECURSE files RELATIVE ${ROOT}
+    ${ROOT}/src/*.?pp ${ROOT}/include/*.hpp ${ROOT}/kernels/*.h ${ROOT}/kernels/*.cl)
 foreach(file IN LISTS files)
     layer_at(${file} layer)
     set(may_rooms passes readback scheduling)  # of the pipeline, that the file may include
@@ -93,8 +95,10 @@ foreach(file IN LISTS files)
         elseif(layer STREQUAL "include")
             list(APPEND findings "${file}: \"${included}\": a public header is included as <csgrt/...>")
         elseif(included MATCHES "^pipeline/[a-z]+/" AND NOT room IN_LIST may_rooms)
-            list(APPEND findings "${file}: \"${included}\": data goes from scheduling to passes to readback, never back")
-        elseif(NOT target STREQUAL layer AND NOT target MATCHES "^(base|kernel_host|kernels)$" AND NOT target IN_LIST may_${layer})
+            list(APPEND findings
+                "${file}: \"${included}\": data goes from scheduling to passes to readback, never back")
+        elseif(NOT target STREQUAL layer AND NOT target MATCHES "^(base|kernel_host|kernels)$"
+               AND NOT target IN_LIST may_${layer})
             list(APPEND findings "${file}: \"${included}\": ${layer} must not include ${target}")
         endif()
     endforeach()

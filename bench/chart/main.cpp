@@ -41,9 +41,7 @@ struct Options {
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-double kernels_ms(const Statistics& s) {
-    return s.ms.device();
-}
+double kernels_ms(const Statistics& s) { return s.ms.device(); }
 
 /// One variant on one workload: its answers first, then its times.
 class Trial {
@@ -140,8 +138,8 @@ std::vector<Anchor> anchors() {
     std::vector<Anchor> all = {{"BRL-CAD 7.32.6, CPU (2 cores)", "cpu", {}},
                                {"BRL-CAD 7.32.6, OpenCL (PoCL, 2 cores)", "cpu", {}},
                                {"BRL-CAD 7.32.6, OpenCL (H200)", "gpu", {}}};
-    constexpr double Workload::* figures[] = {&Workload::brlcad_cpu_ms, &Workload::brlcad_pocl_ms,
-                                              &Workload::brlcad_h200_ms};
+    constexpr double Workload::*figures[] = {&Workload::brlcad_cpu_ms, &Workload::brlcad_pocl_ms,
+                                             &Workload::brlcad_h200_ms};
     for (std::size_t i = 0; i < all.size(); ++i)
         for (const Workload& workload : workloads())
             if (workload.*figures[i] > 0) all[i].ms.emplace_back(workload.name, workload.*figures[i]);

@@ -130,7 +130,8 @@ StressScene deep_trees(std::uint64_t seed, std::size_t times) {
         }
         to.region(leaf(below));
     } else {
-        to.region(tree_of(chain, [&](std::uint32_t slab) { return names[slab]; }, complements));
+        to.region(tree_of(
+            chain, [&](std::uint32_t slab) { return names[slab]; }, complements));
     }
     const int rays = to.rays(leaves > 10000 ? 4 : 12);
     for (int i = 0; i < rays; ++i) {

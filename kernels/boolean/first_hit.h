@@ -143,9 +143,9 @@ FN int comes_before(End a, End b) { return a.t < b.t || (a.t == b.t && a.solid <
 
 // What happens at an event: the first end where a segment begins to cover, and the first where one ceases to.
 typedef struct {
-    End in, out;  // solid NONE: there is none
+    End in, out;          // solid NONE: there is none
     SolidFilter changed;  // the solids that come or go
-    u32 begins;   // not 0: a term may begin to be true
+    u32 begins;           // not 0: a term may begin to be true
 } event;
 
 // Passes the next event: the ends at w->next_event, and those within the tolerance behind it.

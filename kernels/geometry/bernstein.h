@@ -103,7 +103,8 @@ typedef struct {
     int done;
 } bracket;
 
-#define BRACKET_STEPS (sizeof(real) == 16 ? 240 : 120)  // a bisection every other step halves [0, 1] to neighbours; Newton takes about 5
+#define BRACKET_STEPS \
+    (sizeof(real) == 16 ? 240 : 120)  // a bisection every other step halves [0, 1] to neighbours; Newton takes about 5
 #define PARAMETER_PRECISION BY_PRECISION(0x1p-24, 0x1p-53, 0x1p-113)  // of a curve's parameter, which runs from 0 to 1
 
 FN bracket start_bracket(real low, real high, int positive) {

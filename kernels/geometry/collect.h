@@ -21,7 +21,8 @@ FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out
     ends[1] = e;
 }
 
-// Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set, see collect().
+// Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set, see
+// collect().
 FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count) {
 #if HAS_SOLID(SOLID_EXTRUDE)
     if (solid.type == SOLID_EXTRUDE) {

@@ -1,6 +1,5 @@
-// What a ray meets of a cylinder or cone, whatever the shape of its side: the two ends; the side of a round one; and where it may
-// meet that of another.
-// Parameters, planes and surfaces are the tgc's (tgc.h).
+// What a ray meets of a cylinder or cone, whatever the shape of its side: the two ends; the side of a round one; and
+// where it may meet that of another. Parameters, planes and surfaces are the tgc's (tgc.h).
 #ifndef CSGRT_GEOMETRY_CONE_H
 #define CSGRT_GEOMETRY_CONE_H
 
@@ -13,7 +12,8 @@
 #define TGC_TOP 2
 
 FN span between_ends(Geometry g, SolidRecord solid, ray3 r) {
-    return clip_to_face(clip_to_face(whole_line(), g, solid.first_plane, r, TGC_BASE), g, solid.first_plane + 1, r, TGC_TOP);
+    return clip_to_face(clip_to_face(whole_line(), g, solid.first_plane, r, TGC_BASE), g, solid.first_plane + 1, r,
+                        TGC_TOP);
 }
 
 // a u^2 + 2 b u + c, and b^2 - a c; `most`: what that is at most, for a ray through the axis.
@@ -24,7 +24,8 @@ typedef struct {
 // x^2 + y^2 - m^2 with m = m0 + m1 u, the radius along the ray. Its discriminant b^2 - a c equals
 // |m0 d - m1 o|^2 - (o x d)^2 (all in x, y), which does not cancel where b^2 and a c do.
 //
-// A cone with a true apex has it as its local origin (m0 = m1 z / d.z exactly), so that rays past the apex keep their digits.
+// A cone with a true apex has it as its local origin (m0 = m1 z / d.z exactly), so that rays past the apex keep their
+// digits.
 FN quadratic round_side(local_ray l, real m0, real m1) {
     const real wx = difference_of_products(m0, l.d.x, m1, l.o.x), wy = difference_of_products(m0, l.d.y, m1, l.o.y);
     const real cross = difference_of_products(l.o.x, l.d.y, l.o.y, l.d.x);
@@ -44,8 +45,8 @@ FN lane_mask may_touch_side(local_ray l, quadratic f, real m0) {
     return real_abs(f.discriminant) < f.most * TOUCHED || along;
 }
 
-// The piece of `s` on which a side that is not round may be met, with u in units of the direction's length: everything lies
-// within radius2. Empty: low >= high.
+// The piece of `s` on which a side that is not round may be met, with u in units of the direction's length: everything
+// lies within radius2. Empty: low >= high.
 FN span tapered_piece(u32 method, GLOBAL const parameter* p, local_ray l, span s) {
     const real length = real_sqrt(dot3(l.d, l.d));
     const real middle = quartic_middle(method, l.o, scale(l.d, REAL(1) / length));
@@ -66,9 +67,9 @@ FN vec3 round_normal(GLOBAL const parameter* p, ray3 r, real t) {
 FN vec3 tapered_normal(GLOBAL const parameter* p, ray3 r, real t) {
     const vec3 at = local_point(to_local(p, r), t);
     const real a = real_fma(p[13], at.z, p[12]), b = real_fma(p[15], at.z, p[14]);
-    return affine_normal(p, make_vec3(at.x * b * b, at.y * a * a,
-                                      at.x * at.x * b * p[15] + at.y * at.y * a * p[13] -
-                                          a * b * real_fma(p[13], b, a * p[15])));
+    return affine_normal(
+        p, make_vec3(at.x * b * b, at.y * a * a,
+                     at.x * at.x * b * p[15] + at.y * at.y * a * p[13] - a * b * real_fma(p[13], b, a * p[15])));
 }
 
 FN vec3 tgc_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {

@@ -1,11 +1,12 @@
-// An elliptical torus whose ellipse reaches across the axis, as BRL-CAD has it: inside is where F(rho) F(-rho) < 0 (eto.h),
-// what lies in one of the ellipse and its mirror image alone. What lies in both, a lens about the axis, is outside. The product
-// is still a quartic along the ray: at most two segments. Surface 0.
-// Parameters: the eto's (17), then of three pivots their height on the axis, lin, odd and radius.
+// An elliptical torus whose ellipse reaches across the axis, as BRL-CAD has it: inside is where F(rho) F(-rho) < 0
+// (eto.h), what lies in one of the ellipse and its mirror image alone. What lies in both, a lens about the axis, is
+// outside. The product is still a quartic along the ray: at most two segments. Surface 0. Parameters: the eto's (17),
+// then of three pivots their height on the axis, lin, odd and radius.
 //
-// Where both factors vanish the surface is no surface: at the two points of the lens on the axis, and, if the top of the
-// ellipse has passed the axis, on a circle where the ellipse and its image cross once more. A ray that passes near has two
-// roots there that differ by as little as its distance, so each of these pivots has a form of its own. With h the height above it,
+// Where both factors vanish the surface is no surface: at the two points of the lens on the axis, and, if the top of
+// the ellipse has passed the axis, on a circle where the ellipse and its image cross once more. A ray that passes near
+// has two roots there that differ by as little as its distance, so each of these pivots has a form of its own. With h
+// the height above it,
 //
 //   F(rho) = E + rho O,   E = alpha (rho^2 - radius^2) + gamma h^2 + lin h,   O = 2 beta h + odd
 //
@@ -15,10 +16,10 @@
 
 #include "eto.h"
 
-#define CROSSED_FIRST 17       // the parameters of the first pivot
-#define CROSSED_PIVOTS 3       // two points, one circle
-#define CROSSED_PLACES 4       // a ray may pass the circle twice
-#define CROSSED_NONE REAL(-1)  // radius, where there is no circle
+#define CROSSED_FIRST 17             // the parameters of the first pivot
+#define CROSSED_PIVOTS 3             // two points, one circle
+#define CROSSED_PLACES 4             // a ray may pass the circle twice
+#define CROSSED_NONE REAL(-1)        // radius, where there is no circle
 #define CROSSED_APART REAL(0x1p-10)  // places on a ray that are closer are one
 #define CROSSED_STEPS 6
 
@@ -76,8 +77,8 @@ FN eto_form crossed_form(GLOBAL const real* p, crossed_place place, vec3 d, real
         f.slope = REAL(2) * real_fma(by_radial, rate, by_z * d.z);
     } else {
         const real odd = real_fma(REAL(2) * p[13], at.z, place.odd);
-        const real even = real_fma(p[12], (rho - place.radius) * (rho + place.radius),
-                                   real_fma(p[14], at.z, place.lin) * at.z);
+        const real even =
+            real_fma(p[12], (rho - place.radius) * (rho + place.radius), real_fma(p[14], at.z, place.lin) * at.z);
         f.value = real_fma(side * rho, odd, even);
         f.slope = real_fma(rate, odd, side * rho * (REAL(2) * p[13] * d.z)) +
                   real_fma(REAL(2) * p[12], turn, real_fma(REAL(2) * p[14], at.z, place.lin) * d.z);
@@ -217,8 +218,8 @@ NOINLINE_FN vec3 crossed_eto_normal(GLOBAL const real* p, ray3 r, real t) {
     const real outward = (side > 0 ? image : here) < 0 ? REAL(-1) : REAL(1);
     const real radial = side * rho - REAL(1);
     const real by_radial = outward * (side * (real_fma(p[12], radial, p[13] * at.z) / rho));
-    return affine_normal(p, make_vec3(at.x * by_radial, at.y * by_radial,
-                                      outward * real_fma(p[13], radial, p[14] * at.z)));
+    return affine_normal(
+        p, make_vec3(at.x * by_radial, at.y * by_radial, outward * real_fma(p[13], radial, p[14] * at.z)));
 }
 
 #endif

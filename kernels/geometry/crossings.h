@@ -1,5 +1,5 @@
-// Solids that a ray may cross any number of times (meshes, extrusions, ...) hand over their crossings here, in any order.
-// They are sorted in place, in the ray's own memory, and paired from the front: in, out, in, out.
+// Solids that a ray may cross any number of times (meshes, extrusions, ...) hand over their crossings here, in any
+// order. They are sorted in place, in the ray's own memory, and paired from the front: in, out, in, out.
 //
 //   crossings    |     |   |        |          of a closed surface: an even number
 //   ends         in   out  in      out
@@ -84,9 +84,9 @@ FN u32 close_crossings(crossings c) {
     return (count + 1) / 2;
 }
 
-// Pairs crossings that are marked already (LEAVES) where the ray goes out. Every out ends a segment, which has no length
-// unless an in came right before it; at the end there may be more of none, because room for all crossings was wanted.
-// Returns the number of segments.
+// Pairs crossings that are marked already (LEAVES) where the ray goes out. Every out ends a segment, which has no
+// length unless an in came right before it; at the end there may be more of none, because room for all crossings was
+// wanted. Returns the number of segments.
 FN u32 close_marked_crossings(crossings c, u32 outs) {
     u32 inside = c.behind > 0 && !(c.last_surface & LEAVES);  // at t_min
     u32 count = (c.ahead + 1) / 2, kept = 0, out = outs, i;

@@ -42,7 +42,8 @@ FN vec3 ehy_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
     vec3 at;
     if (surface != EHY_SIDE) return face_normal(g, solid.first_plane);
     at = local_point(to_local(p, r), t);
-    return affine_normal(p, make_vec3(at.x, at.y, REAL(0.5) * (c + REAL(0.5) * (REAL(1) - at.z)) / (REAL(1) + REAL(2) * c)));
+    return affine_normal(
+        p, make_vec3(at.x, at.y, REAL(0.5) * (c + REAL(0.5) * (REAL(1) - at.z)) / (REAL(1) + REAL(2) * c)));
 }
 
 #endif

@@ -18,6 +18,8 @@ FN segments ell_intersect(GLOBAL const parameter* p, ray3 r) {
     return touching(inside > 0 && inside < TOUCHED, append(no_segments(), middle - reach, 0, middle + reach, 0));
 }
 
-FN vec3 ell_normal(GLOBAL const parameter* p, ray3 r, real t) { return affine_normal(p, local_point(to_local(p, r), t)); }
+FN vec3 ell_normal(GLOBAL const parameter* p, ray3 r, real t) {
+    return affine_normal(p, local_point(to_local(p, r), t));
+}
 
 #endif

@@ -3,23 +3,27 @@
 //
 //   F(rho) = alpha (rho - 1)^2 + 2 beta (rho - 1) z + gamma z^2 - 1 < 0
 //
-// F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis (else:
-// crossed_eto.h). Written in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each root is
-// polished on F itself.
+// F(rho) F(-rho) is a quartic along the ray, and F(-rho) > 0 as long as the ellipse stays on its side of the axis
+// (else: crossed_eto.h). Written in R = rho^2 - 1 and G = gamma z^2 - 1 its terms stay small near a thin tube. Each
+// root is polished on F itself.
 //
-// Where the ellipse all but touches the axis, at z = beta / gamma, all that is left of these terms there is rounding. With h the
-// height above that point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, the same is
+// Where the ellipse all but touches the axis, at z = beta / gamma, all that is left of these terms there is rounding.
+// With h the height above that point, reach = outer radius - 1 and gap = 1 / reach^2 - 1, the same is
 //
-//   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2,   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1 + gap)
+//   F(rho) = E + rho O,   F(rho) F(-rho) = E^2 - rho^2 O^2,   E = alpha rho^2 + gamma h^2 + gap,   O = 2 beta h - 2 (1
+//   + gap)
 //
-// whose terms vanish with it where the gap is 0. A ray that passes near is taken from its closest approach to that point.
+// whose terms vanish with it where the gap is 0. A ray that passes near is taken from its closest approach to that
+// point.
 #ifndef CSGRT_GEOMETRY_ETO_H
 #define CSGRT_GEOMETRY_ETO_H
 
 #include "affine.h"
 #include "quartic.h"
 
-#define ETO_MARGIN BY_PRECISION(1.0001, 1.000001, 1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
+#define ETO_MARGIN                 \
+    BY_PRECISION(1.0001, 1.000001, \
+                 1.000001)  // the piece that is searched is a little larger than the solid, so its ends are outside
 
 // F at a point, and its rate of change along d.
 typedef struct {
@@ -73,8 +77,8 @@ FN eto_form eto_at(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch
     return f;
 }
 
-// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube). A step is
-// taken if it is small and brings the point nearer to the surface.
+// Newton from a root of the quartic, whose error is at most about a tenth of POLISH_STEP (a grazed thin tube). A step
+// is taken if it is small and brings the point nearer to the surface.
 FN real eto_polish(GLOBAL const real* p, vec3 o, vec3 d, real u, eto_pinch pinch) {
     eto_form f = eto_at(p, o, d, u, pinch);
     int step;

@@ -20,7 +20,9 @@
 #include "touch.h"
 
 #define EXTRUDE_ENDS 2
-#define WALL_SLACK BY_PRECISION(1e-5, 1e-9, 1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
+#define WALL_SLACK           \
+    BY_PRECISION(1e-5, 1e-9, \
+                 1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
 
 // A line in the sketch's plane; (dx, dy) is a unit vector.
 typedef struct {

@@ -1,5 +1,6 @@
-// The roots of a quartic in closed form (Ferrari 1545): its resolvent cubic's largest root splits it into two quadratics.
-// Fast where it works, and wrong where two of its steps subtract near-equal numbers: here to be measured against.
+// The roots of a quartic in closed form (Ferrari 1545): its resolvent cubic's largest root splits it into two
+// quadratics. Fast where it works, and wrong where two of its steps subtract near-equal numbers: here to be measured
+// against.
 //
 //   u = y - c3 / 4:   y^4 + p y^2 + q y + r  =  (y^2 + s y + e) (y^2 - s y + f),   s^2 = 2 m
 //   m^3 + p m^2 + (p^2 / 4 - r) m - q^2 / 8 = 0
@@ -9,8 +10,8 @@
 #include "polynomial.h"
 #include "power.h"
 
-// cos(acos(x) / 3), which is the c in [1/2, 1] with 4 c^3 - 3 c = x. From (2 c - 1)^2 (c + 1) = x + 1 follows a start that
-// is good at the double root too; then Newton.
+// cos(acos(x) / 3), which is the c in [1/2, 1] with 4 c^3 - 3 c = x. From (2 c - 1)^2 (c + 1) = x + 1 follows a start
+// that is good at the double root too; then Newton.
 FN real cosine_of_third(real x) {
     real above = real_max(REAL(0), x + REAL(1));
     real c = REAL(0.5) + REAL(0.5) * real_sqrt(above / REAL(1.75));
@@ -32,7 +33,8 @@ FN real largest_cubic_root(real a, real b, real c) {
     real discriminant = q * q + p * p * p;
     if (discriminant < 0) {
         real size = real_sqrt(-p);
-        return REAL(2) * size * cosine_of_third(real_max(REAL(-1), real_min(REAL(1), -q / (size * size * size)))) - third;
+        return REAL(2) * size * cosine_of_third(real_max(REAL(-1), real_min(REAL(1), -q / (size * size * size)))) -
+               third;
     }
     {
         real w = cube_root(real_abs(q) + real_sqrt(discriminant));

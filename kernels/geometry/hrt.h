@@ -1,12 +1,11 @@
 // Heart. Parameters: affine (12). Surface 0.
 //
-//   (x^2 + 9/4 y^2 + z^2 - 1)^3 - x^2 z^3 - 9/80 y^2 z^3 < 0, whose gradient is 0 all along the ellipse A = 0 = z, is the
-//   same as
-//   F = A - z B^(1/3) < 0,   A = x^2 + 9/4 y^2 + z^2 - 1,  B = x^2 + 9/80 y^2
-//   which has one almost everywhere: only the dimples on the z axis are pointed.
+//   (x^2 + 9/4 y^2 + z^2 - 1)^3 - x^2 z^3 - 9/80 y^2 z^3 < 0, whose gradient is 0 all along the ellipse A = 0 = z, is
+//   the same as F = A - z B^(1/3) < 0,   A = x^2 + 9/4 y^2 + z^2 - 1,  B = x^2 + 9/80 y^2 which has one almost
+//   everywhere: only the dimples on the z axis are pointed.
 //
-// The ray is cut where A or B is least and where z is 0. On each part A, A', B, B' and z are monotone, so the ranges of F
-// and of its derivatives follow from their values at the ends; pieces are walked as in superell.h.
+// The ray is cut where A or B is least and where z is 0. On each part A, A', B, B' and z are monotone, so the ranges of
+// F and of its derivatives follow from their values at the ends; pieces are walked as in superell.h.
 #ifndef CSGRT_GEOMETRY_HRT_H
 #define CSGRT_GEOMETRY_HRT_H
 
@@ -32,7 +31,7 @@ typedef struct {
 typedef struct {
     real u, value, slope;
     real a, a_slope, z;
-    real root, root_slope;   // B^(1/3) and its rate of change
+    real root, root_slope;             // B^(1/3) and its rate of change
     real b_slope, by_root2, by_root5;  // B', 1 / root^2, 1 / root^5
 } hrt_point;
 
@@ -68,7 +67,8 @@ FN int hrt_look(hrt_ray l, hrt_point a, hrt_point b) {
     slope = range_sum(slope, range_scaled(range_product(z, root_slope), REAL(-1)));
     if (!range_has_0(slope)) return HRT_MONOTONE;
     // root'' = B'' / (3 root^2) - 2/9 B'^2 / root^5
-    of_root = range_scaled(range_product(range_square(b_slope), range_between(a.by_root5, b.by_root5)), REAL(-2) / REAL(9));
+    of_root =
+        range_scaled(range_product(range_square(b_slope), range_between(a.by_root5, b.by_root5)), REAL(-2) / REAL(9));
     of_root = range_sum(of_root, range_scaled(by_root2, REAL(2) / REAL(3) * l.b_rate));
     bend = range_sum(range_scaled(root_slope, REAL(-2) * l.z_rate), range_scaled(range_product(z, of_root), REAL(-1)));
     bend.low = bend.low + REAL(2) * l.a_rate;
@@ -92,7 +92,8 @@ FN real hrt_root(hrt_ray l, hrt_point a, hrt_point b) {
         if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
         if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
         if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35)) return next;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35))
+            return next;
         u = next;
     }
     return u;

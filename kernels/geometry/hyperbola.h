@@ -24,8 +24,8 @@
 #include "curve.h"
 #include "polynomial.h"
 
-#define FLAT_RAY REAL(0.5)       // dz of a unit direction below which rays are taken as flat
-#define FAINT REAL(1e-37)        // greater than 0 and less than any rounding of f
+#define FLAT_RAY REAL(0.5)                           // dz of a unit direction below which rays are taken as flat
+#define FAINT REAL(1e-37)                            // greater than 0 and less than any rounding of f
 #define POLISH_REACH BY_PRECISION(1e-3, 1e-6, 1e-6)  // no step of the last polish is longer
 
 // The ray about the axis, in a unit direction: at s it is at height oz + s dz and x = q + s across.

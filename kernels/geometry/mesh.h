@@ -17,10 +17,10 @@ typedef struct {
     upright_ray ray;
     slab_ray slab;
     bvh_cursor cursor;
-    u32 next, last;        // triangles of the leaf that are left
-    u32 triangle;          // the one that was met; NONE: no more
-    real t;                // where
-    int clockwise;         // its corners, seen along the ray
+    u32 next, last;  // triangles of the leaf that are left
+    u32 triangle;    // the one that was met; NONE: no more
+    real t;          // where
+    int clockwise;   // its corners, seen along the ray
 } mesh_walk;
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {

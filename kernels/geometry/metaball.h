@@ -8,8 +8,8 @@
 //
 //   F = threshold - sum of phi < 0
 //
-// Along the ray v = m + (u - u0)^2 for each point, so its range over a piece is known exactly; phi and its derivatives by
-// v are monotone. The ranges of F, F' and F'' are sums of ranges; pieces are walked as in superell.h.
+// Along the ray v = m + (u - u0)^2 for each point, so its range over a piece is known exactly; phi and its derivatives
+// by v are monotone. The ranges of F, F' and F'' are sums of ranges; pieces are walked as in superell.h.
 #ifndef CSGRT_GEOMETRY_METABALL_H
 #define CSGRT_GEOMETRY_METABALL_H
 
@@ -18,7 +18,9 @@
 #include "power.h"
 #include "range.h"
 
-#define METABALL_REACH2 BY_PRECISION(1.0001, 1.000001, 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
+#define METABALL_REACH2            \
+    BY_PRECISION(1.0001, 1.000001, \
+                 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
 #define METABALL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of the piece
 #define METABALL_STEPS 2000
 #define METABALL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // in thresholds
@@ -117,7 +119,8 @@ FN int metaball_look(metaball_ray l, real a, real b) {
         bend = range_sum(bend, range_scaled(first, REAL(-2)));
         bend = range_sum(bend, range_scaled(range_product(square, second), REAL(-4)));
     }
-    if (value.low > METABALL_NOISE * l.threshold || value.high < -METABALL_NOISE * l.threshold) return METABALL_MONOTONE;
+    if (value.low > METABALL_NOISE * l.threshold || value.high < -METABALL_NOISE * l.threshold)
+        return METABALL_MONOTONE;
     if (!range_has_0(slope)) return METABALL_MONOTONE;
     return range_has_0(bend) ? METABALL_UNDECIDED : METABALL_BENT;
 }
@@ -138,7 +141,8 @@ FN real metaball_root(metaball_ray l, metaball_point a, metaball_point b) {
         if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
         if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
         if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35)) return next;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35))
+            return next;
         u = next;
     }
     return u;

@@ -1,6 +1,6 @@
 // Particle: two balls on the local z axis and the cone that touches both. Parameters: affine (12, a similarity), then
-// z0, r0, z1, r1 of the balls, the cone's radius m0 + m1 z, and from which z to which it runs: between the circles where
-// it touches the balls. No cone (low > high): one ball holds the other.
+// z0, r0, z1, r1 of the balls, the cone's radius m0 + m1 z, and from which z to which it runs: between the circles
+// where it touches the balls. No cone (low > high): one ball holds the other.
 //
 //         .-""-._____
 //        /   :       ``.        It is convex: along a ray the least of the pieces' ins and the greatest of their outs
@@ -8,7 +8,8 @@
 //        \   :_____ ..'         by rounding, it is at the very circle, and counts as the ball's.
 //         `-..-'
 //
-// Its normal turns without a jump, so it has one surface, 0. A particle that ends in a point has it as its local origin.
+// Its normal turns without a jump, so it has one surface, 0. A particle that ends in a point has it as its local
+// origin.
 #ifndef CSGRT_GEOMETRY_PART_H
 #define CSGRT_GEOMETRY_PART_H
 

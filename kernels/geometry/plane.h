@@ -6,7 +6,9 @@
 #include "segments.h"
 
 FN wide3 plane_normal(PlaneRecord p) { return make_wide3(p.nx, p.ny, p.nz); }
-FN real plane_above(PlaneRecord p, ray3 r) { return REAL(wide_dot(plane_normal(p), r.o) - p.d); }  // the origin's distance
+FN real plane_above(PlaneRecord p, ray3 r) {
+    return REAL(wide_dot(plane_normal(p), r.o) - p.d);
+}  // the origin's distance
 
 // Does the ray run in the plane, as far as rounding lets one say?
 FN lane_mask runs_in(PlaneRecord plane, ray3 r) {
@@ -15,8 +17,9 @@ FN lane_mask runs_in(PlaneRecord plane, ray3 r) {
     return real_abs(rate) <= ROUNDING * sum_of_sizes(r.d) && real_abs(above) <= ROUNDING * from_origin;
 }
 
-// Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high. A ray that runs
-// in the plane is on the side that is kept: it touches the face, on whichever side of it rounding has put the ray.
+// Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high. A ray
+// that runs in the plane is on the side that is kept: it touches the face, on whichever side of it rounding has put the
+// ray.
 FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
     const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
     const lane_mask parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);

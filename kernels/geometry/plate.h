@@ -21,9 +21,9 @@
 // Nothing that is met at a smaller cosine has a thickness that makes sense.
 #define PLATE_FLATTEST BY_PRECISION(1e-5, 1e-9, 1e-9)
 
-// Where a plate begins and ends that is met at w.t; empty: nowhere. A ray that grazes a plate stays in it for long, and far
-// beyond the solid's box, as in BRL-CAD. Only the triangle itself is sure to lie in the box, so one before t_min is not
-// wanted, whatever its plate.
+// Where a plate begins and ends that is met at w.t; empty: nowhere. A ray that grazes a plate stays in it for long, and
+// far beyond the solid's box, as in BRL-CAD. Only the triangle itself is sure to lie in the box, so one before t_min is
+// not wanted, whatever its plate.
 FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* extents, real skin, real t_min) {
     real before = extents[2 * (size_t)w.triangle], behind = extents[2 * (size_t)w.triangle + 1];
     real speed = real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d));
@@ -62,7 +62,8 @@ FN u32 plate_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_mi
         if (ends) {
             u32 i = count;
             End e;
-            while (i > 0 && (ends[2 * i - 2].t > s.low || (ends[2 * i - 2].t == s.low && ends[2 * i - 2].surface > w.triangle))) {
+            while (i > 0 && (ends[2 * i - 2].t > s.low ||
+                             (ends[2 * i - 2].t == s.low && ends[2 * i - 2].surface > w.triangle))) {
                 ends[2 * i] = ends[2 * i - 2];
                 ends[2 * i + 1] = ends[2 * i - 1];
                 --i;

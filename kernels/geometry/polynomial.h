@@ -64,10 +64,10 @@ FN quartic derivative(quartic p) {
 }
 
 // The one root of p between a and b, where p is of different signs: Halley's steps from u on, or from the middle, kept
-// within the bracket by bisection. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at v = -f0 / f1, less
-// some v^2 f2 / f1, which Halley's step knows of. What it leaves is of the size of v^3 ((f2 / f1)^2 - f3 / f1): if that is
-// no more than rounding, it is there, and another step would only measure rounding. 100 steps halve any bracket of doubles
-// to neighbours; Halley takes about 3.
+// within the bracket by bisection. With p = f0 + f1 v + f2 v^2 + f3 v^3 + ... around u, the root lies at v = -f0 / f1,
+// less some v^2 f2 / f1, which Halley's step knows of. What it leaves is of the size of v^3 ((f2 / f1)^2 - f3 / f1): if
+// that is no more than rounding, it is there, and another step would only measure rounding. 100 steps halve any bracket
+// of doubles to neighbours; Halley takes about 3.
 #define ROOT_STEPS (sizeof(real) == 16 ? 240 : 100)
 #define ROOT_PRECISION BY_PRECISION(0x1p-25, 0x1p-54, 0x1p-114)
 FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
@@ -98,17 +98,21 @@ FN real bracketed_root(quartic p, real a, real b, int negative_at_a, real u) {
     return u;
 }
 
-// How many roots p has between low and high, if that is certain at a glance: 0, 1, or 2, which `split` is between. Else 3.
-// The coefficients in Bernstein form change their sign as often as p does, or two, four times more often (Descartes' rule;
-// Lane and Riesenfeld 1981); those that rounding might have turned around say nothing. Where the straight lines between
-// them change it, the roots are not far: `near`.
+// How many roots p has between low and high, if that is certain at a glance: 0, 1, or 2, which `split` is between.
+// Else 3. The coefficients in Bernstein form change their sign as often as p does, or two, four times more often
+// (Descartes' rule; Lane and Riesenfeld 1981); those that rounding might have turned around say nothing. Where the
+// straight lines between them change it, the roots are not far: `near`.
 FN int certain_roots(quartic p, real low, real high, real* split, real* near) {
     const real w = high - low, reach = real_max(real_abs(low), real_abs(high));
-    const real doubt = BY_PRECISION(0x1p-12, 0x1p-40, 0x1p-98) *
-                       real_fma(real_fma(real_fma(real_fma(real_abs(p.c[4]), reach, real_abs(p.c[3])), reach, real_abs(p.c[2])),
-                                         reach, real_abs(p.c[1])), reach, real_abs(p.c[0]));
+    const real doubt =
+        BY_PRECISION(0x1p-12, 0x1p-40, 0x1p-98) *
+        real_fma(real_fma(real_fma(real_fma(real_abs(p.c[4]), reach, real_abs(p.c[3])), reach, real_abs(p.c[2])), reach,
+                          real_abs(p.c[1])),
+                 reach, real_abs(p.c[0]));
     // p's value and derivatives at `low`, each over the factorial of its order and binomial, in units of the width.
-    const real d1 = real_fma(real_fma(real_fma(REAL(4) * p.c[4], low, REAL(3) * p.c[3]), low, REAL(2) * p.c[2]), low, p.c[1]) * w * REAL(0.25);
+    const real d1 =
+        real_fma(real_fma(real_fma(REAL(4) * p.c[4], low, REAL(3) * p.c[3]), low, REAL(2) * p.c[2]), low, p.c[1]) * w *
+        REAL(0.25);
     const real d2 = real_fma(real_fma(REAL(6) * p.c[4], low, REAL(3) * p.c[3]), low, p.c[2]) * (w * w) * REAL(1.0 / 6);
     const real d3 = real_fma(REAL(4) * p.c[4], low, p.c[3]) * (w * w * w) * REAL(0.25);
     real b[5];
@@ -162,9 +166,9 @@ NOINLINE_FN int turning_points(quartic p, real low, real high, real* turns) {
     return count;
 }
 
-// Where p changes sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not. What is certain at
-// a glance needs no more; else the roots are bracketed by those of the derivative, so every bracket holds a monotone piece,
-// and the signs at the ends decide about the root. Counts and signs thus always agree.
+// Where p changes sign in (low, high): ascending, at most 4. Negative counts as inside; zero does not. What is certain
+// at a glance needs no more; else the roots are bracketed by those of the derivative, so every bracket holds a monotone
+// piece, and the signs at the ends decide about the root. Counts and signs thus always agree.
 FN int sign_changes(quartic p, real low, real high, real* roots) {
     real knots[5], near[2];
     int count = 0, i, negative = quartic_at(p, low) < 0;

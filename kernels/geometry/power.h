@@ -1,6 +1,6 @@
-// Powers with real exponents, the same to the bit on every device: only + - * / fma floor and exact scaling by powers of 2.
-// log2 by atanh's series on sqrt(1/2) .. sqrt(2), exp2 by Taylor's on -1/2 .. 1/2; both within about 1 ulp of double. With
-// 113 bits the series are longer.
+// Powers with real exponents, the same to the bit on every device: only + - * / fma floor and exact scaling by powers
+// of 2. log2 by atanh's series on sqrt(1/2) .. sqrt(2), exp2 by Taylor's on -1/2 .. 1/2; both within about 1 ulp of
+// double. With 113 bits the series are longer.
 #ifndef CSGRT_GEOMETRY_POWER_H
 #define CSGRT_GEOMETRY_POWER_H
 
@@ -21,7 +21,8 @@ FN real log_2(real x) {
         int k;
         for (sum = 0, k = 27; k > 0; --k) sum = sum * g + REAL(1) / REAL(2 * k + 1);
         sum = f * g * sum + f;
-        return (real)exponent + (REAL(2.8853900817779268) + REAL(4.0710547481862066e-17) + REAL(-2.1229319912234516e-33)) * sum;
+        return (real)exponent +
+               (REAL(2.8853900817779268) + REAL(4.0710547481862066e-17) + REAL(-2.1229319912234516e-33)) * sum;
     }
     sum = REAL(1) / REAL(23);
     sum = real_fma(sum, g, REAL(1) / REAL(21));
@@ -39,7 +40,8 @@ FN real log_2(real x) {
     return (real)exponent + real_fma(REAL(2.8853900817779268), sum, REAL(4.0710547481862066e-17) * sum);
 }
 
-#define LEAST_EXPONENT (sizeof(real) == 4 ? -125 : -1021)  // below, exp_2 is 0: not every device rounds subnormals alike
+#define LEAST_EXPONENT \
+    (sizeof(real) == 4 ? -125 : -1021)  // below, exp_2 is 0: not every device rounds subnormals alike
 
 FN real exp_2(real y) {
     real whole, x, sum;

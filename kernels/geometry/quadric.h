@@ -1,4 +1,5 @@
-// Solids that are one quadric cut by planes: epa, hyp, rpc, rhc. Parameters: affine (12), then qx, qy, qz, linear, free:
+// Solids that are one quadric cut by planes: epa, hyp, rpc, rhc. Parameters: affine (12), then qx, qy, qz, linear,
+// free:
 //
 //   qx x^2 + qy y^2 + qz z^2 + linear z + free < 0
 //
@@ -48,7 +49,8 @@ FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
         real all_c = quadric_size(p, l.o, l.o) + real_abs(linear * l.o.z) + real_abs(at_zero);
         real of_squares = real_abs(qx * qy) * xy * xy + real_abs(qy * qz) * yz * yz + real_abs(qz * qx) * zx * zx;
         discriminant = discriminant + (half_rate * (REAL(2) * b + half_rate) - a * rest);
-        of_squares = of_squares + real_abs(half_rate) * (REAL(2) * real_abs(b) + real_abs(half_rate)) + real_abs(a * rest);
+        of_squares =
+            of_squares + real_abs(half_rate) * (REAL(2) * real_abs(b) + real_abs(half_rate)) + real_abs(a * rest);
         b = b + half_rate;
         c = c + rest;
         // Along a straight line of the surface a, b and c vanish together: then they are the better witnesses.

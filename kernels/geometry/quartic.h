@@ -1,9 +1,11 @@
-// Four ways to solve the quartics of tor, eto and tapered cones, to be compared with each other. The first is the one to use.
+// Four ways to solve the quartics of tor, eto and tapered cones, to be compared with each other. The first is the one
+// to use.
 //
 //   QUARTIC_BRACKETED  polynomial.h, with the origin at the closest approach
 //   QUARTIC_UNSHIFTED  the same with the origin where the ray's is: coefficients lose their digits as it moves away
 //   QUARTIC_FERRARI    the closed form, ferrari.h
-//   QUARTIC_YUKSEL     roots between those of the derivative, to a stated error (Yuksel 2022, High-Performance Polynomial
+//   QUARTIC_YUKSEL     roots between those of the derivative, to a stated error (Yuksel 2022, High-Performance
+//   Polynomial
 //                      Root Finding for Graphics), whose cubic is deflated once one of its roots is known
 #ifndef CSGRT_GEOMETRY_QUARTIC_H
 #define CSGRT_GEOMETRY_QUARTIC_H
@@ -53,7 +55,8 @@ FN int quadratic_between(real a, real b, real c, real low, real high, real* root
     return count;
 }
 
-// Roots of the derivative, a cubic d with derivative e: the first by its bracket, the others of what is left of the cubic.
+// Roots of the derivative, a cubic d with derivative e: the first by its bracket, the others of what is left of the
+// cubic.
 FN int yuksel_turns(quartic d, quartic e, real low, real high, real* turns) {
     real knots[4];
     int count, i, negative = quartic_at(d, low) < 0;

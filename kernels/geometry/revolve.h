@@ -13,9 +13,11 @@
 #include "plane.h"
 #include "touch.h"
 
-#define REVOLVE_CUT 12         // where that parameter is (shared/layout.h has its values)
-#define REVOLVE_FACES 2        // surfaces of the cut
-#define FLAT_SLACK BY_PRECISION(1e-5, 1e-9, 1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
+#define REVOLVE_CUT 12   // where that parameter is (shared/layout.h has its values)
+#define REVOLVE_FACES 2  // surfaces of the cut
+#define FLAT_SLACK           \
+    BY_PRECISION(1e-5, 1e-9, \
+                 1e-9)  // along the ray, between crossings of a plane and of its line: no more than rounding
 
 FN cut meet_profile(cut k, GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, u32 surface) {
     profile_walk w;
@@ -46,8 +48,8 @@ FN int runs_within(Geometry g, u32 index, ray3 r) {
     return plane_above(plane, r) == 0 && dot3(narrow(plane_normal(plane)), r.d) == 0;
 }
 
-// Nothing lies between the two sides of one plane, not even a ray that runs within it. A ray that runs within two planes runs along
-// the edge where they meet, and is not between them either.
+// Nothing lies between the two sides of one plane, not even a ray that runs within it. A ray that runs within two
+// planes runs along the edge where they meet, and is not between them either.
 FN int nothing_between(Geometry g, u32 index, ray3 r) {
     PlaneRef first = g.words[index], second = g.words[index + 1];
     return (first ^ second) == 1u || (first != second && runs_within(g, index, r) && runs_within(g, index + 1, r));
@@ -74,7 +76,8 @@ FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     if (between.touched) c.missed = missed_of_planes(g, solid.first_plane, REVOLVE_FACES, r);
     for (i = 0; i < flat_lines; ++i)
         if (runs_in(g.planes[g.words[solid.first_plane + faces + i] >> 1], r)) touched = solid.first_plane + faces + i;
-    // A ray in such a plane touches the flat face, which lies before it or behind it along the axis: the solid is met beside it.
+    // A ray in such a plane touches the flat face, which lies before it or behind it along the axis: the solid is met
+    // beside it.
     do {
         k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
         if (touched != NONE) {
@@ -108,7 +111,8 @@ FN vec3 profile_normal(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a,
             profile_point c = profile_at(p, degree, stride, root.at);
             real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y));
             nearest = off;
-            // Across the tangent, times the distance to the axis. On the axis: along it, what lies across it has a normal there.
+            // Across the tangent, times the distance to the axis. On the axis: along it, what lies across it has a
+            // normal there.
             n = rho > 0 ? make_vec3(c.dz * at.x, c.dz * at.y, -c.dr * rho) : make_vec3(0, 0, -c.dr);
         }
     }

@@ -1,4 +1,5 @@
-// Any solid of at most two segments, and any solid's normal: the place that knows all types (with collect.h). A program holds only the types that its scene has
+// Any solid of at most two segments, and any solid's normal: the place that knows all types (with collect.h). A program
+// holds only the types that its scene has
 // (-DCSGRT_SOLIDS=<bits>): code that is not there costs no registers.
 #ifndef CSGRT_GEOMETRY_SOLID_H
 #define CSGRT_GEOMETRY_SOLID_H
@@ -25,7 +26,7 @@
 #define CSGRT_SOLIDS 0xffffffffu
 #endif
 
-#define HAS_SOLID(type) ((CSGRT_SOLIDS) >> (type) & 1u)
+#define HAS_SOLID(type) ((CSGRT_SOLIDS) >> (type)&1u)
 
 FN segments intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_ELL)
@@ -109,7 +110,8 @@ FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 
     if (solid.type == SOLID_PART) n = part_normal(g.reals + solid.first_real, r, t);
 #endif
 #if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) n = mesh_normal(g, g.words + solid.first_word, g.reals + solid.first_real, r, surface);
+    if (solid.type == SOLID_MESH)
+        n = mesh_normal(g, g.words + solid.first_word, g.reals + solid.first_real, r, surface);
 #endif
 #if HAS_SOLID(SOLID_PLATE)
     if (solid.type == SOLID_PLATE)

@@ -2,9 +2,9 @@
 //
 //   G = (|x|^p + |y|^p)^q + |z|^r - 1 < 0        p = 2 / e, q = e / n, r = 2 / n
 //
-// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0: there its powers are monotone, so
-// their ranges over a piece are those at its ends, and with them the ranges of G and of its slope. With p q = r,
-// s = |x|^p + |y|^p and Lagrange's identity the second derivative is
+// Along a ray each of |x|, |y|, |z| is linear between the points where x, y or z is 0: there its powers are monotone,
+// so their ranges over a piece are those at its ends, and with them the ranges of G and of its slope. With p q = r, s =
+// |x|^p + |y|^p and Lagrange's identity the second derivative is
 //
 //   G'' / r = (r-1) (s^(q-2) (x^(p-1) x' + y^(p-1) y')^2 + z^(r-2) z'^2) + (p-1) s^(q-2) (x y)^(p-2) (x y' - x' y)^2
 //
@@ -22,7 +22,9 @@
 #include "power.h"
 #include "range.h"
 
-#define SUPERELL_MARGIN BY_PRECISION(1.0001, 1.000001, 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
+#define SUPERELL_MARGIN            \
+    BY_PRECISION(1.0001, 1.000001, \
+                 1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
 #define SUPERELL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)
 #define SUPERELL_STEPS 500
 #define SUPERELL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // |G| beyond this is no rounding
@@ -95,8 +97,8 @@ FN superell_point superell_at(superell_ray l, vec3 rate, real u) {
         real away = real_power(real_power(real_abs(rate.x), l.p) + real_power(real_abs(rate.y), l.p), l.q);
         a.slope = product_or_0(rate.x + rate.y < 0 ? -away : away, superell_lower(0, 0, l.r));
     } else {
-        a.slope = product_or_0(superell_lower(s, outer, l.q),
-                               product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y));
+        a.slope =
+            product_or_0(superell_lower(s, outer, l.q), product_or_0(rate.x, a.by_x) + product_or_0(rate.y, a.by_y));
     }
     a.slope = a.slope + product_or_0(rate.z, a.by_z);
     return a;
@@ -168,7 +170,8 @@ FN real superell_root(superell_ray l, vec3 rate, superell_point a, superell_poin
         if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
         if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
         if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35)) return next;
+        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35))
+            return next;
         u = next;
     }
     return u;

@@ -30,7 +30,7 @@ typedef struct {
 #endif
 
 // Solids of which a ray may have more than two segments.
-#define MANY_SEGMENTS                                                                                            \
+#define MANY_SEGMENTS                                                                                          \
     (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_SUPERELL | 1u << SOLID_PLATE | \
      1u << SOLID_HRT | 1u << SOLID_METABALL)
 

@@ -1,18 +1,18 @@
 // Truncated general cone: cylinders and cones, right or oblique, circular or elliptical, with one or two different
-// tapers. Parameters: affine (12), a0, a1, b0, b1, kind, radius2. Planes: 0 base, 1 top. Surfaces: 0 side, 1 base, 2 top.
+// tapers. Parameters: affine (12), a0, a1, b0, b1, kind, radius2. Planes: 0 base, 1 top. Surfaces: 0 side, 1 base, 2
+// top.
 //
-//   local z = -1 at the base, +1 at the top (a cone with an apex: 0 at the apex); semi-axes a(z) = a0 + a1 z along x, b(z) = b0 + b1 z along y
-//   kind 0 (a = b):  x^2 + y^2 - a^2 < 0             a quadric
-//   kind 1:          x^2 b^2 + y^2 a^2 - a^2 b^2 < 0  a quartic
-//   radius2: the square of a radius, local, around everything
+//   local z = -1 at the base, +1 at the top (a cone with an apex: 0 at the apex); semi-axes a(z) = a0 + a1 z along x,
+//   b(z) = b0 + b1 z along y kind 0 (a = b):  x^2 + y^2 - a^2 < 0             a quadric kind 1:          x^2 b^2 + y^2
+//   a^2 - a^2 b^2 < 0  a quartic radius2: the square of a radius, local, around everything
 #ifndef CSGRT_GEOMETRY_TGC_H
 #define CSGRT_GEOMETRY_TGC_H
 
 #include "cone.h"
 #include "quartic.h"
 
-// The piece of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each, and m
-// changes sign between them: the piece on which m > 0 is the cone's.
+// The piece of `s` within a round cone. A ray steeper than the cone (a < 0) meets both of its nappes, one root on each,
+// and m changes sign between them: the piece on which m > 0 is the cone's.
 FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     if (f.a < 0) {
         real u = -m0 / m1;
@@ -35,9 +35,9 @@ FN segments cone_inside(local_ray l, quadratic f, real m0, real m1, span s) {
     return quadratic_inside(f.a, f.b, f.c, f.discriminant, l.shift, s, TGC_SIDE);
 }
 
-// Where an end is an edge, or all but one, a ray that passes near it is taken from its closest approach to the edge: there its
-// coefficients vanish with the quartic, so near the edge it is as exact relative to its own size as elsewhere. From the usual
-// origin all that is left there is rounding. Near: in units of the larger semi-axis.
+// Where an end is an edge, or all but one, a ray that passes near it is taken from its closest approach to the edge:
+// there its coefficients vanish with the quartic, so near the edge it is as exact relative to its own size as
+// elsewhere. From the usual origin all that is left there is rounding. Near: in units of the larger semi-axis.
 #define EDGE_REACH REAL(0.125)
 
 // How the ray passes the line where a semi-axis m0 + m1 u, and the coordinate o + d u along it, are 0: nearest at u.
@@ -66,8 +66,8 @@ NOINLINE_FN real edge_shift(GLOBAL const real* p, vec3 o, vec3 d, span s) {
     return a.distance2 <= b.distance2 ? a.u : b.u;
 }
 
-// What of `s` has a positive semi-axis m0 + m1 u. The ends' planes are computed in another way: by rounding a ray along an edge
-// could meet the mirrored body beyond it.
+// What of `s` has a positive semi-axis m0 + m1 u. The ends' planes are computed in another way: by rounding a ray along
+// an edge could meet the mirrored body beyond it.
 FN span on_this_side(span s, real m0, real m1) {
     const real u = -m0 / m1;
     if (m1 > 0) s.low = real_max(s.low, u);

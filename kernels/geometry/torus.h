@@ -5,10 +5,12 @@
 #include "affine.h"
 #include "plane.h"
 
-#define TOR_MARGIN BY_PRECISION(1.0001, 1.000001, 1.000001)  // the piece is a little larger than the torus, so that its ends are outside
+#define TOR_MARGIN                 \
+    BY_PRECISION(1.0001, 1.000001, \
+                 1.000001)  // the piece is a little larger than the torus, so that its ends are outside
 
-// The piece of a ray inside the slab |z| <= ratio and the sphere |p| <= 1 + ratio, between `low` and `high` along the unit
-// direction d. Empty: low >= high.
+// The piece of a ray inside the slab |z| <= ratio and the sphere |p| <= 1 + ratio, between `low` and `high` along the
+// unit direction d. Empty: low >= high.
 typedef struct {
     local_ray l;
     vec3 d;
@@ -44,9 +46,11 @@ FN tor_piece tor_piece_of(u32 method, GLOBAL const parameter* p, ray3 r) {
     s.low = crosses && first > s.low ? first : s.low;
     s.high = crosses && last < s.high ? last : s.high;
     outside = !(s.low < s.high) || (!crosses && real_abs(s.l.o.z) > ratio);
-    // Most rays through the box of a thin ring pass within it. The distance from the axis is greatest at an end of the piece.
+    // Most rays through the box of a thin ring pass within it. The distance from the axis is greatest at an end of the
+    // piece.
     if (ratio < 1)
-        outside = outside || real_max(axis_distance2(s.l.o, s.d, s.low), axis_distance2(s.l.o, s.d, s.high)) < inner * inner;
+        outside =
+            outside || real_max(axis_distance2(s.l.o, s.d, s.low), axis_distance2(s.l.o, s.d, s.high)) < inner * inner;
     s.high = outside ? s.low : s.high;
     return s;
 }

@@ -1,20 +1,23 @@
-// A ray that touches a solid all along a segment, as far as rounding lets one say: it runs in a face or along a wall, or comes no
-// deeper than rounding. Both ends of the segment are marked with the side to which the ray would miss the solid (MISSED_...). Here
-// and not in each solid, which asks for it seldom: what is rare costs a GPU's registers and a processor's vectors wherever it stands.
+// A ray that touches a solid all along a segment, as far as rounding lets one say: it runs in a face or along a wall,
+// or comes no deeper than rounding. Both ends of the segment are marked with the side to which the ray would miss the
+// solid (MISSED_...). Here and not in each solid, which asks for it seldom: what is rare costs a GPU's registers and a
+// processor's vectors wherever it stands.
 #ifndef CSGRT_GEOMETRY_TOUCH_H
 #define CSGRT_GEOMETRY_TOUCH_H
 
 #include "cone.h"
 #include "plane.h"
 
-// By how much rounding of the ray's and of the solid's numbers may move a point of the local ray, and a surface of about size 1.
+// By how much rounding of the ray's and of the solid's numbers may move a point of the local ray, and a surface of
+// about size 1.
 FN real local_rounding(GLOBAL const parameter* p, ray3 r) {
     const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
     const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
     real most = 0;
     int row;
     for (row = 3; row < 12; row += 3)
-        most = real_max(most, real_abs(REAL(p[row])) * x + real_abs(REAL(p[row + 1])) * y + real_abs(REAL(p[row + 2])) * z);
+        most = real_max(most,
+                        real_abs(REAL(p[row])) * x + real_abs(REAL(p[row + 1])) * y + real_abs(REAL(p[row + 2])) * z);
     return ROUNDING * (REAL(1) + most);
 }
 

@@ -1,5 +1,5 @@
-// A ray and the triangles of one mesh, watertight: what bounds a volume is crossed an even number of times, whatever the
-// rounding, through edges and vertices too.
+// A ray and the triangles of one mesh, watertight: what bounds a volume is crossed an even number of times, whatever
+// the rounding, through edges and vertices too.
 //
 // The ray is turned into the axis that it runs along most and sheared upright (Woop, Benthin, Wald 2013), and so are
 // the vertices, each by the same arithmetic for all its triangles:
@@ -7,11 +7,12 @@
 //        y |    c                 The ray is the point 0. It meets a triangle whose three edges all have it on the
 //          |   / \                same side: sign(a x b) = sign(b x c) = sign(c x a).
 //          |  / 0 \               These signs are exact. A zero (0 on an edge, or on a vertex) is decided as if the ray
-//          | a-----b              stood a hair aside, at (e, e^2): then every point of the plane lies in exactly as many
+//          | a-----b              stood a hair aside, at (e, e^2): then every point of the plane lies in exactly as
+//          many
 //          +---------- x          triangles as a point beside it (simulation of simplicity, Edelsbrunner, Muecke 1990).
 //
-// Parameters: affine (12). A mesh keeps its vertices around its middle, scaled by a power of two so that all of them lie
-// within MESH_RADIUS of it.
+// Parameters: affine (12). A mesh keeps its vertices around its middle, scaled by a power of two so that all of them
+// lie within MESH_RADIUS of it.
 #ifndef CSGRT_GEOMETRY_TRIANGLE_H
 #define CSGRT_GEOMETRY_TRIANGLE_H
 
@@ -21,11 +22,11 @@
 #define MESH_RADIUS REAL(1)
 
 // Words of a mesh, which all its places share; then three vertices a triangle, in the order of the hierarchy's leaves.
-#define MESH_VERTICES 0    // where in `reals` they are
-#define MESH_NODES 1       // where in `inner_nodes` its hierarchy is
+#define MESH_VERTICES 0  // where in `reals` they are
+#define MESH_NODES 1     // where in `inner_nodes` its hierarchy is
 #define MESH_NODE_COUNT 2
-#define MESH_FACING 3      // 0: of no account; else corners run counterclockwise (1) or clockwise (2), seen from outside
-#define MESH_TRIANGLES 4   // the first triangle's word
+#define MESH_FACING 3     // 0: of no account; else corners run counterclockwise (1) or clockwise (2), seen from outside
+#define MESH_TRIANGLES 4  // the first triangle's word
 
 typedef struct {
     local_ray ray;
@@ -69,8 +70,8 @@ FN int side_of_edge(vec3 a, vec3 b, real product) {
 
 typedef struct {
     int hit;
-    real t;              // the ray's own
-    int clockwise;       // seen along the ray
+    real t;         // the ray's own
+    int clockwise;  // seen along the ray
 } triangle_hit;
 
 FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners) {

@@ -62,7 +62,7 @@ FN real real_sqrt(real x) { return sqrt(x); }
 FN real real_fma(real a, real b, real c) { return fma(a, b, c); }
 FN real real_abs(real x) { return fabs(x); }
 FN real real_floor(real x) { return floor(x); }
-FN int real_exponent(real x) { return ilogb(x); }  // 2^e <= x < 2^(e+1); x > 0
+FN int real_exponent(real x) { return ilogb(x); }           // 2^e <= x < 2^(e+1); x > 0
 FN real real_scaled(real x, int e) { return ldexp(x, e); }  // x 2^e
 #else
 // The host includes kernels/ inside a namespace that has defined `real`, `wide`, `u32` and REAL_INFINITY

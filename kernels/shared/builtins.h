@@ -23,10 +23,10 @@ PURE uint clz(uint bits);
 PURE uint add_sat(uint a, uint b);
 PURE int any(long8 lanes);
 
-#define REAL_FUNCTIONS(T)  \
-    PURE T sqrt(T x);      \
-    PURE T fabs(T x);      \
-    PURE T floor(T x);     \
+#define REAL_FUNCTIONS(T) \
+    PURE T sqrt(T x);     \
+    PURE T fabs(T x);     \
+    PURE T floor(T x);    \
     PURE T fma(T a, T b, T c);
 REAL_FUNCTIONS(float)
 REAL_FUNCTIONS(double)
@@ -45,10 +45,10 @@ PURE float8 convert_float8(uint8 x);
 PURE int8 convert_int8(long8 x);
 PURE char8 convert_char8(int8 x);
 PURE long8 convert_long8(int8 x);
-#define MEMORY_FUNCTIONS(T)                                                   \
-    OVERLOADED T##8 vload8(size_t offset, const __private T* from);           \
-    OVERLOADED T##8 vload8(size_t offset, const __global T* from);            \
-    OVERLOADED void vstore8(T##8 values, size_t offset, __private T* to);     \
+#define MEMORY_FUNCTIONS(T)                                               \
+    OVERLOADED T##8 vload8(size_t offset, const __private T* from);       \
+    OVERLOADED T##8 vload8(size_t offset, const __global T* from);        \
+    OVERLOADED void vstore8(T##8 values, size_t offset, __private T* to); \
     OVERLOADED void vstore8(T##8 values, size_t offset, __global T* to);
 MEMORY_FUNCTIONS(float)
 MEMORY_FUNCTIONS(double)

@@ -1,6 +1,7 @@
-// Memory for what a batch's rays need. The host has kernels queued before it knows how much that is; each kernel compares the sums
-// with the capacity of the buffers at hand, and where that does not do it writes nothing. The host, which learns from the batch's tally
-// (kernel 5) that it did not do, has the rays counted, allocates exactly what they need, and has them run again.
+// Memory for what a batch's rays need. The host has kernels queued before it knows how much that is; each kernel
+// compares the sums with the capacity of the buffers at hand, and where that does not do it writes nothing. The host,
+// which learns from the batch's tally (kernel 5) that it did not do, has the rays counted, allocates exactly what they
+// need, and has them run again.
 #ifndef CSGRT_SHARED_CAPACITY_H
 #define CSGRT_SHARED_CAPACITY_H
 

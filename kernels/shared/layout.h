@@ -45,17 +45,17 @@
 typedef struct {
     u32 type;
     u32 first_real;
-    u32 first_word;                  // into words, for solids of any size: counts, indices
-    u32 first_plane, plane_count;    // PlaneRefs in words
-    u32 first_start, start_count;    // into starts
-    u32 first_leaf, leaf_count;      // into trees: where it stands in terms of more than SCANNED_WORDS, ascending
-    u32 begins;                      // BEGINS_x: where it may be that a term begins to be true
-    u32 alone;                       // what claims where it alone covers: as PartitionNode.owner, or ALONE_UNKNOWN
+    u32 first_word;                // into words, for solids of any size: counts, indices
+    u32 first_plane, plane_count;  // PlaneRefs in words
+    u32 first_start, start_count;  // into starts
+    u32 first_leaf, leaf_count;    // into trees: where it stands in terms of more than SCANNED_WORDS, ascending
+    u32 begins;                    // BEGINS_x: where it may be that a term begins to be true
+    u32 alone;                     // what claims where it alone covers: as PartitionNode.owner, or ALONE_UNKNOWN
     SOLID_CENTER
 } SolidRecord;
 
-#define BEGINS_AT_ENTRY 1u  // where a ray enters the solid: some term needs it
-#define BEGINS_AT_EXIT 2u   // where it leaves it: it is removed from some term
+#define BEGINS_AT_ENTRY 1u         // where a ray enters the solid: some term needs it
+#define BEGINS_AT_EXIT 2u          // where it leaves it: it is removed from some term
 #define ALONE_UNKNOWN 0xffffffffu  // its terms have to be looked at
 
 // A plane of the world: inside is n . p <= d. Shared by all faces that lie in it, so that they are hit at the very
@@ -81,7 +81,7 @@ typedef u32 PlaneRef;
 #define OP_LEAF 0
 #define OP_UNION 1
 #define OP_INTERSECTION 2
-#define OP_DIFFERENCE 3          // left and not right
+#define OP_DIFFERENCE 3  // left and not right
 #define OP_XOR 4
 #define OP_REVERSE_DIFFERENCE 5  // right and not left: the compiler puts the deeper child second
 #define TREE_SHIFT 29
@@ -154,7 +154,7 @@ typedef struct {
     SolidFilter solids;        // all of the term's
     u32 roles;                 // where its table of roles begins, in trees; NONE: it has none
 } StartRecord;
-#define PLAIN_WORDS 16u      // of a term; a larger one has a table of roles
+#define PLAIN_WORDS 16u     // of a term; a larger one has a table of roles
 #define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
 
 typedef struct {
@@ -202,30 +202,31 @@ typedef struct {
 #define WORK_PIXELS 1u
 #define WORK_RAYS 2u
 
-// Pixels of a picture: columns left ... right - 1 and lines top ... bottom - 1. It begins with a tile of TILE * TILE pixels.
+// Pixels of a picture: columns left ... right - 1 and lines top ... bottom - 1. It begins with a tile of TILE * TILE
+// pixels.
 typedef struct {
     u32 left, top, right, bottom;
 } ScreenBounds;
 
 typedef struct {
     // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
-    wide eye[3];   // perspective: the eye. Orthographic: the middle of where rays start, before the whole model
+    wide eye[3];      // perspective: the eye. Orthographic: the middle of where rays start, before the whole model
     wide u[3], v[3];  // one pixel to the right, one pixel up, millimetres on the picture plane
-    wide w[3];     // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
-    wide center[3];  // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
+    wide w[3];        // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
+    wide center[3];   // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
     wide radius;
-    wide t_min;    // segments that end before this distance are not wanted
+    wide t_min;      // segments that end before this distance are not wanted
     wide tolerance;  // ends closer than this along the ray are one
     wide ambient;
     float background[3];
     u32 width, height;
-    u32 perspective;       // 0 or 1
-    u32 work;              // WORK_x: which rays the kernels are run for
+    u32 perspective;           // 0 or 1
+    u32 work;                  // WORK_x: which rays the kernels are run for
     u32 first_ray, ray_count;  // this batch
     u32 solid_count, unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: only the first hits are wanted
     u32 channels;          // of the picture: CHANNEL_x bits
-    ScreenBounds screen;         // the picture's pixels that can show anything; none of the others has a ray
+    ScreenBounds screen;   // the picture's pixels that can show anything; none of the others has a ray
     u32 rows;              // of the batch's picture if it is row-major; 0: it has a float a ray, in the rays' order
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
@@ -244,8 +245,8 @@ typedef struct {
     wide ox, oy, oz, dx, dy, dz;
 } RayRecord;
 
-// 0 cull tiles -> first hits: nodes of the hierarchy that hold all that a tile's rays may meet, each one thing once: leaves,
-// or subtrees where there is much. Nearest first, then an entry without a node.
+// 0 cull tiles -> first hits: nodes of the hierarchy that hold all that a tile's rays may meet, each one thing once:
+// leaves, or subtrees where there is much. Nearest first, then an entry without a node.
 typedef struct {
     u32 node;     // NONE: no more
     float entry;  // no ray of the tile comes there before this distance, less that of the scene's center
@@ -259,11 +260,11 @@ typedef struct {
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a batch is too large
 
-// Of a batch whose pixels come by lines: its tiles by what they cost, and what the host wants to know when it is drawn. Behind it
-// stands a byte for each of the batch's tiles: not 0 if a ray of it sees something.
+// Of a batch whose pixels come by lines: its tiles by what they cost, and what the host wants to know when it is drawn.
+// Behind it stands a byte for each of the batch's tiles: not 0 if a ray of it sees something.
 #define COST_CLASSES 48u
 typedef struct {
-    u32 tiles[COST_CLASSES];  // how many of each class; of class 0 those that see nothing
+    u32 tiles[COST_CLASSES];   // how many of each class; of class 0 those that see nothing
     u32 listed[COST_CLASSES];  // of them, those that have their place in the list, where class 0 has none
     u32 entries;               // of that list: tiles of all classes but 0, or parts of them
     u32 overflows;             // first hits: rays without room, in no order
@@ -348,6 +349,5 @@ typedef struct {
 FN u32 width_of(ScreenBounds w) { return w.right - w.left; }
 FN u32 tiles_across(ScreenBounds w) { return (width_of(w) + TILE - 1u) / TILE; }
 FN u32 tiles_down(ScreenBounds w) { return (w.bottom - w.top + TILE - 1u) / TILE; }
-
 
 #endif

@@ -1,12 +1,13 @@
-// Kernels' arguments that are tables of the scene, in groups; on the host one call sets a group (SceneTables, src/pipeline/passes).
+// Kernels' arguments that are tables of the scene, in groups; on the host one call sets a group (SceneTables,
+// src/pipeline/passes).
 #ifndef CSGRT_SHARED_SCENE_ARGS_H
 #define CSGRT_SHARED_SCENE_ARGS_H
 
 #include "layout.h"
 
 // Solids and what they are made of.
-#define GEOMETRY_ARGS                                                                                           \
-    __global const SolidRecord *solids, __global const real *reals, __global const PlaneRecord *planes,        \
+#define GEOMETRY_ARGS                                                                                   \
+    __global const SolidRecord *solids, __global const real *reals, __global const PlaneRecord *planes, \
         __global const u32 *words, __global const BvhNode *inner_nodes
 #define GEOMETRY make_geometry(solids, reals, planes, words, inner_nodes)
 

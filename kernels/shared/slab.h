@@ -10,12 +10,12 @@
 #include "layout.h"
 
 typedef struct {
-    single px, py, pz;  // a point of the ray, relative to the center
-    single ix, iy, iz;  // 1 / direction, or MOST_INVERSE
-    single t_min;       // in the hierarchy's own parameter
-    single pad;         // single precision: by which boxes grow
+    single px, py, pz;      // a point of the ray, relative to the center
+    single ix, iy, iz;      // 1 / direction, or MOST_INVERSE
+    single t_min;           // in the hierarchy's own parameter
+    single pad;             // single precision: by which boxes grow
     lane_mask hits_sphere;  // 0: nothing can be hit
-    real shift, length;  // the hierarchy's parameter is length * t - shift
+    real shift, length;     // the hierarchy's parameter is length * t - shift
 } slab_ray;
 
 #define SLAB_REACH BY_PRECISION(1.001, 1.0000001, 1.0000001)

@@ -29,9 +29,7 @@ FN size_t row_major_place(ScreenBounds w, u32 first_ray, pixel_position at) {
 FN size_t place_of(GLOBAL const Frame* f, pixel_position at, u32 id) {
     return f->rows ? row_major_place(f->screen, f->first_ray, at) : id;
 }
-FN size_t channel_size(GLOBAL const Frame* f) {
-    return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count;
-}
+FN size_t channel_size(GLOBAL const Frame* f) { return f->rows ? (size_t)f->rows * width_of(f->screen) : f->ray_count; }
 
 // Marks the ray's tile, for the host, as one that shows something. Rays may do so at the same time: all store the
 // same value.

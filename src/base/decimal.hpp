@@ -1,5 +1,5 @@
-// Decimal numbers, read alike wherever they stand: in a scene of any format, in a file of rays, on the command line. The
-// value is the nearest double: what is too small for one is 0, of its sign, and what is too large is refused.
+// Decimal numbers, read alike wherever they stand: in a scene of any format, in a file of rays, on the command line.
+// The value is the nearest double: what is too small for one is 0, of its sign, and what is too large is refused.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,13 @@ namespace csgrt {
 
 enum class Decimal { number, no_number, not_finite, too_large };
 
-/// Whether a decimal that no double is near lies on the side of 0. Its first digit other than 0 tells, with the exponent.
+/// Whether a decimal that no double is near lies on the side of 0. Its first digit other than 0 tells, with the
+/// exponent.
 inline bool is_below_doubles(std::string_view digits) {
     if (digits.starts_with('-')) digits.remove_prefix(1);
     const std::size_t letter = std::min(digits.find_first_of("eE"), digits.size());
-    const std::string_view mantissa = digits.substr(0, letter), power = digits.substr(std::min(letter + 1, digits.size()));
+    const std::string_view mantissa = digits.substr(0, letter),
+                           power = digits.substr(std::min(letter + 1, digits.size()));
     constexpr std::int64_t far = std::int64_t{1} << 40;  // more digits than any file has
     std::int64_t exponent = 0;
     if (!power.empty()) {

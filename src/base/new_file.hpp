@@ -1,5 +1,5 @@
-// A file that is written whole or not at all, wherever its name leads. All in the header: the library, the component for
-// pictures and the command share it, and show each other nothing behind their interfaces.
+// A file that is written whole or not at all, wherever its name leads. All in the header: the library, the component
+// for pictures and the command share it, and show each other nothing behind their interfaces.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Target {
     std::filesystem::path path;
     /// A device, a pipe or an open file (/dev/stdout, /dev/fd/3): nothing can be renamed onto it.
     bool direct = false;
-    int descriptor = -1;  ///< the open file, if it is one of this process
+    int descriptor = -1;   ///< the open file, if it is one of this process
     bool endless = false;  ///< the links lead in a circle
 };
 

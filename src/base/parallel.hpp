@@ -57,15 +57,16 @@ void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Wor
         if (exception) std::rethrow_exception(exception);
 }
 
-/// Room for `count` in memory that the system has cleared, page by page, for all threads side by side: for one alone that takes a
-/// good part of what it then does with it, if there is much.
+/// Room for `count` in memory that the system has cleared, page by page, for all threads side by side: for one alone
+/// that takes a good part of what it then does with it, if there is much.
 template <class T>
 void reserve_cleared(std::vector<T>& all, std::size_t count) {
     constexpr std::size_t page = 4096, piece = std::size_t{1} << 22;
     all.reserve(count);
     const std::size_t bytes = (all.capacity() - all.size()) * sizeof(T);
     if (bytes < 2 * piece) return;
-    auto* const memory = reinterpret_cast<volatile unsigned char*>(all.data() + all.size());  // no element lives there yet
+    auto* const memory =
+        reinterpret_cast<volatile unsigned char*>(all.data() + all.size());  // no element lives there yet
     for_chunks(bytes, piece, 0, [memory](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; i += page) memory[i] = 0;
     });

@@ -59,9 +59,10 @@ std::size_t set_sphere(const std::vector<Box>& boxes, CompiledScene& compiled) {
     return all.unbounded;
 }
 
-/// Numbers the instances: the `unbounded` ones first, then in the order of the hierarchy's leaves. Returns old numbers in
-/// the new order.
-std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, std::size_t unbounded, CompiledScene& compiled) {
+/// Numbers the instances: the `unbounded` ones first, then in the order of the hierarchy's leaves. Returns old numbers
+/// in the new order.
+std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, std::size_t unbounded,
+                                         CompiledScene& compiled) {
     compiled.unbounded_count = static_cast<std::uint32_t>(unbounded);
     std::vector<std::uint32_t> order, bounded;
     if (unbounded > 0)
@@ -145,7 +146,8 @@ std::vector<Diagnostic> nothing_to_render(std::vector<Warning>& warnings) {
         diagnostics.push_back({std::move(place), warnings[i].reason, {}, {}});
     }
     if (warnings.size() > FindingList::most)
-        diagnostics.push_back({{}, "and " + std::to_string(warnings.size() - FindingList::most) + " more warnings", {}, {}});
+        diagnostics.push_back(
+            {{}, "and " + std::to_string(warnings.size() - FindingList::most) + " more warnings", {}, {}});
     return diagnostics;
 }
 

@@ -31,9 +31,9 @@ struct CompiledScene {
     std::vector<std::uint32_t> words;  ///< of solids; behind them PlaneRefs
     std::vector<kernel::BvhNode> inner_nodes;
     std::vector<kernel::StartRecord> starts;
-    std::vector<std::uint32_t> trees;  ///< words; behind them where solids stand in large terms
+    std::vector<std::uint32_t> trees;               ///< words; behind them where solids stand in large terms
     std::vector<kernel::MaterialRecord> materials;  ///< one a region
-    std::vector<kernel::LightRecord> lights;  ///< the scene's own; none: the view supplies one
+    std::vector<kernel::LightRecord> lights;        ///< the scene's own; none: the view supplies one
     std::vector<kernel::BvhNode> nodes;
     std::uint32_t unbounded_count = 0;
     std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
@@ -53,8 +53,8 @@ struct CompiledScene {
     bool has_large_terms = false;   ///< of more than SCANNED_WORDS words
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4, tolerance = 0;
-    std::uint64_t hash = 0;          ///< FNV-1a over everything that crosses the bus: the same scene, the same number
-    std::vector<Warning> warnings;   ///< see Renderer::warnings
+    std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
+    std::vector<Warning> warnings;  ///< see Renderer::warnings
 };
 
 struct CompileOptions {

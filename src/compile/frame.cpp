@@ -68,12 +68,14 @@ Surroundings surroundings_of(const CompiledScene& scene) {
 constexpr double standoff = std::numbers::sqrt2;
 
 dvec3 center_of(const Camera& camera, const Surroundings& model) {
-    if (camera.center && camera.look_at) refuse("the centre of the view and the point that it looks at are one: give one of them");
+    if (camera.center && camera.look_at)
+        refuse("the centre of the view and the point that it looks at are one: give one of them");
     if (camera.look_at) return in_range(*camera.look_at, "the point that the view looks at");
     return camera.center ? in_range(*camera.center, "the centre of the view") : model.center;
 }
 
-/// The view's axes: unit vectors, perpendicular to each other. `back` points to the eye, `distance` tells how far it is.
+/// The view's axes: unit vectors, perpendicular to each other. `back` points to the eye, `distance` tells how far it
+/// is.
 struct Axes {
     dvec3 right, up, back;
     double distance = 0;
@@ -119,12 +121,13 @@ Axes axes_of(const Camera& camera, dvec3 center) {
     return axes;
 }
 
-/// How far before its centre the rays of an orthographic view start: where BRL-CAD's eye stands, or before the whole model if
-/// that is farther.
+/// How far before its centre the rays of an orthographic view start: where BRL-CAD's eye stands, or before the whole
+/// model if that is farther.
 double plane_to_center(const CompiledScene& scene, const Surroundings& model, dvec3 center, dvec3 back, double half) {
     const double eye = standoff * half;
     double model_end = 0;
-    for (int i = 0; i < 3; ++i) model_end += std::max(back[i] * (model.low[i] - center[i]), back[i] * (model.high[i] - center[i]));
+    for (int i = 0; i < 3; ++i)
+        model_end += std::max(back[i] * (model.low[i] - center[i]), back[i] * (model.high[i] - center[i]));
     if (model_end <= eye) return eye;
     constexpr double rounding = 0x1p-40;
     const double to_scene = glm::dot(to_glm(scene.center) - center, back);
@@ -132,15 +135,16 @@ double plane_to_center(const CompiledScene& scene, const Surroundings& model, dv
     return std::max({eye, model_end, scene_end});
 }
 
-/// BRL-CAD's own light, where a scene has none: half a view back from the eye and half a view to its left, of the view that
-/// shows the whole model orthographically. It stays there when the view shows a part. Fitted to BRL-CAD's pictures of spheres.
+/// BRL-CAD's own light, where a scene has none: half a view back from the eye and half a view to its left, of the view
+/// that shows the whole model orthographically. It stays there when the view shows a part. Fitted to BRL-CAD's pictures
+/// of spheres.
 dvec3 light_of_model(const Surroundings& model, const Axes& axes) {
     const dvec3 eye = model.center + standoff * model.half * axes.back;
     return eye + model.half * (axes.back - axes.right);
 }
 
-/// The same with a perspective: by the eye, if that is near. The farther away it stands, the nearer the light is to that of an
-/// orthographic view, which is what a perspective of nearly 0 shows.
+/// The same with a perspective: by the eye, if that is near. The farther away it stands, the nearer the light is to
+/// that of an orthographic view, which is what a perspective of nearly 0 shows.
 dvec3 light_by_eye(const Surroundings& model, const Axes& axes, dvec3 eye, double half) {
     const double near = standoff * model.half, distance = glm::dot(eye - model.center, axes.back);
     const dvec3 at = eye + half * (axes.back - axes.right);
@@ -196,11 +200,11 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
         result.view_size = camera.view_size ? in_range(*camera.view_size, Limits::least_length, "the size of the view")
                                             : 2 * model.half;
         const double half = 0.5 * result.view_size;
-        result.eye_to_center = in_range(perspective ? half / slope : plane_to_center(scene, model, center, axes.back, half), 0,
-                                        "the distance of the eye");
+        result.eye_to_center =
+            in_range(perspective ? half / slope : plane_to_center(scene, model, center, axes.back, half), 0,
+                     "the distance of the eye");
     }
-    const dvec3 eye =
-        camera.eye && perspective ? to_glm(*camera.eye) : center + result.eye_to_center * axes.back;
+    const dvec3 eye = camera.eye && perspective ? to_glm(*camera.eye) : center + result.eye_to_center * axes.back;
     const double pixel = result.view_size / view.height;
 
     kernel::Frame& frame = result.frame;
@@ -219,7 +223,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
 
     result.lights = scene.lights;
     if (result.lights.empty()) {
-        const dvec3 at = perspective ? light_by_eye(model, axes, eye, 0.5 * result.view_size) : light_of_model(model, axes);
+        const dvec3 at =
+            perspective ? light_by_eye(model, axes, eye, 0.5 * result.view_size) : light_of_model(model, axes);
         result.lights.push_back(light_at(from_glm(at), {1, 1, 1}));
     }
     frame.light_count = static_cast<std::uint32_t>(result.lights.size());

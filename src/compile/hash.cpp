@@ -24,7 +24,8 @@ std::uint64_t hash_of(const CompiledScene& scene, std::uint64_t geometry) {
     hash.add(static_cast<std::uint64_t>(scene.lights.size()));
     for (const kernel::LightRecord& light : scene.lights) {
         // Field by field: a record may end in padding.
-        for (const double x : {light.x, light.y, light.z, light.w, light.bx, light.by, light.bz, light.cosine}) hash.add(x);
+        for (const double x : {light.x, light.y, light.z, light.w, light.bx, light.by, light.bz, light.cosine})
+            hash.add(x);
         for (const float color : {light.r, light.g, light.b}) hash.add(color);
         hash.add(light.beam);
     }

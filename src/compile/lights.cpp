@@ -69,7 +69,8 @@ void add_region_lights(FlatScene& flat, const std::vector<Box>& boxes, CompiledS
         if (light->direction) axis = *light->direction;
         if (light->target) axis = *light->target - found.position;
         // The first solid's, as in BRL-CAD, whatever was given.
-        found.direction = narrow(transform_direction(*flat.instances[region.tree.nodes.front().solid].matrix, wide(axis)));
+        found.direction =
+            narrow(transform_direction(*flat.instances[region.tree.nodes.front().solid].matrix, wide(axis)));
         compiled.lights.push_back(light_record(found));
     }
 }

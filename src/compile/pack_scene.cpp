@@ -35,8 +35,7 @@ struct IsSmall {
 }  // namespace
 
 void check_numbers(std::size_t count) {
-    if (count > 0xffffffffu)
-        throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
+    if (count > 0xffffffffu) throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
 }
 
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
@@ -252,7 +251,7 @@ private:
     const std::vector<std::uint32_t>& order_;
     const Box& common_;
     CompiledScene& compiled_;
-    PlaneTable planes_;      ///< empty, as is the next: those of the shards begin as copies
+    PlaneTable planes_;  ///< empty, as is the next: those of the shards begin as copies
     SurfaceTable surfaces_;
     SharedParts shared_;
     std::vector<PackedChunk> chunks_;

@@ -61,7 +61,8 @@ kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Fra
     const kernel::ScreenBounds all{0, 0, f.width, f.height};
     if (scene.unbounded_count > 0) return all;
     if (scene.nodes.empty()) return {};
-    // By as much boxes grow for single rays (kernels/shared/slab.h), and coordinates are rounded. The same for every precision.
+    // By as much boxes grow for single rays (kernels/shared/slab.h), and coordinates are rounded. The same for every
+    // precision.
     double to_center = 0, center = 0;
     for (int k = 0; k < 3; ++k) {
         to_center = std::hypot(to_center, f.eye[k] - f.center[k]);
@@ -73,7 +74,9 @@ kernel::ScreenBounds screen_bounds(const CompiledScene& scene, const kernel::Fra
         if (!take_in(f, box, more, extent)) return all;
 
     constexpr double margin = 2;  // pixels
-    const auto within = [](double at, std::uint32_t size) { return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0 * size)); };
+    const auto within = [](double at, std::uint32_t size) {
+        return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0 * size));
+    };
     kernel::ScreenBounds screen;
     screen.left = within(std::floor(extent.left - margin), f.width) / TILE * TILE;
     screen.top = within(std::floor(extent.top - margin), f.height) / TILE * TILE;

@@ -1,5 +1,5 @@
-// Looking up among millions, by several threads, with the answers of one that takes them in order: what may be one falls
-// into one shard, each shard is gone through in order, and different shards have nothing to do with each other.
+// Looking up among millions, by several threads, with the answers of one that takes them in order: what may be one
+// falls into one shard, each shard is gone through in order, and different shards have nothing to do with each other.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,8 @@ public:
     class Chunk {
     public:
         void reserve(std::size_t items) { of_.reserve(items); }
-        /// An item that is looked up in these cells, a value and the cells' size for each dimension. Others that may be the
-        /// same differ by at most `tolerance` in each; cells are far larger than that.
+        /// An item that is looked up in these cells, a value and the cells' size for each dimension. Others that may be
+        /// the same differ by at most `tolerance` in each; cells are far larger than that.
         struct Dimension {
             double value, tolerance, cell;
         };
@@ -68,7 +68,7 @@ public:
             return first;
         }
 
-        std::vector<std::uint16_t> of_;                               ///< one an item
+        std::vector<std::uint16_t> of_;                                ///< one an item
         std::vector<std::pair<std::uint16_t, std::uint16_t>> joined_;  ///< shards that items have in common
     };
 
@@ -108,8 +108,9 @@ public:
                     members_[groups[group][chunks_[c].of_[i]]++] = {static_cast<std::uint32_t>(c), i};
         });
     }
-    /// Calls work(table, members, shard) for each shard that has any, several at once, with a table that is cleared before. Each
-    /// thread has one of its own, which begins as a copy of `empty`: memory anew for every shard was a seventh of the pages that compiling took.
+    /// Calls work(table, members, shard) for each shard that has any, several at once, with a table that is cleared
+    /// before. Each thread has one of its own, which begins as a copy of `empty`: memory anew for every shard was a
+    /// seventh of the pages that compiling took.
     template <class Table, class Work>
     void for_each(const Table& empty, const Work& work) const {
         constexpr std::size_t few = 8192;  // threads would take longer to begin
@@ -142,7 +143,7 @@ private:
     std::vector<Chunk> chunks_;
     std::array<std::uint16_t, count> root_;
     std::array<std::uint32_t, count + 1> first_{};  ///< of each shard, among the members
-    std::vector<std::uint16_t> by_size_;             ///< shards with members, the largest first
+    std::vector<std::uint16_t> by_size_;            ///< shards with members, the largest first
     std::vector<Member> members_;
 };
 

@@ -7,12 +7,8 @@
 namespace csgrt {
 
 inline kernel::Geometry tables(const CompiledScene& scene, Quartic quartic = Quartic::bracketed) {
-    return {scene.solids.data(),
-            scene.reals.data(),
-            scene.planes.data(),
-            scene.words.data(),
-            scene.inner_nodes.data(),
-            static_cast<kernel::u32>(quartic)};
+    return {scene.solids.data(), scene.reals.data(),       scene.planes.data(),
+            scene.words.data(),  scene.inner_nodes.data(), static_cast<kernel::u32>(quartic)};
 }
 
 }  // namespace csgrt

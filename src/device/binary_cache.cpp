@@ -25,7 +25,8 @@ std::string head_of(const std::string& key, std::string_view binary) {
     Fnv1a sum;
     sum.add_text(key);
     sum.add_text(binary);
-    return "csgrt binary 1\n" + hexadecimal(sum.state()) + hexadecimal(key.size()) + hexadecimal(binary.size()) + '\n' + key;
+    return "csgrt binary 1\n" + hexadecimal(sum.state()) + hexadecimal(key.size()) + hexadecimal(binary.size()) + '\n' +
+           key;
 }
 
 /// Empty where there is no file or one of more than `most_bytes`; what was read of one that cannot be read to its end.

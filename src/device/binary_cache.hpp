@@ -13,8 +13,8 @@
 namespace csgrt {
 
 /// One file a program, in one folder, under the hash of all that the program hangs on. Several threads and processes
-/// may use a folder at a time. A file that was cut off or damaged counts as none. There is no guard against somebody who
-/// may write to the folder.
+/// may use a folder at a time. A file that was cut off or damaged counts as none. There is no guard against somebody
+/// who may write to the folder.
 class BinaryCache {
 public:
     static constexpr std::uint64_t usual_bytes = std::uint64_t{256} << 20;

@@ -34,7 +34,8 @@ void Buffer::reserve(std::size_t bytes) {
     release();
     device_->claim(name_, bytes);
     cl_int code = CL_SUCCESS;
-    memory_ = Memory(device_->cl(), device_->cl().CreateBuffer(device_->context(), CL_MEM_READ_WRITE, bytes, nullptr, &code));
+    memory_ =
+        Memory(device_->cl(), device_->cl().CreateBuffer(device_->context(), CL_MEM_READ_WRITE, bytes, nullptr, &code));
     if (code != CL_SUCCESS) device_->release(name_, bytes);
     check(code, "clCreateBuffer (" + name_ + ", " + std::to_string(bytes) + " bytes)");
     size_ = bytes;
@@ -55,7 +56,8 @@ Event Buffer::transfer_in(const void* source, std::size_t bytes, std::size_t off
     return Event(device_->cl(), event);
 }
 
-Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait) const {
+Event Buffer::transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset,
+                           bool wait) const {
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
@@ -76,7 +78,8 @@ Buffer::Mapping Buffer::map(std::size_t bytes) const {
     check_range(bytes, 0);
     if (bytes == 0) return {*device_, nullptr, nullptr};
     cl_int code = CL_SUCCESS;
-    void* data = device_->cl().EnqueueMapBuffer(device_->queue(), get(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr, nullptr, &code);
+    void* data = device_->cl().EnqueueMapBuffer(device_->queue(), get(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr,
+                                                nullptr, &code);
     check(code, "clEnqueueMapBuffer (" + name_ + ")");
     return {*device_, get(), data};
 }
@@ -101,7 +104,8 @@ Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes, std::size_t off
     check_range(bytes, offset);
     if (bytes == 0) return {};
     cl_event event = nullptr;
-    check(device_->cl().EnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, offset, bytes, 0, nullptr, &event),
+    check(device_->cl().EnqueueFillBuffer(device_->queue(), get(), &value, sizeof value, offset, bytes, 0, nullptr,
+                                          &event),
           "clEnqueueFillBuffer (" + name_ + ")");
     return Event(device_->cl(), event);
 }
@@ -110,10 +114,11 @@ KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {
     cl_int code = CL_SUCCESS;
     check(device.cl().RetainCommandQueue(device.queue()), "clRetainCommandQueue");
     queue_ = Queue(device.cl(), device.queue());
-    memory_ = Memory(device.cl(), device.cl().CreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data, &code));
+    memory_ = Memory(device.cl(), device.cl().CreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
+                                                           bytes, data, &code));
     check(code, "clCreateBuffer (picture, " + std::to_string(bytes) + " bytes of the host's)");
-    data_ = device.cl().EnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr, nullptr,
-                               &code);
+    data_ = device.cl().EnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0,
+                                         nullptr, nullptr, &code);
     check(code, "clEnqueueMapBuffer (picture)");
 }
 
@@ -126,10 +131,11 @@ KnownMemory::~KnownMemory() {
 PinnedMemory::PinnedMemory(const Device& device, std::string name, std::size_t bytes) : device_(&device), size_(bytes) {
     if (bytes == 0) return;
     cl_int code = CL_SUCCESS;
-    memory_ = Memory(device.cl(), device.cl().CreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, nullptr, &code));
+    memory_ = Memory(device.cl(), device.cl().CreateBuffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                                                           bytes, nullptr, &code));
     check(code, "clCreateBuffer (" + name + ", " + std::to_string(bytes) + " bytes on the host)");
-    data_ = device.cl().EnqueueMapBuffer(device.queue(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes, 0, nullptr,
-                               nullptr, &code);
+    data_ = device.cl().EnqueueMapBuffer(device.queue(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, bytes,
+                                         0, nullptr, nullptr, &code);
     check(code, "clEnqueueMapBuffer (" + name + ")");
 }
 

@@ -96,8 +96,8 @@ private:
     void* data_;
 };
 
-/// Memory of the host's own, made known to a GPU, which then copies to it at the full speed of its bus. Its driver holds as
-/// much on the device. What is there stays there. The memory must outlast this; the device need not.
+/// Memory of the host's own, made known to a GPU, which then copies to it at the full speed of its bus. Its driver
+/// holds as much on the device. What is there stays there. The memory must outlast this; the device need not.
 class KnownMemory {
 public:
     /// Throws Error (out_of_memory, device_fault) if the driver does not take it.
@@ -113,7 +113,8 @@ private:
 };
 
 /// Host memory that a GPU copies to and from at the full speed of its bus (ordinary pages go through a copy of the
-/// driver's, several times slower). It does not count against the device's budget, though NVIDIA's driver keeps as much on the device.
+/// driver's, several times slower). It does not count against the device's budget, though NVIDIA's driver keeps as much
+/// on the device.
 class PinnedMemory {
 public:
     PinnedMemory(const Device& device, std::string name, std::size_t bytes);

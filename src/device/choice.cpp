@@ -10,7 +10,8 @@
 namespace csgrt {
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -43,11 +44,12 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
     Diagnostic finding;
     finding.message = why;
     finding.suggestion =
-        devices.empty()
-            ? "Build csgrt with clang, for a device of its own, or install an OpenCL driver: on Debian and Ubuntu the package "
-              "pocl-opencl-icd brings one that runs on the processor. Or render with the CPU reference."
-            : "There is:\n" + list;
-    if (const std::string near = wanted.empty() ? "" : nearest_device(devices, wanted); !near.empty() && !devices.empty())
+        devices.empty() ? "Build csgrt with clang, for a device of its own, or install an OpenCL driver: on Debian and "
+                          "Ubuntu the package "
+                          "pocl-opencl-icd brings one that runs on the processor. Or render with the CPU reference."
+                        : "There is:\n" + list;
+    if (const std::string near = wanted.empty() ? "" : nearest_device(devices, wanted);
+        !near.empty() && !devices.empty())
         finding.suggestion = near + "\n" + finding.suggestion;
     if (!advice.empty()) finding.suggestion = advice + "\n" + finding.suggestion;
     throw Error(Status::no_device, std::vector<Diagnostic>{finding});
@@ -74,7 +76,9 @@ Kernels kernels_for(const Settings& settings) {
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice, Kernels kernels) {
     if (devices.empty()) refuse(devices, "no device was found");
 
-    const auto is_too_plain = [kernels](const DeviceInfo& d) { return kernels == Kernels::compiled_by_device && is_native(d); };
+    const auto is_too_plain = [kernels](const DeviceInfo& d) {
+        return kernels == Kernels::compiled_by_device && is_native(d);
+    };
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), number);
     if (!choice.empty() && end == choice.data() + choice.size()) {
@@ -92,7 +96,8 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
         const DeviceInfo& device = devices[i];
         // PoCL has its short name in its version alone.
         const bool fits = by_type ? device.type == wanted
-                                  : lower(device.name + '\n' + device.platform + '\n' + device.version).find(wanted) != std::string::npos;
+                                  : lower(device.name + '\n' + device.platform + '\n' + device.version).find(wanted) !=
+                                        std::string::npos;
         if (!fits) continue;
         if (!device.fp64) {
             without_fp64 = true;
@@ -106,13 +111,17 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     }
     if (first < devices.size()) return first;
     if (plain) refuse_native(devices);
-    const std::string which = choice.empty() ? "" : by_type ? " of the type " + wanted : " has \"" + choice + "\" in its name";
-    refuse(devices, without_fp64 ? "no device" + which + (choice.empty() || by_type ? " has" : " and") + " double precision"
-                                 : "no device" + which + (by_type ? " was found" : ""),
+    const std::string which = choice.empty() ? ""
+                              : by_type      ? " of the type " + wanted
+                                             : " has \"" + choice + "\" in its name";
+    refuse(devices,
+           without_fp64 ? "no device" + which + (choice.empty() || by_type ? " has" : " and") + " double precision"
+                        : "no device" + which + (by_type ? " was found" : ""),
            by_type || without_fp64 ? "" : choice);
 }
 
-std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, const std::string& choice, Kernels kernels) {
+std::vector<std::size_t> choose_devices(const std::vector<DeviceInfo>& devices, const std::string& choice,
+                                        Kernels kernels) {
     std::vector<std::size_t> chosen;
     if (lower(choice) == "gpus") {
         for (std::size_t i = 0; i < devices.size(); ++i)

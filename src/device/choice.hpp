@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// Whose kernels: any device's, or only those of a device that compiles them itself, as methods other than the default need
-/// (is_native).
+/// Whose kernels: any device's, or only those of a device that compiles them itself, as methods other than the default
+/// need (is_native).
 enum class Kernels { any, compiled_by_device };
 Kernels kernels_for(const Settings& settings);
 
@@ -17,7 +17,8 @@ Kernels kernels_for(const Settings& settings);
 std::string lower(std::string text);
 
 /// The index of the device that `choice` means (see Device). Throws Error (no_device) that lists what there is.
-std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice, Kernels kernels = Kernels::any);
+std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice,
+                          Kernels kernels = Kernels::any);
 
 /// The same where `choice` may mean several: "gpus", all with double precision, or choices with commas between them.
 /// None is there twice: that is an error, too.

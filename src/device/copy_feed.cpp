@@ -8,7 +8,8 @@
 namespace csgrt {
 namespace {
 
-// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause (docs/experiments/gpu-frames.md).
+// A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause
+// (docs/experiments/gpu-frames.md).
 constexpr std::size_t piece = std::size_t{1} << 21;  // floats
 constexpr std::size_t most_underway = 2 * piece * sizeof(float);
 
@@ -89,8 +90,8 @@ void CopyFeed::give_pieces(const std::shared_ptr<Job>& job, const Copy& copy) {
     const std::size_t channels = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, channel));
     const std::size_t lines = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, copy.columns));
     for (std::size_t p = 0; p < copy.channels; p += channels)
-        for (std::size_t y = 0; y < copy.lines; y += channels > 1 ? copy.lines : lines)
-            for (std::size_t x = 0; x < copy.columns; x += lines > 1 ? copy.columns : piece) {
+        for (std::size_t y = 0; y<copy.lines; y += channels> 1 ? copy.lines : lines)
+            for (std::size_t x = 0; x<copy.columns; x += lines> 1 ? copy.columns : piece) {
                 Copy part = copy;
                 part.channels = std::min(channels, copy.channels - p);
                 part.lines = channels > 1 ? copy.lines : std::min(lines, copy.lines - y);
@@ -119,10 +120,11 @@ Event CopyFeed::queue(const Device& device, const Buffer& buffer, const Copy& co
                       region[3] = {copy.columns * size, copy.lines, copy.channels};
     const bool is_flat = copy.channels == 1;
     cl_event event = nullptr;
-    check(device.cl().EnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region, copy.pitch * size,
-                                  is_flat ? 0 : copy.slice * size, copy.target_pitch * size, is_flat ? 0 : copy.target_slice * size,
-                                  copy.target, 0, nullptr, &event),
-          "clEnqueueReadBufferRect (" + buffer.name() + ")");
+    check(
+        device.cl().EnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region,
+                                          copy.pitch * size, is_flat ? 0 : copy.slice * size, copy.target_pitch * size,
+                                          is_flat ? 0 : copy.target_slice * size, copy.target, 0, nullptr, &event),
+        "clEnqueueReadBufferRect (" + buffer.name() + ")");
     return Event(device.cl(), event);
 }
 

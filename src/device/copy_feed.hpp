@@ -1,6 +1,6 @@
-// Copies from the device to the host's memory beside kernels, by a thread of its own, a few at a time, so that what a QueuedRead
-// asks for stands behind few of them. (NVIDIA's driver leaves one queue's copies for another's only when none is left, or a
-// millisecond has gone by.)
+// Copies from the device to the host's memory beside kernels, by a thread of its own, a few at a time, so that what a
+// QueuedRead asks for stands behind few of them. (NVIDIA's driver leaves one queue's copies for another's only when
+// none is left, or a millisecond has gone by.)
 #pragma once
 
 #include <condition_variable>
@@ -21,7 +21,8 @@ public:
     /// Floats that stand apart as those of a picture's rectangle do: of each channel its lines, one beneath the other.
     struct Copy {
         std::size_t columns, lines = 1, channels = 1;
-        /// Where the first one is in the buffer; from line to line, and from channel to channel, of which the first divides the second.
+        /// Where the first one is in the buffer; from line to line, and from channel to channel, of which the first
+        /// divides the second.
         std::size_t begin = 0, pitch = 0, slice = 0;
         float* target = nullptr;  ///< and on the host
         std::size_t target_pitch = 0, target_slice = 0;
@@ -38,8 +39,9 @@ public:
     /// Makes all copies first.
     ~CopyFeed();
 
-    /// Makes the copies when those given before are made. Does not wait: until the future is ready the buffer must stay as it is, and
-    /// what wrote it must be done already. The future throws Error (device_fault, out_of_memory) if a copy failed.
+    /// Makes the copies when those given before are made. Does not wait: until the future is ready the buffer must stay
+    /// as it is, and what wrote it must be done already. The future throws Error (device_fault, out_of_memory) if a
+    /// copy failed.
     std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies);
 
 private:

@@ -29,10 +29,13 @@ FoundDevice chosen(const std::string& choice) {
 
 Device::Device(const std::string& choice, std::uint64_t max_memory) : Device(chosen(choice), max_memory) {}
 
-Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads) : info_(device.info), cl_(device.cl), id_(device.id) {
-    const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads), 0};
+Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads)
+    : info_(device.info), cl_(device.cl), id_(device.id) {
+    const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads),
+                                                0};
     cl_int code = CL_SUCCESS;
-    context_ = Context(cl(), cl().CreateContext(is_native(info_) ? properties : nullptr, 1, &id_, nullptr, nullptr, &code));
+    context_ =
+        Context(cl(), cl().CreateContext(is_native(info_) ? properties : nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");
     for (auto& queue : queues_) {
         queue = Queue(cl(), cl().CreateCommandQueue(context(), id_, CL_QUEUE_PROFILING_ENABLE, &code));
@@ -47,13 +50,9 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned thr
     max_buffer_ = std::min(budget_, info_.max_allocation);
 }
 
-void Device::flush() const {
-    check(cl().Flush(queue()), "clFlush");
-}
+void Device::flush() const { check(cl().Flush(queue()), "clFlush"); }
 
-void Device::flush_copies() const {
-    check(cl().Flush(copy_queue()), "clFlush (copies)");
-}
+void Device::flush_copies() const { check(cl().Flush(copy_queue()), "clFlush (copies)"); }
 
 void Device::finish() const {
     for (const auto& queue : queues_) check(cl().Finish(queue.get()), "clFinish");
@@ -62,8 +61,8 @@ void Device::finish() const {
 void Device::claim(const std::string& name, std::uint64_t bytes) {
     if (bytes > info_.max_allocation) {
         throw Error(Status::out_of_memory, "device memory: \"" + name + "\" needs " + bytes_text(bytes) +
-                                               ", but one buffer may take " + bytes_text(info_.max_allocation) + " on " +
-                                               info_.name);
+                                               ", but one buffer may take " + bytes_text(info_.max_allocation) +
+                                               " on " + info_.name);
     }
     if (bytes > available()) {
         std::string holders;

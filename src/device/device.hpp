@@ -16,7 +16,8 @@ namespace csgrt {
 struct FoundDevice;
 
 /// A context and profiling queues on one device. Buffers, programs and kernels refer to it and must not outlive it.
-/// Commands run in the order in which they are queued, but those of the copy queue and of other queues; several may be queued before one wait.
+/// Commands run in the order in which they are queued, but those of the copy queue and of other queues; several may be
+/// queued before one wait.
 class Device {
 public:
     /// Picks by `choice`: "" (a GPU if there is one, else the first), "cpu", "gpu", "accelerator", a number as in
@@ -45,19 +46,23 @@ public:
     /// Hands what is queued, but for copies and other queues, to the device without waiting.
     void flush() const;
     void flush_copies() const;  ///< the same of copies
-    /// Waits until all that is done, of every queue. Throws Error (device_fault, out_of_memory) if the driver says that something failed.
+    /// Waits until all that is done, of every queue. Throws Error (device_fault, out_of_memory) if the driver says that
+    /// something failed.
     void finish() const;
 
     /// Bytes that all buffers together may take, and that one buffer may take. Devices misreport both, and change their
     /// mind: they are asked each time a Device is made.
     std::uint64_t budget() const noexcept { return budget_; }
     std::uint64_t max_buffer() const noexcept { return max_buffer_; }
-    std::uint64_t allocated() const noexcept { return allocated_; }  ///< bytes now claimed: in buffers, or held by the driver
+    std::uint64_t allocated() const noexcept {
+        return allocated_;
+    }  ///< bytes now claimed: in buffers, or held by the driver
     std::uint64_t available() const noexcept { return budget_ - allocated_; }
     /// Bytes now in buffers, by the buffers' names.
     const std::map<std::string, std::uint64_t>& allocations() const noexcept { return allocations_; }
 
-    /// Counts `bytes` for a buffer called `name`. Throws Error (out_of_memory), naming who holds what, if they do not fit.
+    /// Counts `bytes` for a buffer called `name`. Throws Error (out_of_memory), naming who holds what, if they do not
+    /// fit.
     void claim(const std::string& name, std::uint64_t bytes);
     void release(const std::string& name, std::uint64_t bytes) noexcept;
 

@@ -26,8 +26,9 @@ std::string text_of(Get get, const char* call) {
 }
 
 std::string device_text(const OpenCl& cl, cl_device_id id, cl_device_info what) {
-    return text_of([&](std::size_t size, void* out, std::size_t* needed) { return cl.GetDeviceInfo(id, what, size, out, needed); },
-                   "clGetDeviceInfo");
+    return text_of(
+        [&](std::size_t size, void* out, std::size_t* needed) { return cl.GetDeviceInfo(id, what, size, out, needed); },
+        "clGetDeviceInfo");
 }
 
 template <class T>
@@ -38,9 +39,11 @@ T device_value(const OpenCl& cl, cl_device_id id, cl_device_info what) {
 }
 
 std::string platform_text(const OpenCl& cl, cl_platform_id platform) {
-    return text_of([&](std::size_t size, void* out, std::size_t* needed) {
-        return cl.GetPlatformInfo(platform, CL_PLATFORM_NAME, size, out, needed);
-    }, "clGetPlatformInfo");
+    return text_of(
+        [&](std::size_t size, void* out, std::size_t* needed) {
+            return cl.GetPlatformInfo(platform, CL_PLATFORM_NAME, size, out, needed);
+        },
+        "clGetPlatformInfo");
 }
 
 /// What the machine is taken for in tests.
@@ -115,7 +118,8 @@ void add_devices(const OpenCl& cl, Discovery& found) {
     }
 }
 
-/// The best native device stands before all other processors; levels of instructions that leave some of this one's unused, last.
+/// The best native device stands before all other processors; levels of instructions that leave some of this one's
+/// unused, last.
 void add_native(Discovery& found) {
     std::vector<FoundDevice> native = find_native_devices();
     if (native.empty()) return;
@@ -142,7 +146,8 @@ std::vector<FoundDevice> find_native_devices() {
 }
 
 Discovery find_devices() {
-    // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL crashes.
+    // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL
+    // crashes.
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
 

@@ -74,9 +74,9 @@ std::uint64_t of_system(const std::string& wanted) {
 }  // namespace
 
 std::uint64_t available_host_memory() {
-    const std::uint64_t bytes =
-        std::min({of_system("MemAvailable:"), rest_of("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
-                  rest_of("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")});
+    const std::uint64_t bytes = std::min(
+        {of_system("MemAvailable:"), rest_of("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+         rest_of("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")});
     return bytes == unknown ? 0 : bytes;
 }
 

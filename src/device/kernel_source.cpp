@@ -50,7 +50,8 @@ std::string_view included_file(std::string_view line) {
 /// "geometry/ell.h" -> "CSGRT_GEOMETRY_ELL_H".
 std::string guard_of(const std::string& name) {
     std::string guard = "CSGRT_" + name;
-    for (char& c : guard) c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (char& c : guard)
+        c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return guard;
 }
 
@@ -64,7 +65,8 @@ public:
             const std::string_view line = rest.substr(0, rest.find('\n'));
             rest.remove_prefix(std::min(line.size() + 1, rest.size()));
             if (const auto guard = after(line, {"#", "undef", "CSGRT_"}))  // what it guards may be included once more
-                std::erase_if(done_, [&](const std::string& done) { return guard_of(done) == "CSGRT_" + std::string(*guard); });
+                std::erase_if(
+                    done_, [&](const std::string& done) { return guard_of(done) == "CSGRT_" + std::string(*guard); });
             if (const std::string_view included = included_file(line); !included.empty()) {
                 add(resolve(name, included), name);
                 mark(line_number + 1, name);

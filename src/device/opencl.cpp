@@ -13,7 +13,8 @@ namespace csgrt {
 
 const char* opencl_error_name(cl_int code) noexcept {
 #define CSGRT_NAME(x) \
-    case x: return #x
+    case x:           \
+        return #x
     switch (code) {
         CSGRT_NAME(CL_SUCCESS);
         CSGRT_NAME(CL_DEVICE_NOT_FOUND);
@@ -67,8 +68,10 @@ const char* opencl_error_name(cl_int code) noexcept {
         CSGRT_NAME(CL_INVALID_PROPERTY);
         CSGRT_NAME(CL_INVALID_COMPILER_OPTIONS);
         CSGRT_NAME(CL_INVALID_LINKER_OPTIONS);
-        case -1001: return "CL_PLATFORM_NOT_FOUND_KHR";
-        default: return "an unknown error";
+        case -1001:
+            return "CL_PLATFORM_NOT_FOUND_KHR";
+        default:
+            return "an unknown error";
     }
 #undef CSGRT_NAME
 }
@@ -89,7 +92,8 @@ void wait_for(const Event& event) {
 bool is_done(const Event& event) {
     if (!event) return true;
     cl_int status = CL_COMPLETE;
-    check(event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr), "clGetEventInfo");
+    check(event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr),
+          "clGetEventInfo");
     return status <= CL_COMPLETE;
 }
 
@@ -124,7 +128,8 @@ double milliseconds(const Event& event) {
     cl_ulong start = 0, end = 0;
     check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr),
           "clGetEventProfilingInfo");
-    check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr), "clGetEventProfilingInfo");
+    check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr),
+          "clGetEventProfilingInfo");
     return end > start ? static_cast<double>(end - start) * 1e-6 : 0;
 }
 

@@ -51,8 +51,8 @@ using Event = Handle<cl_event, &OpenCl::ReleaseEvent>;
 
 /// Waits until it is done; an empty event is. Throws Error (device_fault, out_of_memory) if the command failed.
 void wait_for(const Event& event);
-/// The same by looking at it now and then: a thread that waits within NVIDIA's driver slows others that queue commands (measured:
-/// docs/experiments/gpu-frames.md). May return some ten microseconds late.
+/// The same by looking at it now and then: a thread that waits within NVIDIA's driver slows others that queue commands
+/// (measured: docs/experiments/gpu-frames.md). May return some ten microseconds late.
 void wait_patiently(const Event& event);
 /// Whether it is done, or has failed, which a wait for it then tells.
 bool is_done(const Event& event);

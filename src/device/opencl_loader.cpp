@@ -41,8 +41,8 @@ std::string fault_of_opening(const char* name) {
 /// The name of the first function that it lacks; empty if none.
 std::string fill(Library library, OpenCl& functions) {
     std::string missing;
-#define CSGRT_FILL(name)                                                                                     \
-    functions.name = reinterpret_cast<decltype(functions.name)>(symbol_of(library, "cl" #name));             \
+#define CSGRT_FILL(name)                                                                         \
+    functions.name = reinterpret_cast<decltype(functions.name)>(symbol_of(library, "cl" #name)); \
     if (!functions.name && missing.empty()) missing = "cl" #name;
     CSGRT_OPENCL_FUNCTIONS(CSGRT_FILL)
 #undef CSGRT_FILL

@@ -14,7 +14,8 @@ namespace {
 
 std::string log_of(const Device& device, cl_program program) {
     std::size_t size = 0;
-    check(device.cl().GetProgramBuildInfo(program, device.id(), CL_PROGRAM_BUILD_LOG, 0, nullptr, &size), "clGetProgramBuildInfo");
+    check(device.cl().GetProgramBuildInfo(program, device.id(), CL_PROGRAM_BUILD_LOG, 0, nullptr, &size),
+          "clGetProgramBuildInfo");
     std::string log(size, '\0');
     check(device.cl().GetProgramBuildInfo(program, device.id(), CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr),
           "clGetProgramBuildInfo");
@@ -25,7 +26,8 @@ std::string log_of(const Device& device, cl_program program) {
 
 bool rounds_single_correctly(const Device& device) {
     cl_device_fp_config config = 0;
-    check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, nullptr), "clGetDeviceInfo");
+    check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, nullptr),
+          "clGetDeviceInfo");
     return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
 }
 
@@ -37,8 +39,8 @@ T group_info(const Device& device, cl_kernel kernel, cl_kernel_work_group_info w
     return value;
 }
 
-/// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one maker
-/// do: how long their vectors are tells most of it, and a driver refuses what its device cannot run.
+/// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one
+/// maker do: how long their vectors are tells most of it, and a driver refuses what its device cannot run.
 std::string key_of(const Device& device, const std::string& source, const std::string& options) {
     cl_uint vector = 0;
     check(device.cl().GetDeviceInfo(device.id(), CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE, sizeof vector, &vector, nullptr),
@@ -54,7 +56,8 @@ std::string key_of(const Device& device, const std::string& source, const std::s
 
 Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines, bool single)
     : device_(&device) {
-    // -w: PoCL says on the standard error output how many warnings there were, one for each function that a scene does not need.
+    // -w: PoCL says on the standard error output how many warnings there were, one for each function that a scene does
+    // not need.
     std::string options = std::string("-w -cl-std=CL1.2 -DCSGRT_REAL=") + (single ? "float" : "double");
     if (single && rounds_single_correctly(device)) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const std::string& define : defines) options += " -D" + define;
@@ -69,9 +72,9 @@ Program::Program(const Device& device, const std::string& source, const std::vec
 }
 
 void Program::compile(const std::string& source, const std::string& options) {
-    // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for what it has compiled: 45 of
-    // 60 ms of each start. Without them it takes those that are used from builtins.h. Other releases than those that this was
-    // seen with may have them elsewhere; and should one not know these, it gets its own.
+    // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for what it has
+    // compiled: 45 of 60 ms of each start. Without them it takes those that are used from builtins.h. Other releases
+    // than those that this was seen with may have them elsewhere; and should one not know these, it gets its own.
     const DeviceInfo& info = device_->info();
     has_own_declarations_ = is_pocl(info) && info.driver.starts_with("3.");
 
@@ -123,16 +126,16 @@ std::string Program::binary() const {
     return info(CL_PROGRAM_BINARIES, sizeof bytes, &bytes) ? binary : std::string();
 }
 
-Kernel Program::kernel(const std::string& name) const {
-    return Kernel(*device_, program_.get(), name);
-}
+Kernel Program::kernel(const std::string& name) const { return Kernel(*device_, program_.get(), name); }
 
 Kernel::Kernel(const Device& device, cl_program program, std::string name) : device_(&device), name_(std::move(name)) {
     cl_int code = CL_SUCCESS;
-    kernel_ = Handle<cl_kernel, &OpenCl::ReleaseKernel>(device.cl(), device.cl().CreateKernel(program, name_.c_str(), &code));
+    kernel_ =
+        Handle<cl_kernel, &OpenCl::ReleaseKernel>(device.cl(), device.cl().CreateKernel(program, name_.c_str(), &code));
     check(code, "clCreateKernel (" + name_ + ")");
-    check(device.cl().GetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr),
-          "clGetKernelInfo (" + name_ + ")");
+    check(
+        device.cl().GetKernelInfo(kernel_.get(), CL_KERNEL_NUM_ARGS, sizeof argument_count_, &argument_count_, nullptr),
+        "clGetKernelInfo (" + name_ + ")");
 }
 
 void Kernel::set(cl_uint position, const Buffer& buffer) {
@@ -140,9 +143,7 @@ void Kernel::set(cl_uint position, const Buffer& buffer) {
     set_bytes(position, &memory, sizeof memory);
 }
 
-void Kernel::set(cl_uint position, LocalMemory local) {
-    set_bytes(position, nullptr, local.bytes);
-}
+void Kernel::set(cl_uint position, LocalMemory local) { set_bytes(position, nullptr, local.bytes); }
 
 void Kernel::set_bytes(cl_uint position, const void* value, std::size_t bytes) {
     const cl_int code = device_->cl().SetKernelArg(kernel_.get(), position, bytes, value);
@@ -159,7 +160,8 @@ Event Kernel::queue(std::size_t items, std::size_t group) {
     if (items == 0) return {};
     const std::size_t padded = (items + group - 1) / group * group;
     cl_event event = nullptr;
-    const cl_int code = device_->cl().EnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &padded, &group, 0, nullptr, &event);
+    const cl_int code = device_->cl().EnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &padded, &group,
+                                                           0, nullptr, &event);
     if (code != CL_SUCCESS) {
         check(code, "clEnqueueNDRangeKernel (" + name_ + ", " + std::to_string(items) + " items in groups of " +
                         std::to_string(group) + ")");

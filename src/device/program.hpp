@@ -35,7 +35,7 @@ public:
     }
 
     const std::string& name() const noexcept { return name_; }
-    std::size_t max_group() const;      ///< most work-items in a group
+    std::size_t max_group() const;        ///< most work-items in a group
     std::uint64_t private_bytes() const;  ///< of one work-item, as far as the device says
 
 private:
@@ -69,12 +69,12 @@ private:
 };
 
 /// OpenCL C source, compiled for one device. `source` is what assemble_program gives; each of `defines` becomes a -D
-/// ("COUNT=3", "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly where
-/// the device can do it, as every result in double is.
+/// ("COUNT=3", "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly
+/// where the device can do it, as every result in double is.
 class Program {
 public:
-    /// Takes what was compiled before, in this process or another, where the driver does not do so itself (binary_cache.hpp).
-    /// Throws Error (device_fault) with the compiler's words if the source does not compile.
+    /// Takes what was compiled before, in this process or another, where the driver does not do so itself
+    /// (binary_cache.hpp). Throws Error (device_fault) with the compiler's words if the source does not compile.
     Program(const Device& device, const std::string& source, const std::vector<std::string>& defines = {},
             bool single = false);
 

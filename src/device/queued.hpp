@@ -23,8 +23,8 @@ public:
     QueuedUpload& operator=(const QueuedUpload&) = delete;
     ~QueuedUpload() { wait_until_done(event_); }
 
-    /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the upload
-    /// before this one only. Throws Error (device_fault, out_of_memory), also for that.
+    /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the
+    /// upload before this one only. Throws Error (device_fault, out_of_memory), also for that.
     template <class T>
     void start(Buffer& buffer, std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -55,8 +55,9 @@ public:
         offset_ = offset;
     }
     void forget() { buffer_ = nullptr; }
-    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that writes the buffer; until wait()
-    /// it must stay as it is. If this was asked of several before one waits, their bytes come together.
+    /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that writes the
+    /// buffer; until wait() it must stay as it is. If this was asked of several before one waits, their bytes come
+    /// together.
     void fetch() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {
@@ -67,7 +68,8 @@ public:
         event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_, offset_);
     }
     /// The first `count` values of what start() has asked for, once they are there; they stay until the next fetch().
-    /// Throws Error (device_fault, out_of_memory) if the copy failed; of the command that wrote them only its event tells.
+    /// Throws Error (device_fault, out_of_memory) if the copy failed; of the command that wrote them only its event
+    /// tells.
     template <class T>
     std::span<const T> wait(std::size_t count) {
         if (count * sizeof(T) > bytes_) throw std::logic_error(name_ + ": more than was asked for");

@@ -5,8 +5,8 @@
 
 namespace csgrt {
 
-/// The scene with an empty combination for everything that its top objects use and that is left out of them. Solids of unknown
-/// types stay what they are.
+/// The scene with an empty combination for everything that its top objects use and that is left out of them. Solids of
+/// unknown types stay what they are.
 Scene mended(const Scene& scene);
 
 }  // namespace csgrt

@@ -77,8 +77,8 @@ std::string read_standard_input() { return read_all(stdin, standard_input, 0); }
 
 void Findings::add(std::size_t offset, std::string object, std::string message, std::string suggestion) {
     if (list_.full()) return list_.leave_out();  // without the search for its place
-    list_.add({source_.place(offset, std::move(object)), std::move(message), std::move(suggestion),
-               source_.excerpt(offset)});
+    list_.add(
+        {source_.place(offset, std::move(object)), std::move(message), std::move(suggestion), source_.excerpt(offset)});
 }
 
 void Findings::bear(Fault fault, const std::string& object, const char* done) {

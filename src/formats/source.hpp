@@ -52,7 +52,8 @@ public:
     void add(Fault fault, std::string object) {
         add(fault.offset, std::move(object), std::move(fault.message), std::move(fault.suggestion));
     }
-    /// A fault that leaves the rest of the file its meaning: a warning that ends in `done`, or a finding if the scene is strict.
+    /// A fault that leaves the rest of the file its meaning: a warning that ends in `done`, or a finding if the scene
+    /// is strict.
     void bear(Fault fault, const std::string& object, const char* done);
     bool is_lenient() const noexcept { return borne_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }

@@ -7,9 +7,7 @@
 
 namespace csgrt {
 
-TextSource TextSource::read(const std::string& path) {
-    return TextSource(path, read_file(path));
-}
+TextSource TextSource::read(const std::string& path) { return TextSource(path, read_file(path)); }
 
 TextSource::TextSource(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
     line_starts_.push_back(0);

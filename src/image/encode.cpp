@@ -22,9 +22,11 @@ void check_form(const Image& image, const std::string& name) {
     }
     const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
     if (image.channels[0].size() != pixels)
-        refuse("has channels of " + std::to_string(image.channels[0].size()) + " values, not " + std::to_string(pixels));
+        refuse("has channels of " + std::to_string(image.channels[0].size()) + " values, not " +
+               std::to_string(pixels));
     for (const auto& [key, matrix] : image.matrices) {
-        if (matrix.size() != 16) refuse("has " + std::to_string(matrix.size()) + " numbers in matrix " + key + ", not 16");
+        if (matrix.size() != 16)
+            refuse("has " + std::to_string(matrix.size()) + " numbers in matrix " + key + ", not 16");
     }
 }
 
@@ -94,7 +96,8 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
         if (!good) throw Error(Status::file, name + ": cannot be encoded: " + output->geterror());
     };
     check(output->open("csgrt." + format, spec));
-    check(exr ? output->write_image(OIIO::TypeFloat, floats.data()) : output->write_image(OIIO::TypeUInt8, colors.data()));
+    check(exr ? output->write_image(OIIO::TypeFloat, floats.data())
+              : output->write_image(OIIO::TypeUInt8, colors.data()));
     check(output->close());
     return bytes;
 }

@@ -19,7 +19,8 @@ constexpr std::array channel_order = {"R",   "G",      "B",     "A",     "Z",   
                                       "N.Z", "region", "solid", "depth", "partitions", "overlap"};
 
 std::size_t rank(const std::string& name) {
-    return static_cast<std::size_t>(std::find(channel_order.begin(), channel_order.end(), name) - channel_order.begin());
+    return static_cast<std::size_t>(std::find(channel_order.begin(), channel_order.end(), name) -
+                                    channel_order.begin());
 }
 
 }  // namespace

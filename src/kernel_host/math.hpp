@@ -3,9 +3,9 @@
 
 namespace csgrt::host {
 
-/// A number that the compiler knows nothing of. GCC (12 at least) takes -fma(a, b, c) for fma(-a, b, -c) where the processor has that as
-/// one instruction: where a b + c is 0, the sign of the zero is another one, and no option keeps it from that. In float no fma is an
-/// instruction of the reference's (double_fma.hpp).
+/// A number that the compiler knows nothing of. GCC (12 at least) takes -fma(a, b, c) for fma(-a, b, -c) where the
+/// processor has that as one instruction: where a b + c is 0, the sign of the zero is another one, and no option keeps
+/// it from that. In float no fma is an instruction of the reference's (double_fma.hpp).
 [[gnu::always_inline]] inline double opaque(double x) {
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__x86_64__)

@@ -4,7 +4,8 @@
 #define INLINE static inline __attribute__((overloadable, always_inline))
 #define PURE static inline __attribute__((overloadable, always_inline, const))
 
-// ---- Which work-item runs. The loops of the kernels' entries (NATIVE_ENTRY) say it, a thread each its own (driver.cpp). ----
+// ---- Which work-item runs. The loops of the kernels' entries (NATIVE_ENTRY) say it, a thread each its own
+// (driver.cpp). ----
 typedef struct {
     size_t id, size;
 } WorkItem;
@@ -13,8 +14,12 @@ INLINE size_t get_global_id(uint dimension) { return csgrt_native_item()->id; }
 INLINE size_t get_global_size(uint dimension) { return csgrt_native_item()->size; }
 
 // ---- Integers ----
-INLINE uint atomic_inc(volatile __global uint* p) { return __atomic_fetch_add((__global uint*)p, 1u, __ATOMIC_RELAXED); }
-INLINE uint atomic_add(volatile __global uint* p, uint x) { return __atomic_fetch_add((__global uint*)p, x, __ATOMIC_RELAXED); }
+INLINE uint atomic_inc(volatile __global uint* p) {
+    return __atomic_fetch_add((__global uint*)p, 1u, __ATOMIC_RELAXED);
+}
+INLINE uint atomic_add(volatile __global uint* p, uint x) {
+    return __atomic_fetch_add((__global uint*)p, x, __ATOMIC_RELAXED);
+}
 PURE uint min(uint a, uint b) { return a < b ? a : b; }
 PURE uint popcount(uint x) { return (uint)__builtin_popcount(x); }
 PURE uint clz(uint x) { return x ? (uint)__builtin_clz(x) : 32u; }
@@ -28,8 +33,8 @@ PURE double fabs(double x) { return __builtin_fabs(x); }
 PURE float floor(float x) { return __builtin_floorf(x); }
 PURE double floor(double x) { return __builtin_floor(x); }
 PURE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-// A number that the compiler knows nothing of, where it would take -fma(a, b, c) for fma(-a, b, -c): if a b + c is 0, the zero's sign
-// is another one (clang 15 for aarch64's fnmadd; host_math.hpp has it for GCC).
+// A number that the compiler knows nothing of, where it would take -fma(a, b, c) for fma(-a, b, -c): if a b + c is 0,
+// the zero's sign is another one (clang 15 for aarch64's fnmadd; host_math.hpp has it for GCC).
 #if defined(__aarch64__)
 PURE double opaque(double x) {
     __asm("" : "+w"(x));
@@ -48,7 +53,8 @@ PURE int ilogb(double x) {
 double csgrt_ldexp(double, int) __asm(CSGRT_LDEXP) __attribute__((const));
 PURE double ldexp(double x, int e) { return csgrt_ldexp(x, e); }
 
-// ---- Eight doubles. LLVM's own functions, in the width that the processor passes in one register: any other breaks their call. ----
+// ---- Eight doubles. LLVM's own functions, in the width that the processor passes in one register: any other breaks
+// their call. ----
 #if defined(__AVX512F__)
 double8 csgrt_sqrt(double8) __asm("llvm.sqrt.v8f64") __attribute__((const));
 double8 csgrt_fma(double8, double8, double8) __asm("llvm.fma.v8f64") __attribute__((const));
@@ -58,11 +64,15 @@ PURE double8 fma(double8 a, double8 b, double8 c) { return csgrt_fma(a, b, c); }
 double4 csgrt_sqrt(double4) __asm("llvm.sqrt.v4f64") __attribute__((const));
 double4 csgrt_fma(double4, double4, double4) __asm("llvm.fma.v4f64") __attribute__((const));
 PURE double8 sqrt(double8 x) { return (double8)(csgrt_sqrt(x.lo), csgrt_sqrt(x.hi)); }
-PURE double8 fma(double8 a, double8 b, double8 c) { return (double8)(csgrt_fma(a.lo, b.lo, c.lo), csgrt_fma(a.hi, b.hi, c.hi)); }
+PURE double8 fma(double8 a, double8 b, double8 c) {
+    return (double8)(csgrt_fma(a.lo, b.lo, c.lo), csgrt_fma(a.hi, b.hi, c.hi));
+}
 #else
 double2 csgrt_sqrt(double2) __asm("llvm.sqrt.v2f64") __attribute__((const));
 double2 csgrt_fma(double2, double2, double2) __asm("llvm.fma.v2f64") __attribute__((const));
-PURE double8 sqrt(double8 x) { return (double8)(csgrt_sqrt(x.s01), csgrt_sqrt(x.s23), csgrt_sqrt(x.s45), csgrt_sqrt(x.s67)); }
+PURE double8 sqrt(double8 x) {
+    return (double8)(csgrt_sqrt(x.s01), csgrt_sqrt(x.s23), csgrt_sqrt(x.s45), csgrt_sqrt(x.s67));
+}
 PURE double8 fma(double8 a, double8 b, double8 c) {
     return (double8)(csgrt_fma(a.s01, b.s01, c.s01), csgrt_fma(a.s23, b.s23, c.s23), csgrt_fma(a.s45, b.s45, c.s45),
                      csgrt_fma(a.s67, b.s67, c.s67));
@@ -80,13 +90,15 @@ PURE int8 convert_int8(long8 x) { return __builtin_convertvector(x, int8); }
 PURE char8 convert_char8(int8 x) { return __builtin_convertvector(x, char8); }
 PURE long8 convert_long8(int8 x) { return __builtin_convertvector(x, long8); }
 // Aligned as a single element is.
-#define MEMORY_FUNCTIONS(T, V, N, SPACE)                  \
-    INLINE V vload##N(size_t offset, const SPACE T* p) {  \
-        V values;                                         \
+#define MEMORY_FUNCTIONS(T, V, N, SPACE)                          \
+    INLINE V vload##N(size_t offset, const SPACE T* p) {          \
+        V values;                                                 \
         __builtin_memcpy(&values, p + N * offset, sizeof values); \
-        return values;                                    \
-    }                                                     \
-    INLINE void vstore##N(V values, size_t offset, SPACE T* p) { __builtin_memcpy(p + N * offset, &values, sizeof values); }
+        return values;                                            \
+    }                                                             \
+    INLINE void vstore##N(V values, size_t offset, SPACE T* p) {  \
+        __builtin_memcpy(p + N * offset, &values, sizeof values); \
+    }
 MEMORY_FUNCTIONS(float, float8, 8, __private)
 MEMORY_FUNCTIONS(double, double8, 8, __private)
 MEMORY_FUNCTIONS(uint, uint8, 8, __private)

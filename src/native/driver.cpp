@@ -40,7 +40,7 @@ struct Context {
     explicit Context(unsigned threads) : threads_wanted(threads) {}
 
     unsigned threads_wanted;
-    std::mutex kernels;  ///< one runs at a time
+    std::mutex kernels;        ///< one runs at a time
     std::optional<Pool> pool;  ///< from the first kernel on
 };
 struct Queue {
@@ -104,8 +104,7 @@ cl_int answer(const std::string& text, std::size_t room, void* out, std::size_t*
     return answer(text.c_str(), text.size() + 1, room, out, needed);
 }
 template <class T>
-    requires std::is_arithmetic_v<T>
-cl_int answer(T value, std::size_t room, void* out, std::size_t* needed) {
+requires std::is_arithmetic_v<T> cl_int answer(T value, std::size_t room, void* out, std::size_t* needed) {
     return answer(&value, sizeof value, room, out, needed);
 }
 
@@ -134,17 +133,26 @@ cl_int get_device_ids(cl_platform_id, cl_device_type, cl_uint room, cl_device_id
 
 cl_int get_device_info(cl_device_id device, cl_device_info what, std::size_t room, void* out, std::size_t* needed) {
     switch (what) {
-        case CL_DEVICE_NAME: return answer(name_of(level_of(device)), room, out, needed);
-        case CL_DEVICE_VERSION: return answer(std::string("compiled ahead"), room, out, needed);
-        case CL_DRIVER_VERSION: return answer(std::string(version()), room, out, needed);
-        case CL_DEVICE_EXTENSIONS: return answer(std::string("cl_khr_fp64"), room, out, needed);
-        case CL_DEVICE_TYPE: return answer(cl_device_type{CL_DEVICE_TYPE_CPU}, room, out, needed);
+        case CL_DEVICE_NAME:
+            return answer(name_of(level_of(device)), room, out, needed);
+        case CL_DEVICE_VERSION:
+            return answer(std::string("compiled ahead"), room, out, needed);
+        case CL_DRIVER_VERSION:
+            return answer(std::string(version()), room, out, needed);
+        case CL_DEVICE_EXTENSIONS:
+            return answer(std::string("cl_khr_fp64"), room, out, needed);
+        case CL_DEVICE_TYPE:
+            return answer(cl_device_type{CL_DEVICE_TYPE_CPU}, room, out, needed);
         case CL_DEVICE_GLOBAL_MEM_SIZE:
-        case CL_DEVICE_MAX_MEM_ALLOC_SIZE: return answer(cl_ulong{host_memory()}, room, out, needed);
-        case CL_DEVICE_MAX_COMPUTE_UNITS: return answer(cl_uint{thread_count(0)}, room, out, needed);
+        case CL_DEVICE_MAX_MEM_ALLOC_SIZE:
+            return answer(cl_ulong{host_memory()}, room, out, needed);
+        case CL_DEVICE_MAX_COMPUTE_UNITS:
+            return answer(cl_uint{thread_count(0)}, room, out, needed);
         case CL_DEVICE_AVAILABLE:
-        case CL_DEVICE_HOST_UNIFIED_MEMORY: return answer(cl_bool{CL_TRUE}, room, out, needed);
-        default: return CL_INVALID_VALUE;
+        case CL_DEVICE_HOST_UNIFIED_MEMORY:
+            return answer(cl_bool{CL_TRUE}, room, out, needed);
+        default:
+            return CL_INVALID_VALUE;
     }
 }
 
@@ -184,13 +192,13 @@ constexpr std::size_t alignment = 128;  // of the longest vector, double16, as O
 
 cl_mem create_buffer(cl_context, cl_mem_flags flags, std::size_t bytes, void* host, cl_int* code) {
     const bool is_own = !(flags & CL_MEM_USE_HOST_PTR);
-    void* const data = is_own ? ::operator new(bytes, std::align_val_t{alignment}, std::nothrow) : host;
+    void* const data = is_own ? ::operator new (bytes, std::align_val_t{alignment}, std::nothrow) : host;
     set(code, data ? CL_SUCCESS : CL_MEM_OBJECT_ALLOCATION_FAILURE);
     return data ? handle_of<cl_mem>(new Memory{static_cast<char*>(data), is_own}) : nullptr;
 }
 cl_int release_memory(cl_mem memory) {
     Memory& m = as<Memory>(memory);
-    if (m.is_own) ::operator delete(m.data, std::align_val_t{alignment});
+    if (m.is_own) ::operator delete (m.data, std::align_val_t{alignment});
     delete &m;
     return CL_SUCCESS;
 }
@@ -202,16 +210,16 @@ cl_int write(cl_command_queue, cl_mem memory, cl_bool, std::size_t offset, std::
     tell(event, start);
     return CL_SUCCESS;
 }
-cl_int read(cl_command_queue, cl_mem memory, cl_bool, std::size_t offset, std::size_t bytes, void* to, cl_uint, const cl_event*,
-            cl_event* event) {
+cl_int read(cl_command_queue, cl_mem memory, cl_bool, std::size_t offset, std::size_t bytes, void* to, cl_uint,
+            const cl_event*, cl_event* event) {
     const cl_ulong start = now();
     std::memcpy(to, as<Memory>(memory).data + offset, bytes);
     tell(event, start);
     return CL_SUCCESS;
 }
 cl_int read_rect(cl_command_queue, cl_mem memory, cl_bool, const std::size_t* from, const std::size_t* to,
-                 const std::size_t* region, std::size_t row, std::size_t slice, std::size_t host_row, std::size_t host_slice,
-                 void* host, cl_uint, const cl_event*, cl_event* event) {
+                 const std::size_t* region, std::size_t row, std::size_t slice, std::size_t host_row,
+                 std::size_t host_slice, void* host, cl_uint, const cl_event*, cl_event* event) {
     const cl_ulong start = now();
     const auto or_tight = [](std::size_t pitch, std::size_t tight) { return pitch ? pitch : tight; };
     row = or_tight(row, region[0]);
@@ -226,8 +234,8 @@ cl_int read_rect(cl_command_queue, cl_mem memory, cl_bool, const std::size_t* fr
     tell(event, start);
     return CL_SUCCESS;
 }
-cl_int fill(cl_command_queue, cl_mem memory, const void* pattern, std::size_t size, std::size_t offset, std::size_t bytes, cl_uint,
-            const cl_event*, cl_event* event) {
+cl_int fill(cl_command_queue, cl_mem memory, const void* pattern, std::size_t size, std::size_t offset,
+            std::size_t bytes, cl_uint, const cl_event*, cl_event* event) {
     std::uint32_t value = 0;
     if (size != sizeof value) return CL_INVALID_VALUE;
     std::memcpy(&value, pattern, size);
@@ -236,8 +244,8 @@ cl_int fill(cl_command_queue, cl_mem memory, const void* pattern, std::size_t si
     tell(event, start);
     return CL_SUCCESS;
 }
-void* map(cl_command_queue, cl_mem memory, cl_bool, cl_map_flags, std::size_t offset, std::size_t, cl_uint, const cl_event*,
-          cl_event* event, cl_int* code) {
+void* map(cl_command_queue, cl_mem memory, cl_bool, cl_map_flags, std::size_t offset, std::size_t, cl_uint,
+          const cl_event*, cl_event* event, cl_int* code) {
     tell(event, now());
     set(code, CL_SUCCESS);
     return as<Memory>(memory).data + offset;
@@ -253,8 +261,8 @@ cl_program create_program(cl_context, cl_uint, const char**, const std::size_t*,
     set(code, CL_SUCCESS);
     return handle_of<cl_program>(new BuiltProgram);
 }
-cl_program create_from_binary(cl_context, cl_uint, const cl_device_id*, const std::size_t*, const unsigned char**, cl_int*,
-                              cl_int* code) {
+cl_program create_from_binary(cl_context, cl_uint, const cl_device_id*, const std::size_t*, const unsigned char**,
+                              cl_int*, cl_int* code) {
     set(code, CL_INVALID_BINARY);
     return nullptr;
 }
@@ -267,16 +275,20 @@ bool has(std::string_view options, std::string_view option) {
 
 /// What was compiled ahead is double precision in packets, with the default quartic.
 bool was_compiled(std::string_view options) {
-    return has(options, "-DCSGRT_REAL=double") && has(options, "-DCSGRT_QUARTIC=0") && has(options, "-DCSGRT_PACKETS") &&
-           !has(options, "-DCSGRT_CONTRACT") && !has(options, "-DCSGRT_EYE_RELATIVE");
+    return has(options, "-DCSGRT_REAL=double") && has(options, "-DCSGRT_QUARTIC=0") &&
+           has(options, "-DCSGRT_PACKETS") && !has(options, "-DCSGRT_CONTRACT") &&
+           !has(options, "-DCSGRT_EYE_RELATIVE");
 }
 
-cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const char* options, void (*)(cl_program, void*), void*) {
+cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const char* options, void (*)(cl_program, void*),
+             void*) {
     BuiltProgram& p = as<BuiltProgram>(program);
     const bool is_first_hits = has(options, "-DCSGRT_PRIVATE_ENDS");
     if (!was_compiled(options)) return CL_BUILD_PROGRAM_FAILURE;
     const Level& level = level_of(*devices);
-    p.program = level.program(!is_first_hits ? "partitions" : has(options, "-DCSGRT_PREFETCH") ? "first_hits_prefetch" : "first_hits");
+    p.program = level.program(!is_first_hits                     ? "partitions"
+                              : has(options, "-DCSGRT_PREFETCH") ? "first_hits_prefetch"
+                                                                 : "first_hits");
     return CL_SUCCESS;
 }
 cl_int release_program(cl_program program) {
@@ -294,7 +306,8 @@ cl_int get_build_info(cl_program program, cl_device_id, cl_program_build_info wh
 // ---- Kernels ----
 
 const CompiledKernel* find(std::span<const CompiledKernel> kernels, std::string_view name) {
-    const auto found = std::find_if(kernels.begin(), kernels.end(), [&](const CompiledKernel& k) { return k.name == name; });
+    const auto found =
+        std::find_if(kernels.begin(), kernels.end(), [&](const CompiledKernel& k) { return k.name == name; });
     return found == kernels.end() ? nullptr : &*found;
 }
 
@@ -314,7 +327,8 @@ cl_int get_kernel_info(cl_kernel kernel, cl_kernel_info what, std::size_t room, 
     if (what != CL_KERNEL_NUM_ARGS) return CL_INVALID_VALUE;
     return answer(cl_uint{as<BuiltKernel>(kernel).compiled->argument_count}, room, out, needed);
 }
-cl_int get_group_info(cl_kernel, cl_device_id, cl_kernel_work_group_info what, std::size_t room, void* out, std::size_t* needed) {
+cl_int get_group_info(cl_kernel, cl_device_id, cl_kernel_work_group_info what, std::size_t room, void* out,
+                      std::size_t* needed) {
     if (what == CL_KERNEL_WORK_GROUP_SIZE) return answer(std::size_t{4096}, room, out, needed);
     return what == CL_KERNEL_PRIVATE_MEM_SIZE ? answer(cl_ulong{0}, room, out, needed) : CL_INVALID_VALUE;
 }
@@ -337,8 +351,10 @@ cl_int set_argument(cl_kernel kernel, cl_uint index, std::size_t bytes, const vo
     return CL_SUCCESS;
 }
 
-// A thread takes parts until none is left: small ones, for rays differ in what they cost, but no smaller than it takes to ask.
-void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* arguments, std::size_t items, std::size_t group) {
+// A thread takes parts until none is left: small ones, for rays differ in what they cost, but no smaller than it takes
+// to ask.
+void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* arguments, std::size_t items,
+         std::size_t group) {
     constexpr std::size_t parts_a_thread = 64, most_items = 4096, few_items = 64;
     if (!context.pool) context.pool.emplace(context.threads_wanted);
     const std::size_t groups = items / group;
@@ -356,8 +372,8 @@ void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* ar
     }
 }
 
-cl_int launch(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const std::size_t*, const std::size_t* items,
-              const std::size_t* group, cl_uint, const cl_event*, cl_event* event) {
+cl_int launch(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const std::size_t*,
+              const std::size_t* items, const std::size_t* group, cl_uint, const cl_event*, cl_event* event) {
     if (dimensions != 1) return CL_INVALID_WORK_DIMENSION;
     const std::size_t group_size = group ? *group : 1;
     if (group_size == 0 || group_size > 4096 || *items % group_size != 0) return CL_INVALID_WORK_GROUP_SIZE;
@@ -378,7 +394,8 @@ cl_int release_event(cl_event event) {
     return CL_SUCCESS;
 }
 cl_int get_event_info(cl_event, cl_event_info what, std::size_t room, void* out, std::size_t* needed) {
-    return what == CL_EVENT_COMMAND_EXECUTION_STATUS ? answer(cl_int{CL_COMPLETE}, room, out, needed) : CL_INVALID_VALUE;
+    return what == CL_EVENT_COMMAND_EXECUTION_STATUS ? answer(cl_int{CL_COMPLETE}, room, out, needed)
+                                                     : CL_INVALID_VALUE;
 }
 cl_int get_event_times(cl_event event, cl_profiling_info what, std::size_t room, void* out, std::size_t* needed) {
     const Event& e = as<Event>(event);

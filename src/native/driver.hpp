@@ -1,8 +1,8 @@
-// The native device: this machine's processors, driven through OpenCL's functions like any other device, with kernels that were
-// compiled when csgrt was (kernels.hpp). No driver, no loader and no compiler is needed where it runs.
+// The native device: this machine's processors, driven through OpenCL's functions like any other device, with kernels
+// that were compiled when csgrt was (kernels.hpp). No driver, no loader and no compiler is needed where it runs.
 //
-// A command is done when the call that queues it returns, whatever its queue; so events only tell when it ran. It holds what csgrt
-// uses of OpenCL and no more: one dimension, buffers, programs of double precision with the default quartic.
+// A command is done when the call that queues it returns, whatever its queue; so events only tell when it ran. It holds
+// what csgrt uses of OpenCL and no more: one dimension, buffers, programs of double precision with the default quartic.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// The kernels that are compiled ahead of time, for each level of instructions that this library holds (cmake/native_kernels.cmake
-// writes the tables; clang compiles the files of kernels/ as they are).
+// The kernels that are compiled ahead of time, for each level of instructions that this library holds
+// (cmake/native_kernels.cmake writes the tables; clang compiles the files of kernels/ as they are).
 #pragma once
 
 #include <cstddef>

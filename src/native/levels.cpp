@@ -34,7 +34,8 @@ bool has(unsigned bits, unsigned wanted) { return (bits & wanted) == wanted; }
 int level_of_processor() {
     constexpr unsigned fma = 1u << 12, movbe = 1u << 22, osxsave = 1u << 27, avx = 1u << 28, f16c = 1u << 29;
     constexpr unsigned bmi1 = 1u << 3, avx2 = 1u << 5, bmi2 = 1u << 8, lzcnt = 1u << 5;
-    constexpr unsigned avx512f = 1u << 16, avx512dq = 1u << 17, avx512cd = 1u << 28, avx512bw = 1u << 30, avx512vl = 1u << 31;
+    constexpr unsigned avx512f = 1u << 16, avx512dq = 1u << 17, avx512cd = 1u << 28, avx512bw = 1u << 30,
+                       avx512vl = 1u << 31;
     const unsigned basic = cpuid(1).c, more = cpuid(7).b;
     if (!has(basic, fma | movbe | osxsave | avx | f16c) || !has(more, bmi1 | avx2 | bmi2)) return 0;
     if (!has(cpuid(0x80000001u).c, lzcnt) || !has(saved_registers(), 0x6)) return 0;
@@ -57,7 +58,8 @@ bool can_run(std::string_view level) {
 }
 
 const Program* Level::program(std::string_view wanted) const {
-    const auto found = std::find_if(programs.begin(), programs.end(), [&](const Program& p) { return p.name == wanted; });
+    const auto found =
+        std::find_if(programs.begin(), programs.end(), [&](const Program& p) { return p.name == wanted; });
     return found == programs.end() ? nullptr : &*found;
 }
 

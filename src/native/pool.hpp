@@ -12,7 +12,8 @@ namespace csgrt::native {
 
 class Pool {
 public:
-    /// `threads`: with the caller's own; 0: one for each processor that the process may use. Where the system gives fewer, those do.
+    /// `threads`: with the caller's own; 0: one for each processor that the process may use. Where the system gives
+    /// fewer, those do.
     explicit Pool(unsigned threads);
     Pool(const Pool&) = delete;
     Pool& operator=(const Pool&) = delete;
@@ -20,7 +21,8 @@ public:
 
     unsigned threads() const noexcept { return static_cast<unsigned>(threads_.size()) + 1; }
 
-    /// Calls work() on all threads, the caller's too, and returns when all have returned. It must not throw. One call at a time.
+    /// Calls work() on all threads, the caller's too, and returns when all have returned. It must not throw. One call
+    /// at a time.
     void run(const std::function<void()>& work);
 
 private:

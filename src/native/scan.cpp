@@ -1,5 +1,5 @@
-// kernels/scan.cl for a processor. Its work-items wait for each other (barrier), which loops over items cannot do; a block in
-// sequence takes no longer. Sums of integers: the order does not matter to them.
+// kernels/scan.cl for a processor. Its work-items wait for each other (barrier), which loops over items cannot do; a
+// block in sequence takes no longer. Sums of integers: the order does not matter to them.
 #include <algorithm>
 #include <utility>
 
@@ -23,7 +23,9 @@ RayCount scan(RayCount* counts, std::size_t size) {
     return sum;
 }
 
-RayCount* counts_at(std::uint64_t argument) { return reinterpret_cast<RayCount*>(static_cast<std::uintptr_t>(argument)); }
+RayCount* counts_at(std::uint64_t argument) {
+    return reinterpret_cast<RayCount*>(static_cast<std::uintptr_t>(argument));
+}
 
 void scan_blocks(std::size_t first, std::size_t end, const std::uint64_t* arguments) {
     const std::size_t size = static_cast<std::uint32_t>(arguments[2]);
@@ -38,12 +40,14 @@ void scan_sums(std::size_t, std::size_t, const std::uint64_t* arguments) {
 void scan_add(std::size_t first, std::size_t end, const std::uint64_t* arguments) {
     const std::size_t size = static_cast<std::uint32_t>(arguments[2]);
     RayCount* const counts = counts_at(arguments[0]);
-    for (std::size_t i = first; i < std::min(end, size); ++i) counts[i] = plus(counts[i], counts_at(arguments[1])[i / block]);
+    for (std::size_t i = first; i < std::min(end, size); ++i)
+        counts[i] = plus(counts[i], counts_at(arguments[1])[i / block]);
 }
 
 constexpr std::uint32_t of_two[] = {0, 4}, of_three[] = {0, 0, 4};
-constexpr CompiledKernel kernels[] = {
-    {"scan_blocks", scan_blocks, of_three, 3}, {"scan_sums", scan_sums, of_two, 2}, {"scan_add", scan_add, of_three, 3}};
+constexpr CompiledKernel kernels[] = {{"scan_blocks", scan_blocks, of_three, 3},
+                                      {"scan_sums", scan_sums, of_two, 2},
+                                      {"scan_add", scan_add, of_three, 3}};
 
 }  // namespace
 

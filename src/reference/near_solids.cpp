@@ -6,7 +6,8 @@
 
 namespace csgrt {
 
-NearSolids::NearSolids(const CompiledScene& scene) : count_(scene.solid_boxes.size()), groups_((count_ + size - 1) / size) {
+NearSolids::NearSolids(const CompiledScene& scene)
+    : count_(scene.solid_boxes.size()), groups_((count_ + size - 1) / size) {
     for (std::size_t i = 0; i < count_; ++i) {
         Spheres& spheres = groups_[i / size];
         const auto set = [&](const Vec3& center, double radius2) {

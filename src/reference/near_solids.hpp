@@ -12,9 +12,9 @@
 
 namespace csgrt {
 
-/// A sphere around each solid, half as large again as the one around its box. The reference is there to find what is wrong, also
-/// with boxes: one that is too small by less than a third keeps no solid from being tried, so what it hides from the pipeline is
-/// seen. An unbounded solid is near every ray.
+/// A sphere around each solid, half as large again as the one around its box. The reference is there to find what is
+/// wrong, also with boxes: one that is too small by less than a third keeps no solid from being tried, so what it hides
+/// from the pipeline is seen. An unbounded solid is near every ray.
 class NearSolids {
 public:
     explicit NearSolids(const CompiledScene& scene);
@@ -39,8 +39,8 @@ private:
         std::array<double, size> x, y, z, radius2;
     };
 
-    /// Below zero where the line passes by: the radius' square less that of the distance, times the direction's. A loop that
-    /// compilers turn into vectors.
+    /// Below zero where the line passes by: the radius' square less that of the distance, times the direction's. A loop
+    /// that compilers turn into vectors.
     static std::array<double, size> room_in(const Spheres& s, const Vec3& o, const Vec3& d) {
         const double size2 = d.x * d.x + d.y * d.y + d.z * d.z;
         std::array<double, size> room;

@@ -16,9 +16,10 @@ struct Reference::Claims {
     std::vector<kernel::End> ends;
     std::vector<ClaimedPartition> partitions;
     Weaver weaver;
-    std::vector<std::uint32_t> solids, table, claimants;  ///< of a partition: its solids, their regions, those that claim it
+    std::vector<std::uint32_t> solids, table,
+        claimants;                      ///< of a partition: its solids, their regions, those that claim it
     std::vector<std::uint32_t> beside;  ///< ... on one side of a face that the ray runs in
-    std::vector<std::uint8_t> values;  ///< of a tree's operands, while it is evaluated
+    std::vector<std::uint8_t> values;   ///< of a tree's operands, while it is evaluated
     std::size_t woven = 0, overlaps = 0;
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };
@@ -30,7 +31,8 @@ std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Preci
     return make_double_kernels(scene, quartic);
 }
 
-std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, Precision precision, Quartic quartic) {
+std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, Precision precision,
+                                                      Quartic quartic) {
 #ifdef CSGRT_DOUBLE_FMA
     if (precision == Precision::double_ && __builtin_cpu_supports("fma")) return make_fused_kernels(scene, quartic);
 #endif

@@ -1,4 +1,5 @@
-// The CPU reference: every solid near the ray tried, unique lists, trees as the model gives them. It checks the device, bit by bit.
+// The CPU reference: every solid near the ray tried, unique lists, trees as the model gives them. It checks the device,
+// bit by bit.
 #pragma once
 
 #include <cstdint>
@@ -30,11 +31,13 @@ private:
     struct Claims;
     /// Does the ray run in a face of one of its solids? Then two sides are to be looked at.
     static bool in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends);
-    /// The regions of the first rank that claim a partition, ascending, by its solids but those whose ends have any of `missed`.
+    /// The regions of the first rank that claim a partition, ascending, by its solids but those whose ends have any of
+    /// `missed`.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
                         std::vector<std::uint32_t>& claimants) const;
     void evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const;
-    bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids, std::vector<std::uint8_t>& values) const;
+    bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids,
+                std::vector<std::uint8_t>& values) const;
     template <class Work>
     void parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const;
 

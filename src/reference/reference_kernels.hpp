@@ -16,9 +16,9 @@ class ReferenceKernels : public HostKernels {
 public:
     /// In 113 bits it is the one in double: so that the two see the same rays.
     virtual Ray camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const;
-    /// The ends of all segments along a ray, two a segment, by ascending solid. In double every solid is tried that is near, in single
-    /// precision every one, in 113 bits, which are slow, those whose boxes are met.
-    /// Segments that end before the frame's t_min are left out. Then what they weave, which is `weaver`'s.
+    /// The ends of all segments along a ray, two a segment, by ascending solid. In double every solid is tried that is
+    /// near, in single precision every one, in 113 bits, which are slow, those whose boxes are met. Segments that end
+    /// before the frame's t_min are left out. Then what they weave, which is `weaver`'s.
     virtual std::span<const WovenPartition> trace(const kernel::Frame& frame, const Ray& ray, const NearSolids& near,
                                                   std::vector<kernel::End>& ends, Weaver& weaver) const = 0;
     /// The frame's t_min as it is compared with ends.

@@ -35,8 +35,8 @@ struct Weaver {
 /// The partitions are `weaver`'s, until it weaves again.
 template <class End>
 std::span<const WovenPartition> weave(const std::vector<End>& ends, decltype(End::t) tolerance, Weaver& weaver) {
-    std::vector<std::uint32_t>&order = weaver.order, &covering = weaver.covering, &begun = weaver.begun, &ended = weaver.ended,
-                              &stay = weaver.stay, &enter = weaver.enter, &next = weaver.next;
+    std::vector<std::uint32_t>&order = weaver.order, &covering = weaver.covering, &begun = weaver.begun,
+    &ended = weaver.ended, &stay = weaver.stay, &enter = weaver.enter, &next = weaver.next;
     std::vector<WovenPartition>& partitions = weaver.partitions;
     order.resize(ends.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -35,7 +35,8 @@ public:
     /// Before each call of render() or shoot() of that kind: waits until somebody has the kernels for it.
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) = 0;
-    virtual std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) = 0;
+    virtual std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
+                                             const Progress& progress) = 0;
 
     /// Writes who drew last, what was counted and how long it took.
     virtual void report(Statistics& statistics) const = 0;

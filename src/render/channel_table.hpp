@@ -8,8 +8,8 @@
 namespace csgrt {
 
 struct ChannelSource {
-    const char* name;                       ///< in the image
-    std::uint32_t group;                    ///< channel::..., which users choose
+    const char* name;                      ///< in the image
+    std::uint32_t group;                   ///< channel::..., which users choose
     float (*value)(const kernel::Pixel&);  ///< of a pixel as the reference has it
 };
 

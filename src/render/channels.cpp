@@ -10,7 +10,7 @@ namespace csgrt {
 void Channels::allocate(std::size_t count, std::size_t size) {
     count_ = count;
     size_ = count == 0 ? 0 : size;
-    values_.reset(static_cast<float*>(::operator new(count * size * sizeof(float), alignment)));
+    values_.reset(static_cast<float*>(::operator new(count* size * sizeof(float), alignment)));
 }
 
 Channels::Channels(std::size_t size, std::span<const float> values) {

@@ -7,8 +7,8 @@
 
 namespace csgrt {
 
-DeviceBackend::DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-                             double search_ms)
+DeviceBackend::DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels,
+                             const Settings& settings, double search_ms)
     : search_ms_(search_ms),
       takeover_(
           std::move(plan),
@@ -37,7 +37,8 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
         memory.registered = nullptr;
     else if (!memory.registered)
         memory.registered = drawer_->register_memory(memory.channels, pixels);
-    const RenderTarget target{.channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
+    const RenderTarget target{
+        .channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
     try {
         counted([&] { drawer_->render(frame, target, progress, counts_); });
     } catch (...) {  // pixels may be missing of tiles that are covered
@@ -46,7 +47,8 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
     }
 }
 
-std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) {
+std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
+                                                const Progress& progress) {
     std::vector<RayPartitions> answers;
     counted([&] { answers = drawer_->shoot(frame, rays, progress, counts_); });
     return answers;

@@ -9,11 +9,13 @@ namespace csgrt {
 class DeviceBackend final : public Backend {
 public:
     /// `search_ms`: what it took to find the plan's devices. The scene and the kernels must outlive it. Throws Error.
-    DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, double search_ms);
+    DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+                  double search_ms);
 
     void prepare(bool every_partition) override;
     void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) override;
-    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) override;
+    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
+                                     const Progress& progress) override;
     void report(Statistics& statistics) const override;
     std::string method(bool every_partition) const override;
     double build_ms_in_call() const override { return build_ms_in_call_; }

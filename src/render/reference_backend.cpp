@@ -18,7 +18,8 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
     });
 }
 
-std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, const Progress& progress) {
+std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
+                                                   const Progress& progress) {
     counts_ = {};
     return reference_.shoot(frame, rays, progress, counts_);
 }

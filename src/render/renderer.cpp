@@ -22,8 +22,8 @@
 namespace csgrt {
 namespace {
 
-/// The power of two that a direction is divided by before it is shot, so that its squares, and floats of it, are numbers. 0 for
-/// all of usual length.
+/// The power of two that a direction is divided by before it is shot, so that its squares, and floats of it, are
+/// numbers. 0 for all of usual length.
 int exponent_of(const Vec3& direction) {
     constexpr int usual = 32;
     int exponent = 0;
@@ -45,7 +45,8 @@ void scale_distances(RayPartitions& answer, int exponent) {
 /// The tolerance that the settings ask for, in millimetres.
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     if (settings.tolerance_rule == Tolerance::none) return 0;
-    if (settings.tolerance_rule == Tolerance::relative) return relative_tolerance(settings.precision) * 2 * scene.radius;
+    if (settings.tolerance_rule == Tolerance::relative)
+        return relative_tolerance(settings.precision) * 2 * scene.radius;
     if (settings.tolerance_rule == Tolerance::length) {
         if (settings.tolerance >= 0) return settings.tolerance;
         if (scene.tolerance > 0) return scene.tolerance;
@@ -145,7 +146,8 @@ Statistics Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, 
 
 void Renderer::Impl::prepare(bool every_partition) {
     backend->prepare(every_partition);
-    if (auto fault = backend->take_fault()) warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
+    if (auto fault = backend->take_fault())
+        warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
 }
 
 /// What a call waits for kernels counts as `build`.
@@ -169,8 +171,8 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     Impl& impl = *impl_;
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
-    Statistics figures =
-        impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition, view.width, view.height);
+    Statistics figures = impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition,
+                                         view.width, view.height);
     const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
     std::vector<const ChannelSource*> sources;
     std::vector<std::string> names;
@@ -230,7 +232,8 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
         for (Ray& ray : scaled) ray.direction = times_power(ray.direction, -exponent_of(ray.direction));
     }
     impl.prepare(true);
-    std::vector<RayPartitions> answers = impl.backend->shoot(prepared, any_scaled ? scaled : rays, impl.settings.progress);
+    std::vector<RayPartitions> answers =
+        impl.backend->shoot(prepared, any_scaled ? scaled : rays, impl.settings.progress);
     for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
         if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
     impl.end_call(start, std::move(figures));

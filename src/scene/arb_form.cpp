@@ -16,8 +16,8 @@ constexpr double least_depth_relative = 4e-12;  // above what polyhedron.cpp tak
 
 double sum_of_sizes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-/// Do all faces leave the whole arb on one side, and turn the same way at each corner? False is said of some convex arbs,
-/// too. Most arbs need no closer look than this.
+/// Do all faces leave the whole arb on one side, and turn the same way at each corner? False is said of some convex
+/// arbs, too. Most arbs need no closer look than this.
 bool plainly_convex(const Arb& arb) {
     constexpr double rounding = 1e-13;
     const auto& v = arb.vertices;
@@ -49,7 +49,8 @@ struct Wide {
     long double x = 0, y = 0, z = 0;
 };
 Wide from_to(const Vec3& a, const Vec3& b) {
-    return {static_cast<long double>(b.x) - a.x, static_cast<long double>(b.y) - a.y, static_cast<long double>(b.z) - a.z};
+    return {static_cast<long double>(b.x) - a.x, static_cast<long double>(b.y) - a.y,
+            static_cast<long double>(b.z) - a.z};
 }
 long double dot(const Wide& a, const Wide& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Wide cross(const Wide& a, const Wide& b) {
@@ -73,7 +74,8 @@ Outline outline_of(const Arb& arb, std::size_t face) {
     for (std::uint32_t corner : arb_face_vertices[face]) {
         for (std::uint32_t i = 0; i < corner; ++i)
             if (arb.vertices[i] == arb.vertices[corner]) corner = i;
-        if (outline.count == 0 || outline.corners[outline.count - 1] != corner) outline.corners[outline.count++] = corner;
+        if (outline.count == 0 || outline.corners[outline.count - 1] != corner)
+            outline.corners[outline.count++] = corner;
     }
     while (outline.count > 1 && outline.corners[0] == outline.corners[outline.count - 1]) --outline.count;
     const auto& c = outline.corners;

@@ -14,10 +14,10 @@ namespace csgrt {
 inline constexpr std::array<std::array<std::uint32_t, 4>, 6> arb_face_vertices{
     {{3, 2, 1, 0}, {4, 5, 6, 7}, {4, 7, 3, 0}, {2, 6, 5, 1}, {1, 5, 4, 0}, {7, 6, 2, 3}}};
 
-/// Its faces are flat, and it is not convex: it lies on both sides of one of them. A face is flat if its vertices leave the
-/// plane by no more than the lesser of 0.0005 mm, BRL-CAD's tolerance, and 1e-6 of the arb's size; vertices lie on a side if
-/// rounding cannot put them there. An arb with a face that is not flat is never concave: it stays the intersection of
-/// half-spaces. For numbers that are finite.
+/// Its faces are flat, and it is not convex: it lies on both sides of one of them. A face is flat if its vertices leave
+/// the plane by no more than the lesser of 0.0005 mm, BRL-CAD's tolerance, and 1e-6 of the arb's size; vertices lie on
+/// a side if rounding cannot put them there. An arb with a face that is not flat is never concave: it stays the
+/// intersection of half-spaces. For numbers that are finite.
 bool is_concave(const Arb& arb);
 
 /// Which face of a concave arb crosses itself: an index into arb_face_vertices.

@@ -39,10 +39,7 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
     }
 }
 
-Names::Names(const Scene& scene)
-    : scene_(scene),
-      first_child_(scene.objects.size() + 1),
-      kinds_(scene.objects.size()) {
+Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.size() + 1), kinds_(scene.objects.size()) {
     const std::size_t count = scene.objects.size(), slots = std::bit_ceil(2 * count + 2);
     reserve_cleared(slots_, slots);
     slots_.assign(slots, Slot{0, none});

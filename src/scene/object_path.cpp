@@ -89,7 +89,8 @@ private:
     void go_down(std::uint32_t from) {
         const std::string& above = name_of(scene_.objects[from]);
         const auto* combination = std::get_if<Combination>(&scene_.objects[from]);
-        if (combination == nullptr) return fail("'" + above + "' is a solid; it has no member '" + std::string(part()) + "'", {});
+        if (combination == nullptr)
+            return fail("'" + above + "' is a solid; it has no member '" + std::string(part()) + "'", {});
         const auto found = longest([combination](std::string_view name) -> std::optional<std::uint32_t> {
             const std::vector<TreeNode>& nodes = combination->tree.nodes;
             for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -105,8 +106,7 @@ private:
         const std::uint32_t object = names_.child(from, *found);
         if (object == Names::none) {
             const std::string& name = combination->tree.nodes[*found].object;
-            return fail("'" + above + "' uses '" + name + "', which does not exist",
-                        did_you_mean_object(scene_, name));
+            return fail("'" + above + "' uses '" + name + "', which does not exist", did_you_mean_object(scene_, name));
         }
         path_.steps.push_back({object, *found});
     }

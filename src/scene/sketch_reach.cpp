@@ -23,7 +23,7 @@ struct Values {
     }
     std::pair<Values, Values> halves() const {
         Values left = *this, right = *this;
-        for (std::vector<long double> Values::* part : {&Values::value, &Values::weight}) {
+        for (std::vector<long double> Values::*part : {&Values::value, &Values::weight}) {
             std::vector<long double>&l = left.*part, &r = right.*part;
             const std::size_t last = r.size() - 1;
             for (std::size_t round = 1; round <= last; ++round) {

@@ -77,18 +77,19 @@ struct Result {
 };
 
 struct How {
-    std::string input = {};    ///< file to be standard input; empty: nothing
-    std::string output = {};   ///< file to be standard output, e.g. /dev/full; empty: kept in Result::out
-    rlim_t address_space = 0;  ///< bytes; 0: no limit
+    std::string input = {};        ///< file to be standard input; empty: nothing
+    std::string output = {};       ///< file to be standard output, e.g. /dev/full; empty: kept in Result::out
+    rlim_t address_space = 0;      ///< bytes; 0: no limit
     std::vector<int> closed = {};  ///< standard files that are not open
     rlim_t file_size = 0;          ///< bytes that a file may have, as if the disk were full; 0: no limit
-    std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables that are set, in place of this process's
+    std::vector<std::pair<std::string, std::string>> environment =
+        {};  ///< variables that are set, in place of this process's
 };
 
 /// Starts the command in a child; the caller waits for it.
 inline pid_t start(const std::vector<std::string>& arguments, const std::string& input, const std::string& output,
-                   const std::string& errors, rlim_t address_space = 0, const std::vector<int>& closed = {}, rlim_t file_size = 0,
-                   const std::vector<std::pair<std::string, std::string>>& environment = {}) {
+                   const std::string& errors, rlim_t address_space = 0, const std::vector<int>& closed = {},
+                   rlim_t file_size = 0, const std::vector<std::pair<std::string, std::string>>& environment = {}) {
     std::string program = command();
     std::vector<std::string> words = arguments;
     std::vector<char*> pointers = {program.data()};
@@ -126,7 +127,8 @@ inline Result run(const std::vector<std::string>& arguments, const How& how = {}
     const std::string out = how.output.empty() ? folder / "out" : how.output, err = folder / "err";
     const std::string input = how.input.empty() ? "/dev/null" : how.input;
     Result result;
-    result.status = wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size, how.environment));
+    result.status =
+        wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size, how.environment));
     if (how.output.empty()) result.out = read_file(out);
     result.err = read_file(err);
     return result;

@@ -10,7 +10,10 @@ TEST_CASE("sizes") {
     CHECK(parse_size("1024") == std::pair{1024, 1024});
     CHECK(parse_size("1920x1080") == std::pair{1920, 1080});
     CHECK(parse_size("1x32768") == std::pair{1, 32768});
-    for (const char* same : {"640X480", "640 x 480", " 640x480 ", "640*480", "640\xC3\x97""480", "640 \xC3\x97 480"}) {
+    for (const char* same : {"640X480", "640 x 480", " 640x480 ", "640*480",
+                             "640\xC3\x97"
+                             "480",
+                             "640 \xC3\x97 480"}) {
         CAPTURE(same);
         CHECK(parse_size(same) == std::pair{640, 480});
     }
@@ -34,7 +37,8 @@ TEST_CASE("amounts of memory") {
         CHECK(parse_memory(same) == std::uint64_t{2} << 30);
     }
     CHECK(parse_memory("16777215T") == std::uint64_t{16'777'215} << 40);
-    for (const char* wrong : {"", "M", "B", "iB", "2iB", "0", "0G", "0.0G", "1.5", "1.5B", "2GG", "2 G B", "-1", "-1.5G", "1e3", "16777216T", "18446744073709551616"}) {
+    for (const char* wrong : {"", "M", "B", "iB", "2iB", "0", "0G", "0.0G", "1.5", "1.5B", "2GG", "2 G B", "-1",
+                              "-1.5G", "1e3", "16777216T", "18446744073709551616"}) {
         CAPTURE(wrong);
         CHECK(!parse_memory(wrong));
     }

@@ -170,7 +170,8 @@ TEST_CASE("pictures of other size or channels differ") {
     csgrt::Image image = csgrt::read_image(a);
     image.names.pop_back();
     std::vector<std::vector<float>> channels;
-    for (std::size_t c = 0; c < image.names.size(); ++c) channels.emplace_back(image.channels[c].begin(), image.channels[c].end());
+    for (std::size_t c = 0; c < image.names.size(); ++c)
+        channels.emplace_back(image.channels[c].begin(), image.channels[c].end());
     image.channels = channels;
     csgrt::write_image(image, b);
     const Result fewer = run({"compare", a, b});

@@ -22,30 +22,38 @@ struct Kind {
 const Kind kinds[] = {
     {"keys.json", 3,
      [](int errors) {
-         std::string text = "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}";
+         std::string text =
+             "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}";
          for (int i = 0; i < errors; ++i)
-             text += ",\n\"b" + std::to_string(i) + "\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1, \"raduis\": 1}";
+             text += ",\n\"b" + std::to_string(i) +
+                     "\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1, \"raduis\": 1}";
          return text + "}}";
      }},
     {"model.json", 3,
      [](int errors) {  // found when the scene is checked
-         std::string text = "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}";
+         std::string text =
+             "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}";
          for (int i = 0; i < errors; ++i)
              text += ",\n\"b" + std::to_string(i) + "\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 0}";
          return text + "}}";
      }},
     {"small.json", 3,
      [](int errors) {  // found when it is compiled
-         std::string text = "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}";
+         std::string text =
+             "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}";
          for (int i = 0; i < errors; ++i)
-             text += ",\n\"b" + std::to_string(i) + "\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1e-20}";
+             text +=
+                 ",\n\"b" + std::to_string(i) + "\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1e-20}";
          return text + "}}";
      }},
     {"space.json", 3,
      [](int errors) {  // regions that contain empty space
-         std::string text = "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}}, \"combinations\": {";
+         std::string text =
+             "{\"csgrt\": 1, \"solids\": {\"good\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 1}}, "
+             "\"combinations\": {";
          for (int i = 0; i < errors; ++i)
-             text += (i ? ",\n\"b" : "\"b") + std::to_string(i) + "\": {\"region\": true, \"tree\": {\"not\": \"good\"}}";
+             text +=
+                 (i ? ",\n\"b" : "\"b") + std::to_string(i) + "\": {\"region\": true, \"tree\": {\"not\": \"good\"}}";
          return text + "}}";
      }},
     {"v5.asc", 3,
@@ -90,7 +98,8 @@ TEST_CASE("fifty errors are told, and how many more there are") {
             const int shown = std::min(errors, 50), more = errors - shown;
             CHECK(count_of(result.err, "csgrt: error: ") == static_cast<std::size_t>(shown + (more > 0)));
             CHECK(count_of(result.err, "csgrt: error: " + file + ":") == static_cast<std::size_t>(shown));
-            const std::string last = "csgrt: error: and " + std::to_string(more) + (more == 1 ? " more error\n" : " more errors\n");
+            const std::string last =
+                "csgrt: error: and " + std::to_string(more) + (more == 1 ? " more error\n" : " more errors\n");
             CHECK(result.err.ends_with(last) == (more > 0));
         }
     }

@@ -126,7 +126,7 @@ TEST_CASE("SIGINT and SIGTERM end a render, a wait for rays and a verification w
         auto render = endless(scene);
         render.insert(render.end(), {"--stats", folder / "stats.json"});
         const std::vector<std::string> shoot = {"shoot", scene, "--rays", folder / "pipe", "-o", folder / "out.txt"};
-        const std::vector<std::string> verify = {"verify", scene,     "--reference", "--rays",
+        const std::vector<std::string> verify = {"verify",  scene,    "--reference",         "--rays",
                                                  "1000000", "--json", folder / "result.json"};
         for (const auto& words : {render, shoot, verify}) {
             const pid_t child = start(words, "/dev/null", "/dev/null", folder / "err");

@@ -20,7 +20,8 @@ std::vector<std::string> drawing(const std::string& scene, const std::string& pi
 TEST_CASE("a command that ends while the library for pictures is loaded ends as without it") {
     NEEDS_COMMAND();
     const Folder folder;
-    const std::string scene = folder.write("broken.json", "{\"csgrt\": 1,\n \"sloids\": {}}"), picture = folder / "x.png";
+    const std::string scene = folder.write("broken.json", "{\"csgrt\": 1,\n \"sloids\": {}}"),
+                      picture = folder / "x.png";
     const Result expected = run({"info", scene});
     REQUIRE(expected.status == 3);
     for (int i = 0; i < 20; ++i) {

@@ -43,15 +43,17 @@ TEST_CASE("a database is drawn without its unknown solids, unless it must be str
     const Result without = run({"shoot", scene, "even.g", "--rays", rays, "--reference"});
     REQUIRE(without.status == 0);
     CHECK(contains(without.out, "even.r"));
-    for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--skip-unsupported"}, {"--strict", "--skip-unsupported"}}) {
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{}, {"--skip-unsupported"}, {"--strict", "--skip-unsupported"}}) {
         std::vector<std::string> words = {"shoot", scene, "odd.g", "--rays", rays, "--reference"};
         words.insert(words.end(), options.begin(), options.end());
         const Result skipped = run(words);
         REQUIRE(skipped.status == 0);
-        CHECK(skipped.err == "csgrt: warning: " + scene +
-                                 ":9:1: odd.s: left out: a brep is bounded by NURB surfaces, which csgrt does not draw; make a mesh "
-                                 "(bot) of it with BRL-CAD's `facetize`; used by 'odd.r' (3 times)\n"
-                                 "csgrt: warning: 1 region without solids left out: /odd.g/lone.r\n");
+        CHECK(skipped.err ==
+              "csgrt: warning: " + scene +
+                  ":9:1: odd.s: left out: a brep is bounded by NURB surfaces, which csgrt does not draw; make a mesh "
+                  "(bot) of it with BRL-CAD's `facetize`; used by 'odd.r' (3 times)\n"
+                  "csgrt: warning: 1 region without solids left out: /odd.g/lone.r\n");
         CHECK(partitions_only(skipped.out) == partitions_only(without.out));
     }
 
@@ -81,9 +83,10 @@ TEST_CASE("a scene in JSON with an unknown solid is refused, unless it may be sk
 TEST_CASE("info lists every broken object of a database, and what is sound, even if nothing is") {
     NEEDS_COMMAND();
     const Folder folder;
-    const std::string broken = std::string(two_balls) + "put flat.s ell V {0 0 0} A {1 0 0} B {0 0 0} C {0 0 1}\n"
-                                                        "put bad.s ell V {0 x 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
-                                                        "put bad.r comb region yes tree {u {l flat.s} {l bad.s}}\n";
+    const std::string broken = std::string(two_balls) +
+                               "put flat.s ell V {0 0 0} A {1 0 0} B {0 0 0} C {0 0 1}\n"
+                               "put bad.s ell V {0 x 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+                               "put bad.r comb region yes tree {u {l flat.s} {l bad.s}}\n";
     const Result info = run({"info", folder.write("broken.asc", broken)});
     CHECK(info.status == 0);
     CHECK(contains(info.out, "left.r"));

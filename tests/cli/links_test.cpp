@@ -36,7 +36,8 @@ TEST_CASE("every output through a link, or links to links, writes the target and
         for (const bool dangling : {false, true}) {
             CAPTURE(words, dangling);
             if (!dangling) folder.write("b/target" + extension, "old");
-            fs::create_symlink("../b/link" + extension, folder / "a/link" + extension);  // relative to their own folders
+            fs::create_symlink("../b/link" + extension,
+                               folder / "a/link" + extension);  // relative to their own folders
             fs::create_symlink("target" + extension, folder / "b/link" + extension);
             words.back() = folder / "a/link" + extension;
             const Result result = run(words);

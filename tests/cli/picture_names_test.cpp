@@ -15,9 +15,12 @@ TEST_CASE("an EXR names the regions and solids that occur in it, and no others")
     // 3,000 balls far apart; the view sees a few.
     std::string solids;
     for (int i = 0; i < 3000; ++i)
-        solids += (i ? ", \"ball \\\"" : "\"ball \\\"") + std::to_string(i) + "\\\"\": {\"type\": \"sphere\", \"center\": [" + std::to_string(10 * i) +
-                  ", 0, 0], \"radius\": 4}";
-    const std::string text = "{\"csgrt\": 1, \"camera\": {\"azimuth\": -90, \"elevation\": 0, \"center\": [2000, 0, 0], \"size\": 35}, \"solids\": {" + solids + "}}";
+        solids += (i ? ", \"ball \\\"" : "\"ball \\\"") + std::to_string(i) +
+                  "\\\"\": {\"type\": \"sphere\", \"center\": [" + std::to_string(10 * i) + ", 0, 0], \"radius\": 4}";
+    const std::string text =
+        "{\"csgrt\": 1, \"camera\": {\"azimuth\": -90, \"elevation\": 0, \"center\": [2000, 0, 0], \"size\": 35}, "
+        "\"solids\": {" +
+        solids + "}}";
     const std::string scene = folder.write("row.json", text), exr = folder / "a.exr";
     for (const std::vector<std::string>& how : {std::vector<std::string>{}, {"--first-hit"}}) {
         std::vector<std::string> words = {scene, "--reference", "--size", "64x64", "-o", exr, "-o", folder / "a.png"};
@@ -27,14 +30,16 @@ TEST_CASE("an EXR names the regions and solids that occur in it, and no others")
         REQUIRE(result.status == 0);
         const csgrt::Image image = csgrt::read_image(exr);
         const std::span<const float> regions = image.channel("region"), solid_numbers = image.channel("solid");
-        for (const auto& [channel, attribute, slash] : {std::tuple{regions, "csgrt:regions", "/"}, {solid_numbers, "csgrt:solids", ""}}) {
+        for (const auto& [channel, attribute, slash] :
+             {std::tuple{regions, "csgrt:regions", "/"}, {solid_numbers, "csgrt:solids", ""}}) {
             std::vector<int> numbers(channel.begin(), channel.end());
             std::sort(numbers.begin(), numbers.end());
             numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
             REQUIRE(numbers.size() > 3);
             REQUIRE(numbers.size() < 12);
             const std::string names = image.attributes.at(attribute);
-            CHECK(std::count(names.begin(), names.end(), ':') == static_cast<std::ptrdiff_t>(numbers.size() - 1));  // 0: nothing
+            CHECK(std::count(names.begin(), names.end(), ':') ==
+                  static_cast<std::ptrdiff_t>(numbers.size() - 1));  // 0: nothing
             CHECK(names.starts_with("{\""));
             CHECK(names.ends_with("\"}"));
             if (std::string(attribute) == "csgrt:solids") continue;
@@ -54,7 +59,10 @@ TEST_CASE("an EXR names the regions and solids that occur in it, and no others")
 TEST_CASE("a picture without anything names nothing") {
     NEEDS_COMMAND();
     const Folder folder;
-    const std::string scene = folder.write("away.json", "{\"csgrt\": 1, \"camera\": {\"center\": [900, 0, 0], \"size\": 1}, \"solids\": {\"b\": {\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 2}}}");
+    const std::string scene =
+        folder.write("away.json",
+                     "{\"csgrt\": 1, \"camera\": {\"center\": [900, 0, 0], \"size\": 1}, \"solids\": {\"b\": "
+                     "{\"type\": \"sphere\", \"center\": [0, 0, 0], \"radius\": 2}}}");
     REQUIRE(run({scene, "--reference", "--size", "8", "-o", folder / "a.exr"}).status == 0);
     const csgrt::Image image = csgrt::read_image(folder / "a.exr");
     CHECK(image.attributes.at("csgrt:regions") == "{}");

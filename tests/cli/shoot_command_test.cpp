@@ -21,10 +21,12 @@ TEST_CASE("shoot names the line and the limit of a ray that is out of range") {
     NEEDS_COMMAND();
     const Folder folder;
     const std::string scene = folder.write("two balls.asc", two_balls);
-    const std::string file = folder.write("rays", "-100 0 0 1 0 0\n0 0 0  0 1e260 0\n  2e18 0 0 1 0 0\n0 0 0 0 0 -1e-260\n");
+    const std::string file =
+        folder.write("rays", "-100 0 0 1 0 0\n0 0 0  0 1e260 0\n  2e18 0 0 1 0 0\n0 0 0 0 0 -1e-260\n");
     const Result result = run({"shoot", scene, "all.g", "--rays", file, "--reference"});
     CHECK(result.status == 6);
-    CHECK(contains(result.err, ":2:8: the largest component of its direction is 1e+260, and must be from 1e-250 to 1e+250"));
+    CHECK(contains(result.err,
+                   ":2:8: the largest component of its direction is 1e+260, and must be from 1e-250 to 1e+250"));
     CHECK(contains(result.err, ":3:3: its origin has the coordinate 2e+18, and 1e+18 mm is the farthest"));
     CHECK(contains(result.err, ":4:7: the largest component of its direction is 1e-260"));
 }

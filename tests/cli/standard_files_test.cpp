@@ -7,7 +7,8 @@ using namespace command_test;
 
 namespace {
 
-constexpr const char* ball_json = R"({"csgrt": 1, "solids": {"b": {"type": "sphere", "center": [0, 0, 0], "radius": 2}}})";
+constexpr const char* ball_json =
+    R"({"csgrt": 1, "solids": {"b": {"type": "sphere", "center": [0, 0, 0], "radius": 2}}})";
 
 std::string after_name(const std::string& text) { return text.substr(text.find('\n')); }
 
@@ -19,8 +20,8 @@ TEST_CASE("a scene comes from standard input, its format told by its first bytes
     const std::string asc = folder.write("balls.asc", two_balls), json = folder / "balls.json";
     const std::string rays = folder.write("rays", "-100 0.1 0.2 1 0 0\n0.3 0 -70 0 0.1 1\n");
     REQUIRE(run({"convert", asc, json}).status == 0);
-    const std::string v4 = folder.write("v4.asc",
-                                        "I 0 v4\nold\nS 19 b.s 19 0 0 0 2 0 0 0 2 0 0 0 2 0 0 0 0 0 0 0 0 0 0 0 0\n");
+    const std::string v4 =
+        folder.write("v4.asc", "I 0 v4\nold\nS 19 b.s 19 0 0 0 2 0 0 0 2 0 0 0 2 0 0 0 0 0 0 0 0 0 0 0 0\n");
     std::vector<std::string> scenes = {asc, json, v4};
     const std::string bom = folder.write("bom.json", "\xEF\xBB\xBF \n" + read_file(json));
     scenes.push_back(bom);
@@ -59,7 +60,8 @@ TEST_CASE("errors of a scene on standard input name it, with line and column") {
 TEST_CASE("files of a scene on standard input are relative to the present folder") {
     // "standard input" has no folder.
     const Folder folder;
-    const std::string text = "units mm\nput d.s dsp src f file heights w 2 n 2 sm 0 cut a stom {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n";
+    const std::string text =
+        "units mm\nput d.s dsp src f file heights w 2 n 2 sm 0 cut a stom {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n";
     folder.write("heights", std::string("\0\5\0\5\0\5\0\5", 8));
     const fs::path before = fs::current_path();
     fs::current_path(folder / ".");
@@ -97,7 +99,11 @@ TEST_CASE("output to a closed standard output is not lost in silence, nor writte
     const Folder folder;
     const std::string scene = folder.write("ball.json", ball_json), rays = folder.write("rays", "0 0 -9 0 0 1\n");
     const std::vector<std::vector<std::string>> commands = {
-        {"--help"}, {"--version"}, {"info", scene}, {"convert", scene, "-"}, {"shoot", scene, "--rays", rays, "--reference"},
+        {"--help"},
+        {"--version"},
+        {"info", scene},
+        {"convert", scene, "-"},
+        {"shoot", scene, "--rays", rays, "--reference"},
         {scene, "--reference", "--size", "8", "--stats", "-"},
 #ifdef CSGRT_HAVE_IMAGE
         {scene, "--reference", "--size", "8", "-o", "-"},

@@ -33,7 +33,8 @@ TEST_CASE("options that say a view twice are refused") {
         {{"--view-size", "0"}, "--view-size: '0' is not a length"},
         {{"--view-size", "nan"}, "--view-size: 'nan' is not a length"},
         {{"--up", "0,0,0"}, "the direction upward has no length"},
-        {{"--eye", "0,0,900", "--look-at", "0,0,0", "--up", "0,0,1"}, "the direction upward runs along the line of sight"},
+        {{"--eye", "0,0,900", "--look-at", "0,0,0", "--up", "0,0,1"},
+         "the direction upward runs along the line of sight"},
         {{"--eye", "9,9,9", "--look-at", "9,9,9"}, "the eye stands at the point that it looks at"},
         {{"--view-size", "1e30"}, "the size of the view is 1e+30 mm"},
     };
@@ -45,7 +46,8 @@ TEST_CASE("options that say a view twice are refused") {
         CHECK(result.status == 2);
         CHECK(contains(result.err, says));
     }
-    const Result broken = run({scene, "all.g", "--reference", "--stats", "-", "--view", folder.write("v", "viewsize x;")});
+    const Result broken =
+        run({scene, "all.g", "--reference", "--stats", "-", "--view", folder.write("v", "viewsize x;")});
     CHECK(broken.status == 3);
     CHECK(contains(broken.err, "'x' is not a finite number"));
 }
@@ -77,7 +79,8 @@ TEST_CASE("the header's command draws the picture of any view again") {
         const std::string text = image.attributes.at("csgrt:command");
         INFO(text);
         std::vector<std::string> words;
-        for (std::size_t at = text.find(" --azimuth") == text.npos ? text.find(" --perspective") : text.find(" --azimuth");
+        for (std::size_t at = text.find(" --azimuth") == text.npos ? text.find(" --perspective")
+                                                                   : text.find(" --azimuth");
              at < text.size();) {
             const std::size_t next = std::min(text.find(' ', at + 1), text.size());
             words.push_back(text.substr(at + 1, next - at - 1));
@@ -86,6 +89,7 @@ TEST_CASE("the header's command draws the picture of any view again") {
         CHECK(render(words).channels == image.channels);
     }
     // The saved view is azimuth 0, elevation 0, about the x axis.
-    CHECK(render({"--view", view}).channels == render({"--azimuth", "0", "--elevation", "0", "--center", "0,0,0", "--view-size", "40"}).channels);
+    CHECK(render({"--view", view}).channels ==
+          render({"--azimuth", "0", "--elevation", "0", "--center", "0,0,0", "--view-size", "40"}).channels);
 }
 #endif

@@ -32,9 +32,10 @@ TEST_CASE("help says the units of each command, and one example of a picture and
     CHECK(contains(all.out, "\n  printf '0 -9000 0  0 1 0\\n' | csgrt shoot scenes/operators.json --rays -\n"));
     CHECK(contains(all.out, "Lengths are millimetres"));
     const Result shoot = run({"help", "shoot"});
-    for (const char* column : {"\n  ox oy oz ", "\n  dx dy dz ", "\n  INDEX ", "\n  PARTITIONS ", "\n  OVERLAPS ", "\n  region ",
-                               "\n  in out ", "\n  inx iny inz ", "\n  outx outy outz ", "\n  in-solid ", "\n  out-solid ",
-                               "\n  in-type out-type ", "\n  overlap ", "millimetres", "lengths of the direction", "negative", "inf"}) {
+    for (const char* column :
+         {"\n  ox oy oz ", "\n  dx dy dz ", "\n  INDEX ", "\n  PARTITIONS ", "\n  OVERLAPS ", "\n  region ",
+          "\n  in out ", "\n  inx iny inz ", "\n  outx outy outz ", "\n  in-solid ", "\n  out-solid ",
+          "\n  in-type out-type ", "\n  overlap ", "millimetres", "lengths of the direction", "negative", "inf"}) {
         CAPTURE(column);
         CHECK(contains(shoot.out, column));
     }
@@ -64,7 +65,8 @@ TEST_CASE("the answer in docs/shoot.md is what shoot answers to its ray and scen
     const std::string scene = folder.write("balls.json", page.substr(json, page.find("```", json) - json));
     const std::size_t from = page.find("printf -- '") + 11;
     std::string ray = page.substr(from, page.find("\\n'", from) - from);
-    const Result result = run({"shoot", scene, "--rays", "-", "--reference"}, {.input = folder.write("rays", ray + "\n")});
+    const Result result =
+        run({"shoot", scene, "--rays", "-", "--reference"}, {.input = folder.write("rays", ray + "\n")});
     REQUIRE(result.status == 0);
     std::size_t lines = 0;
     std::istringstream text(page);
@@ -143,26 +145,31 @@ TEST_CASE("a number too small is 0 and one too large an error, in every reader i
         return "I 0 v4\nx\nS 19 b.s 19 " + number + " 0 0 2 0 0 0 2 0 0 0 2 0 0 0 0 0 0 0 0 0 0 0 0\n";
     };
     const std::string zeros(400, '0');
-    for (const std::string& small : {std::string("1e-400"), std::string("-1e-400"), "0." + zeros + "1e5", std::string("1e-99999999999999999999"),
-                                     std::string("4e-324"), std::string("2e-310")}) {
+    for (const std::string& small :
+         {std::string("1e-400"), std::string("-1e-400"), "0." + zeros + "1e5", std::string("1e-99999999999999999999"),
+          std::string("4e-324"), std::string("2e-310")}) {
         CAPTURE(small);
         CHECK(run({"info", folder.write("a.json", sphere(small))}).status == 0);
         CHECK(run({"info", folder.write("b.asc", v5(small))}).status == 0);
         CHECK(run({"info", folder.write("c.asc", v4(small))}).status == 0);
-        const Result ray = run({"shoot", scene, "--rays", folder.write("rays", small + " 0 -9 0 " + small + " 1\n"), "--reference"});
+        const Result ray =
+            run({"shoot", scene, "--rays", folder.write("rays", small + " 0 -9 0 " + small + " 1\n"), "--reference"});
         CHECK(contains(ray.out, "\n/b 7 11 "));
     }
-    for (const std::string& large : {std::string("1e400"), std::string("-1e400"), "1" + zeros, "0.0001e" + std::string("99999999999999999999")}) {
+    for (const std::string& large :
+         {std::string("1e400"), std::string("-1e400"), "1" + zeros, "0.0001e" + std::string("99999999999999999999")}) {
         const std::string said = "the number " + large.substr(0, 40);
         CAPTURE(large);
-        for (const auto& [name, text] : {std::pair{"a.json", sphere(large)}, {"b.asc", v5(large)}, {"c.asc", v4(large)}}) {
+        for (const auto& [name, text] :
+             {std::pair{"a.json", sphere(large)}, {"b.asc", v5(large)}, {"c.asc", v4(large)}}) {
             const Result result = run({"info", "--strict", folder.write(name, text)});
             CAPTURE(name, result.err);
             CHECK(result.status == 3);
             CHECK(contains(result.err, said));
             CHECK(contains(result.err, " is too large for a double"));
         }
-        const Result ray = run({"shoot", scene, "--rays", folder.write("rays", large + " 0 -9 0 0 1\n"), "--reference"});
+        const Result ray =
+            run({"shoot", scene, "--rays", folder.write("rays", large + " 0 -9 0 0 1\n"), "--reference"});
         CHECK(ray.status == 6);
         CHECK(contains(ray.err, "rays:1:1: ox: " + said));
     }

@@ -57,7 +57,8 @@ TEST_CASE("a compiled scene: everything is where the records say") {
         if (is_hole) continue;
         const kernel::StartRecord& start = c.starts[c.solids[i].first_start];
         CHECK(kernel::within(kernel::filter_of(i), start.needed));
-        CHECK(std::count(c.trees.begin() + start.first_word, c.trees.begin() + start.end_word, OP_LEAF << TREE_SHIFT | i) == 1);
+        CHECK(std::count(c.trees.begin() + start.first_word, c.trees.begin() + start.end_word,
+                         OP_LEAF << TREE_SHIFT | i) == 1);
         const auto& nodes = c.flat_trees[start.region].nodes;
         CHECK(std::any_of(nodes.begin(), nodes.end(),
                           [&](const auto& n) { return n.op == Operator::leaf && n.solid == i; }));
@@ -80,7 +81,8 @@ TEST_CASE("solids list the terms that they start") {
     for (std::uint32_t i = 0; i < 2; ++i) {
         const kernel::SolidRecord& record = c.solids[i];
         std::vector<std::uint32_t> starts;
-        for (std::uint32_t k = 0; k < record.start_count; ++k) starts.push_back(c.starts[record.first_start + k].region);
+        for (std::uint32_t k = 0; k < record.start_count; ++k)
+            starts.push_back(c.starts[record.first_start + k].region);
         CHECK(record.leaf_count == 0);  // only in large terms
         // One of the two starts r1, a starts r4, both r2.
         starts.erase(std::remove(starts.begin(), starts.end(), 0u), starts.end());

@@ -1,4 +1,5 @@
-// The screen of a picture: no ray outside of it meets anything, by the reference, which shoots them all; and it spares most of the rest.
+// The screen of a picture: no ray outside of it meets anything, by the reference, which shoots them all; and it spares
+// most of the rest.
 #include "compile/screen_bounds.hpp"
 
 #include <random>
@@ -35,11 +36,14 @@ Outcome look(const CompiledScene& compiled, const ReferenceKernels& kernels, con
             const bool is_within = x >= w.left && x < w.right && y >= w.top && y < w.bottom;
             outcome.missed += !is_within && pixels[std::size_t{y} * prepared.frame.width + x].depth > 0;
         }
-    outcome.part = double(w.right - w.left) * (w.bottom - w.top) / (double(prepared.frame.width) * prepared.frame.height);
+    outcome.part =
+        double(w.right - w.left) * (w.bottom - w.top) / (double(prepared.frame.width) * prepared.frame.height);
     return outcome;
 }
 
-Scene moved_by(const Scene& scene, double away) { return stress::moved(scene, scene.top, test::moved(away, -away, away)); }
+Scene moved_by(const Scene& scene, double away) {
+    return stress::moved(scene, scene.top, test::moved(away, -away, away));
+}
 
 View random_view(std::mt19937& random, const Vec3& center, double size) {
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
@@ -76,7 +80,9 @@ TEST_CASE("no ray outside of the screen meets anything") {
     if (away == 0 && !test::sanitized) CHECK(small > views / 8);
 }
 
-TEST_CASE("the screen is all of the picture if something is unbounded or around the eye, and none of it if there is nothing") {
+TEST_CASE(
+    "the screen is all of the picture if something is unbounded or around the eye, and none of it if there is "
+    "nothing") {
     View view;
     view.width = 50;
     view.height = 30;
@@ -93,7 +99,8 @@ TEST_CASE("the screen is all of the picture if something is unbounded or around 
     scene.objects.push_back(Solid{"ground", Half{{{0, 0, 1}, -3}}, {}});
     scene.top = {"ball"};
     view.camera.view_size = 30.0;
-    CHECK(screen_bounds(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // 2 pixels across, in the middle, and a margin of 2
+    CHECK(screen_bounds(scene) ==
+          std::vector<std::uint32_t>{16, 8, 32, 24});  // 2 pixels across, in the middle, and a margin of 2
     view.camera.center = Vec3{100, 0, 0};
     view.camera.azimuth = view.camera.elevation = 0;
     CHECK(screen_bounds(scene) == std::vector<std::uint32_t>{16, 8, 32, 24});  // behind the eye

@@ -61,7 +61,11 @@ void make_older(const fs::path& file, int minutes) {
 }
 
 // Bytes of every kind, none of which ends anything.
-const std::string some_binary = std::string("\x7f" "ELF\0\n\xff code", 11) + std::string(1000, '\0') + "end";
+const std::string some_binary = std::string(
+                                    "\x7f"
+                                    "ELF\0\n\xff code",
+                                    11) +
+                                std::string(1000, '\0') + "end";
 
 /// A variable of the environment as it was, in the end.
 class Variable {

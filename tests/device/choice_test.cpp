@@ -97,7 +97,8 @@ TEST_CASE("without a driver there are native devices alone, and that is no failu
     const std::vector<DeviceInfo> found = devices(&notes);
     CHECK(std::all_of(found.begin(), found.end(), is_native));
     CHECK(notes == std::vector<std::string>());
-    CHECK(std::getenv("POCL_CACHE_DIR") == std::string("/dev/null/none"));  // the environment is the program's, not the library's
+    CHECK(std::getenv("POCL_CACHE_DIR") ==
+          std::string("/dev/null/none"));  // the environment is the program's, not the library's
 }
 
 TEST_CASE("native devices have the default method's kernels alone, and come before other processors", "[device]") {
@@ -111,9 +112,11 @@ TEST_CASE("native devices have the default method's kernels alone, and come befo
     CHECK(choose_device(all, "cpu", Kernels::compiled_by_device) == 2);
     for (const char* choice : {"native", "1"}) {
         INFO(choice);
-        CHECK_THROWS_WITH(choose_device(all, choice, Kernels::compiled_by_device), ContainsSubstring("the default method alone"));
+        CHECK_THROWS_WITH(choose_device(all, choice, Kernels::compiled_by_device),
+                          ContainsSubstring("the default method alone"));
     }
-    CHECK_THROWS_WITH(choose_device({native}, "", Kernels::compiled_by_device), ContainsSubstring("the default method alone"));
+    CHECK_THROWS_WITH(choose_device({native}, "", Kernels::compiled_by_device),
+                      ContainsSubstring("the default method alone"));
     DeviceInfo pocl = several[0];
     pocl.version = "OpenCL 3.0 PoCL HSTR";
     CHECK(choose_device({native, several[0], pocl}, "pocl") == 2);

@@ -1,5 +1,5 @@
-// A device for tests of what a device compiles itself: other sources than csgrt's kernels, other methods, a GPU's way of bringing
-// pixels to the host. The native device has none of that.
+// A device for tests of what a device compiles itself: other sources than csgrt's kernels, other methods, a GPU's way
+// of bringing pixels to the host. The native device has none of that.
 #pragma once
 
 #include <cstdlib>

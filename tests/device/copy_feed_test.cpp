@@ -26,22 +26,49 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
         CopyFeed feed(device);
         done.push_back(feed.add(buffer, {{.columns = values.size(), .target = whole.data()}}));
         CHECK(other.read<float>(3) == std::vector<float>{1, 2, 3});
-        done.push_back(feed.add(buffer, {{.columns = columns, .lines = lines, .begin = 7 * columns, .pitch = columns,
-                                          .target = apart.data(), .target_pitch = pitch},
+        done.push_back(feed.add(buffer, {{.columns = columns,
+                                          .lines = lines,
+                                          .begin = 7 * columns,
+                                          .pitch = columns,
+                                          .target = apart.data(),
+                                          .target_pitch = pitch},
                                          {.columns = 50, .begin = 10, .target = few.data()}}));
         done.push_back(feed.add(buffer, {}));
-        done.push_back(feed.add(buffer, {{.columns = 2'500'000, .lines = 2, .pitch = 2'500'000, .target = wide.data(),
-                                          .target_pitch = 2'500'000},
-                                         {.columns = 9, .lines = 0},
-                                         {.columns = 0, .lines = 5}}));
-        // Of two channels of 1,000 lines a part, line by line side by side; and of three small ones, one behind the other.
-        done.push_back(feed.add(buffer, {{.columns = 1300, .lines = 1000, .channels = 2, .begin = 17, .pitch = 2000, .slice = 2'000'000,
-                                          .target = channels.data(), .target_pitch = 2600, .target_slice = 2'600'000}}));
-        done.push_back(feed.add(buffer, {{.columns = 3, .lines = 2, .channels = 3, .begin = 1, .pitch = 10, .slice = 30,
-                                          .target = small.data(), .target_pitch = 3, .target_slice = 6}}));
-        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 5, .begin = 4'999'999, .target = whole.data()}}), std::logic_error);
-        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 2, .lines = 2, .channels = 2, .pitch = 2, .slice = 5'000'000,
-                                           .target = whole.data(), .target_pitch = 2, .target_slice = 4}}),
+        done.push_back(feed.add(
+            buffer,
+            {{.columns = 2'500'000, .lines = 2, .pitch = 2'500'000, .target = wide.data(), .target_pitch = 2'500'000},
+             {.columns = 9, .lines = 0},
+             {.columns = 0, .lines = 5}}));
+        // Of two channels of 1,000 lines a part, line by line side by side; and of three small ones, one behind the
+        // other.
+        done.push_back(feed.add(buffer, {{.columns = 1300,
+                                          .lines = 1000,
+                                          .channels = 2,
+                                          .begin = 17,
+                                          .pitch = 2000,
+                                          .slice = 2'000'000,
+                                          .target = channels.data(),
+                                          .target_pitch = 2600,
+                                          .target_slice = 2'600'000}}));
+        done.push_back(feed.add(buffer, {{.columns = 3,
+                                          .lines = 2,
+                                          .channels = 3,
+                                          .begin = 1,
+                                          .pitch = 10,
+                                          .slice = 30,
+                                          .target = small.data(),
+                                          .target_pitch = 3,
+                                          .target_slice = 6}}));
+        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 5, .begin = 4'999'999, .target = whole.data()}}),
+                        std::logic_error);
+        CHECK_THROWS_AS(feed.add(buffer, {{.columns = 2,
+                                           .lines = 2,
+                                           .channels = 2,
+                                           .pitch = 2,
+                                           .slice = 5'000'000,
+                                           .target = whole.data(),
+                                           .target_pitch = 2,
+                                           .target_slice = 4}}),
                         std::logic_error);
         done[0].get();
         CHECK(whole == values);
@@ -57,14 +84,16 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
     std::vector<float> of_planes(channels.size(), -1), of_small;
     for (std::size_t p = 0; p < 2; ++p)
         for (std::size_t y = 0; y < 1000; ++y)
-            for (std::size_t x = 0; x < 1300; ++x) of_planes[(p * 1000 + y) * 2600 + x] = values[17 + (p * 1000 + y) * 2000 + x];
+            for (std::size_t x = 0; x < 1300; ++x)
+                of_planes[(p * 1000 + y) * 2600 + x] = values[17 + (p * 1000 + y) * 2000 + x];
     CHECK(channels == of_planes);
     for (std::size_t p = 0; p < 3; ++p)
         for (std::size_t y = 0; y < 2; ++y)
             for (std::size_t x = 0; x < 3; ++x) of_small.push_back(values[1 + 30 * p + 10 * y + x]);
     CHECK(small == of_small);
     CHECK(few == std::vector<float>(values.begin() + 10, values.begin() + 60));
-    CHECK(std::vector<float>(wide.begin(), wide.begin() + 5'000'000) == std::vector<float>(values.begin(), values.begin() + 5'000'000));
+    CHECK(std::vector<float>(wide.begin(), wide.begin() + 5'000'000) ==
+          std::vector<float>(values.begin(), values.begin() + 5'000'000));
 }
 
 TEST_CASE("copies that a device refuses are told by their future, and those behind them are made", "[device]") {

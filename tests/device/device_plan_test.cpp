@@ -120,8 +120,8 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
     }
     Settings single = with_device("native");
     single.precision = Precision::single;
-    CHECK_THROWS_WITH(plan_devices(single), ContainsSubstring("the default method alone") &&
-                                                ContainsSubstring("--reference"));
+    CHECK_THROWS_WITH(plan_devices(single),
+                      ContainsSubstring("the default method alone") && ContainsSubstring("--reference"));
 }
 
 TEST_CASE("without native devices OpenCL draws by default, and the reference where there is none", "[device]") {

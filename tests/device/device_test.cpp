@@ -24,9 +24,7 @@ std::string failure(Status status, Act act) {
     return "nothing was thrown";
 }
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const char* const scale_source = R"(
 typedef struct { double factor; uint offset; } Change;
@@ -68,7 +66,8 @@ TEST_CASE("numbers go to the device, through a kernel and back", "[device]") {
 
 TEST_CASE("launches of any number of items: each item comes once", "[device]") {
     Device device(test::compiling_device());
-    Program program(device, "__kernel void add(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) ++x[i]; }");
+    Program program(
+        device, "__kernel void add(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) ++x[i]; }");
     Kernel add = program.kernel("add");
     for (const cl_uint items : {1u, 63u, 65'535u, 65'536u, 200'001u}) {
         INFO(items << " items");
@@ -85,7 +84,9 @@ TEST_CASE("launches of any number of items: each item comes once", "[device]") {
 
 TEST_CASE("launches queue up behind each other and are waited for once", "[device]") {
     Device device(test::compiling_device());
-    Program program(device, "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = 3 * x[i] + 1; }");
+    Program program(device,
+                    "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = "
+                    "3 * x[i] + 1; }");
     Kernel grow = program.kernel("grow");
     Buffer x(device, "x", 100 * sizeof(cl_uint));
     std::vector<cl_uint> result(100);
@@ -99,9 +100,12 @@ TEST_CASE("launches queue up behind each other and are waited for once", "[devic
     for (const Event& event : events) CHECK(milliseconds(event) >= 0);
 }
 
-TEST_CASE("what stands in different queues is all done when a device has finished, and each keeps its order", "[device]") {
+TEST_CASE("what stands in different queues is all done when a device has finished, and each keeps its order",
+          "[device]") {
     Device device(test::compiling_device());
-    Program program(device, "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = 3 * x[i] + 1; }");
+    Program program(device,
+                    "__kernel void grow(__global uint* x, uint n) { uint i = (uint)get_global_id(0); if (i < n) x[i] = "
+                    "3 * x[i] + 1; }");
     Kernel grow = program.kernel("grow");
     std::vector<Buffer> x;
     std::vector<Event> events;
@@ -136,7 +140,8 @@ TEST_CASE("what stands in different queues is all done when a device has finishe
 TEST_CASE("a kernel takes local memory, and a null pointer for an empty buffer", "[device]") {
     Device device(test::compiling_device());
     Program program(device, scale_source);
-    Buffer in(device, "in", std::vector<cl_uint>(64, 2)), out(device, "out", 4 * sizeof(cl_uint)), empty(device, "empty");
+    Buffer in(device, "in", std::vector<cl_uint>(64, 2)), out(device, "out", 4 * sizeof(cl_uint)),
+        empty(device, "empty");
     program.kernel("sum_group").launch(64, 16, in, out, LocalMemory{16 * sizeof(cl_uint)});
     CHECK(out.read<cl_uint>(4) == std::vector<cl_uint>(4, 32));
     Kernel is_null = program.kernel("is_null");
@@ -211,7 +216,8 @@ TEST_CASE("what does not fit the budget is refused, with who holds what", "[devi
 
 TEST_CASE("one buffer larger than the device allows is refused", "[device]") {
     Device device(test::compiling_device(), std::uint64_t{1} << 62);
-    const std::string text = failure(Status::out_of_memory, [&] { Buffer(device, "partitions", device.info().max_allocation + 1); });
+    const std::string text =
+        failure(Status::out_of_memory, [&] { Buffer(device, "partitions", device.info().max_allocation + 1); });
     CHECK(has(text, "\"partitions\" needs "));
     CHECK(has(text, "one buffer may take "));
     CHECK(device.allocated() == 0);
@@ -226,7 +232,8 @@ TEST_CASE("without a limit the budget is less than the device has", "[device]") 
 
 TEST_CASE("a program that does not compile shows the compiler's words and the kernel's file", "[device]") {
     Device device(test::compiling_device());
-    const std::string source = assemble_program({"shared/base.h"}) + "#line 7 \"kernels/broken.cl\"\n__kernel void f() { not_declared = 1; }\n";
+    const std::string source = assemble_program({"shared/base.h"}) +
+                               "#line 7 \"kernels/broken.cl\"\n__kernel void f() { not_declared = 1; }\n";
     const std::string text = failure(Status::device_fault, [&] { Program(device, source, {"SOME=1"}); });
     INFO(text);
     CHECK(has(text, "do not compile for " + device.info().name));
@@ -237,7 +244,8 @@ TEST_CASE("a program that does not compile shows the compiler's words and the ke
 
 TEST_CASE("a define reaches the kernel, and so does the precision", "[device]") {
     Device device(test::compiling_device());
-    Program program(device, "__kernel void f(__global uint* out) { out[0] = COUNT; out[1] = sizeof(CSGRT_REAL); }", {"COUNT=42"});
+    Program program(device, "__kernel void f(__global uint* out) { out[0] = COUNT; out[1] = sizeof(CSGRT_REAL); }",
+                    {"COUNT=42"});
     Buffer out(device, "out", 2 * sizeof(cl_uint));
     program.kernel("f").launch(1, 1, out);
     CHECK(out.read<cl_uint>(2) == std::vector<cl_uint>{42, 8});
@@ -253,7 +261,9 @@ TEST_CASE("a kernel that is not there, or is called wrongly, is named", "[device
     Kernel change = program.kernel("change");
     Buffer buffer(device, "buffer", 64);
     CHECK_THROWS_WITH(change.launch(1, 1, buffer), "kernel change takes 4 arguments, not 1");
-    const std::string size = failure(Status::device_fault, [&] { change.launch(1, 1, buffer, buffer, Change{1, 1}, cl_ulong{1}); });
+    const std::string size = failure(Status::device_fault, [&] {
+        change.launch(1, 1, buffer, buffer, Change{1, 1}, cl_ulong{1});
+    });
     CHECK(has(size, "clSetKernelArg (change, argument 3)"));
     CHECK(has(size, "CL_INVALID_ARG_SIZE"));
     const std::string group = failure(Status::device_fault, [&] {
@@ -269,7 +279,8 @@ TEST_CASE("an error of OpenCL has its name, and memory errors their status", "[d
           "clFinish failed: CL_OUT_OF_RESOURCES (-5)");
     CHECK(failure(Status::out_of_memory, [] { check(CL_MEM_OBJECT_ALLOCATION_FAILURE, "f"); }) ==
           "f failed: CL_MEM_OBJECT_ALLOCATION_FAILURE (-4)");
-    CHECK(failure(Status::out_of_memory, [] { check(CL_OUT_OF_HOST_MEMORY, "f"); }) == "f failed: CL_OUT_OF_HOST_MEMORY (-6)");
+    CHECK(failure(Status::out_of_memory, [] { check(CL_OUT_OF_HOST_MEMORY, "f"); }) ==
+          "f failed: CL_OUT_OF_HOST_MEMORY (-6)");
     CHECK(failure(Status::device_fault, [] { check(-9999, "f"); }) == "f failed: an unknown error (-9999)");
     CHECK_NOTHROW(check(CL_SUCCESS, "f"));
     CHECK(std::string(opencl_error_name(-1001)) == "CL_PLATFORM_NOT_FOUND_KHR");
@@ -288,7 +299,8 @@ TEST_CASE("pinned memory is memory that transfers reach", "[device]") {
     CHECK(PinnedMemory(device, "none", 0).data() == nullptr);
 }
 
-TEST_CASE("memory made known to a device keeps what it holds, takes copies by lines, and may outlast the device", "[device]") {
+TEST_CASE("memory made known to a device keeps what it holds, takes copies by lines, and may outlast the device",
+          "[device]") {
     std::vector<float> host(100 * 40, 7);
     auto device = std::make_unique<Device>();
     std::optional<KnownMemory> known(std::in_place, *device, host.data(), host.size() * sizeof(float));
@@ -298,8 +310,13 @@ TEST_CASE("memory made known to a device keeps what it holds, takes copies by li
     {
         const Buffer buffer(*device, "lines", values);
         CopyFeed copies(*device);
-        copies.add(buffer, {{.columns = 30, .lines = 20, .begin = 30 * 10, .pitch = 30, .target = host.data() + 5 * 100 + 11,
-                             .target_pitch = 100}})
+        copies
+            .add(buffer, {{.columns = 30,
+                           .lines = 20,
+                           .begin = 30 * 10,
+                           .pitch = 30,
+                           .target = host.data() + 5 * 100 + 11,
+                           .target_pitch = 100}})
             .get();
     }
     std::vector<float> expected(host.size(), 7);

@@ -52,7 +52,8 @@ TEST_CASE("a header's guard is its path, so that no two share one", "[device]") 
         std::string guard = std::string("CSGRT_") + file.name;
         if (!guard.ends_with(".h")) continue;
         INFO(file.name);
-        for (char& c : guard) c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        for (char& c : guard)
+            c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
         CHECK(guards.insert(guard).second);
         CHECK(std::string(file.text).find("#ifndef " + guard + "\n#define " + guard + "\n") != std::string::npos);
     }
@@ -62,9 +63,11 @@ TEST_CASE("a header's guard is its path, so that no two share one", "[device]") 
 TEST_CASE("a file whose guard is undefined is assembled once more where it is included again", "[device]") {
     const std::string text = assemble_program({"packet/first_hits_packet.h", "first_hits.cl"});
     CHECK(count(text, "#include") == 0);
-    for (const char* twice : {"shared/vectors.h", "shared/slab.h", "geometry/ell.h", "geometry/cone.h", "geometry/torus.h", "shading/plastic.h"})
+    for (const char* twice : {"shared/vectors.h", "shared/slab.h", "geometry/ell.h", "geometry/cone.h",
+                              "geometry/torus.h", "shading/plastic.h"})
         CHECK(count(text, std::string("#line 1 \"kernels/") + twice + "\"") == 2);
-    for (const char* once : {"shared/base.h", "shared/layout.h", "geometry/tgc.h", "geometry/tor.h", "shading/pixel.h", "packet/packet.h"})
+    for (const char* once :
+         {"shared/base.h", "shared/layout.h", "geometry/tgc.h", "geometry/tor.h", "shading/pixel.h", "packet/packet.h"})
         CHECK(count(text, std::string("#line 1 \"kernels/") + once + "\"") == 1);
 }
 

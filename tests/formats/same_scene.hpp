@@ -14,10 +14,10 @@ class SceneBytes {
 public:
     explicit SceneBytes(const Scene& scene) {
         add(scene.title, scene.units, scene.unit_length, scene.camera.azimuth, scene.camera.elevation,
-            scene.camera.perspective, scene.camera.center, scene.camera.view_size, scene.camera.eye, scene.camera.look_at,
-            scene.camera.up, scene.ambient, scene.background,
-            scene.tolerance, scene.lights.size(), scene.objects.size(), scene.top.size(), scene.region_colors.size());
-        for (const Light& light : scene.lights) 
+            scene.camera.perspective, scene.camera.center, scene.camera.view_size, scene.camera.eye,
+            scene.camera.look_at, scene.camera.up, scene.ambient, scene.background, scene.tolerance,
+            scene.lights.size(), scene.objects.size(), scene.top.size(), scene.region_colors.size());
+        for (const Light& light : scene.lights)
             add(light.position, light.color, light.intensity, light.infinite, light.angle, light.direction);
         for (const std::string& name : scene.top) add(name);
         for (const RegionColor& range : scene.region_colors) add(range.low, range.high, range.color);
@@ -98,8 +98,8 @@ private:
     void add_curve(const Sketch::Nurb& c) { add(c.order, c.knots, c.points, c.weights); }
 
     void add_combination(const Combination& c) {
-        add(c.tree.nodes.size(), c.region, c.region_id, c.air, c.fastgen, c.material_id, c.los, c.color, c.finish.has_value(),
-            c.color_inherits, c.finish_inherits);
+        add(c.tree.nodes.size(), c.region, c.region_id, c.air, c.fastgen, c.material_id, c.los, c.color,
+            c.finish.has_value(), c.color_inherits, c.finish_inherits);
         if (c.finish) {
             add(c.finish->shader, c.finish->specular, c.finish->diffuse, c.finish->ambient, c.finish->shine,
                 c.finish->transmit, c.finish->reflect, c.finish->light.has_value());

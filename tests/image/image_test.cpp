@@ -37,11 +37,11 @@ Image full_picture() {
     Image image;
     image.width = 7;
     image.height = 5;
-    image.names = {"R",   "G",      "B",     "A",     "Z",          "N.X",    "N.Y",
-                   "N.Z", "region", "solid", "depth", "partitions", "overlap"};
+    image.names = {"R", "G", "B", "A", "Z", "N.X", "N.Y", "N.Z", "region", "solid", "depth", "partitions", "overlap"};
     image.channels = Channels(35, std::vector<float>(image.names.size()));
     for (std::size_t c = 0; c < image.names.size(); ++c)
-        for (std::size_t i = 0; i < 35; ++i) image.channels[c][i] = static_cast<float>(c) * 1000 + static_cast<float>(i) + 1 / 3.0f;
+        for (std::size_t i = 0; i < 35; ++i)
+            image.channels[c][i] = static_cast<float>(c) * 1000 + static_cast<float>(i) + 1 / 3.0f;
     image.channels[4][6] = std::numeric_limits<float>::infinity();
     image.channels[5][7] = -std::numeric_limits<float>::denorm_min();
     image.channels[8][0] = 16777215;  // the largest odd whole number of a float
@@ -117,8 +117,8 @@ TEST_CASE("channels that csgrt does not know keep their place after those it kno
 }
 
 TEST_CASE("a PNG has 8 bits, rounded, clamped, linear", "[image]") {
-    // One row, so the file's only filter and the uncompressed bytes are told by the encoder's own reader: the picture of
-    // the quantized values must be the very same file.
+    // One row, so the file's only filter and the uncompressed bytes are told by the encoder's own reader: the picture
+    // of the quantized values must be the very same file.
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     const auto of = [](float v) { return encode(gray({v, 0.25f}), "png", "test"); };
     CHECK(of(0.5f) == of(128 / 255.0f));
@@ -164,7 +164,8 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
 TEST_CASE("a file that cannot be written is named, with the reason", "[image]") {
     const Folder folder;
     const std::string path = folder / "none/a.exr";
-    CHECK(failure(Status::file, [&] { write_image(gray({1}), path); }) == path + ": cannot create: No such file or directory");
+    CHECK(failure(Status::file, [&] { write_image(gray({1}), path); }) ==
+          path + ": cannot create: No such file or directory");
 }
 
 TEST_CASE("channels: in one piece, copied, moved, compared, and of one size", "[image]") {
@@ -219,9 +220,13 @@ TEST_CASE("a picture that is not well formed is refused", "[image]") {
 
 TEST_CASE("a file that is no EXR is refused by name", "[image]") {
     const Folder folder;
-    CHECK(failure(Status::file, [&] { read_image(folder / "missing.exr"); }).starts_with((folder / "missing.exr") + ": cannot read: "));
+    CHECK(failure(Status::file, [&] {
+              read_image(folder / "missing.exr");
+          }).starts_with((folder / "missing.exr") + ": cannot read: "));
     std::ofstream(folder / "text.exr") << "not a picture";
-    CHECK(failure(Status::file, [&] { read_image(folder / "text.exr"); }).starts_with((folder / "text.exr") + ": cannot read: "));
+    CHECK(failure(Status::file, [&] {
+              read_image(folder / "text.exr");
+          }).starts_with((folder / "text.exr") + ": cannot read: "));
     write_image(gray({1}), folder / "a.png");
     CHECK(failure(Status::file, [&] { read_image(folder / "a.png"); }) == (folder / "a.png") + ": is no EXR file");
     // Cut off in the middle.

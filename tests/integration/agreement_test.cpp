@@ -34,7 +34,9 @@ void require_scenes(bool all) {
 
 TEST_CASE("device and reference agree on our scenes", "[agreement]") { require_scenes(false); }
 
-TEST_CASE("device and reference agree on our scenes, each with its own program", "[.long][agreement]") { require_scenes(true); }
+TEST_CASE("device and reference agree on our scenes, each with its own program", "[.long][agreement]") {
+    require_scenes(true);
+}
 
 TEST_CASE("a ray whose segments do not fit the memory budget is an error, not a crash", "[agreement]") {
     const auto files = test::scene_files();

@@ -11,9 +11,9 @@ using namespace csgrt;
 TEST_CASE("device and reference agree on solids of a closed form", "[agreement]") {
     using oracle::Kind;
     std::vector<Ray> rays;
-    const Scene scene = test::scene_of({Kind::part, Kind::epa, Kind::rpc, Kind::rhc, Kind::eto, Kind::hyp, Kind::superell,
-                                        Kind::hrt, Kind::metaball},
-                                       rays);
+    const Scene scene = test::scene_of(
+        {Kind::part, Kind::epa, Kind::rpc, Kind::rhc, Kind::eto, Kind::hyp, Kind::superell, Kind::hrt, Kind::metaball},
+        rays);
     Settings settings = test::on_device();
     const auto by_device = Renderer(scene, {"all"}, settings).shoot(rays);
     settings.reference = true;

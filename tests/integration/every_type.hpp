@@ -1,5 +1,5 @@
-// A scene with a solid of every type in it. What a device's compiler takes for a program hangs little on the types in it,
-// so tests of many scenes give all of them one program; those of our own scenes have one for each set of types.
+// A scene with a solid of every type in it. What a device's compiler takes for a program hangs little on the types in
+// it, so tests of many scenes give all of them one program; those of our own scenes have one for each set of types.
 #pragma once
 
 #include <bit>
@@ -16,8 +16,9 @@
 
 namespace csgrt::test {
 
-/// `scene`, and five of our own scenes that have a solid of every type between them, in a row at the middle of `objects`
-/// (empty: of the top objects) and a tenth as wide. `objects` gets their name. Empty CSGRT_SCENES: nothing is added.
+/// `scene`, and five of our own scenes that have a solid of every type between them, in a row at the middle of
+/// `objects` (empty: of the top objects) and a tenth as wide. `objects` gets their name. Empty CSGRT_SCENES: nothing is
+/// added.
 inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     const std::string folder = test::folder("CSGRT_SCENES");
     if (folder.empty()) return scene;
@@ -34,7 +35,8 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     // No scene of ours has one.
     const double reach = width / 4;
     const std::string crossed = all.name + "/crossed eto";
-    scene.objects.emplace_back(Solid{crossed, Eto{middle(box), {0, 0, 1}, {0.9 * reach, 0, 0.9 * reach}, reach, 0.8 * reach}, {}});
+    scene.objects.emplace_back(
+        Solid{crossed, Eto{middle(box), {0, 0, 1}, {0.9 * reach, 0, 0.9 * reach}, reach, 0.8 * reach}, {}});
     all.tree.nodes.push_back({Operator::leaf, 0, crossed, identity, {}});
     for (const char* name : {"solids", "quadrics", "blobs", "meshes", "sketches"}) {
         const Scene own = load_scene(folder + "/" + name + ".json");
@@ -65,8 +67,8 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     return scene;
 }
 
-/// What an OpenCL compiler takes for each program is most of the time of a test of many scenes, so a scene has its own only
-/// if it brings two types of solids or more that no program before had; the others share that of every type.
+/// What an OpenCL compiler takes for each program is most of the time of a test of many scenes, so a scene has its own
+/// only if it brings two types of solids or more that no program before had; the others share that of every type.
 class FewPrograms {
 public:
     /// `scene` itself, or with every type; then `objects` gets more (with_every_type).

@@ -22,9 +22,9 @@ std::vector<Settings> in_single() {
     return {eye, world};
 }
 
-// By default all in one program for each precision, since what an OpenCL compiler takes for each is most of the time here;
-// every third of our scenes; and of the world's coordinates, which share all but the camera with the eye's, every fourth.
-// `all`: each in its own, in both.
+// By default all in one program for each precision, since what an OpenCL compiler takes for each is most of the time
+// here; every third of our scenes; and of the world's coordinates, which share all but the camera with the eye's, every
+// fourth. `all`: each in its own, in both.
 void require(Scene scene, std::vector<std::string> objects, int size, int rays, std::size_t number, bool all) {
     if (!all) scene = test::with_every_type(std::move(scene), objects);
     std::vector<Settings> asked = in_single();
@@ -63,7 +63,8 @@ void require_hard_rays() {
     std::vector<Ray> rays;
     std::vector<std::string> objects = {"all"};
     const Scene scene = test::with_every_type(
-        test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays), objects);
+        test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays),
+        objects);
     for (Settings settings : in_single()) {
         INFO(name_of(precision_names, settings.precision));
         Renderer device(scene, objects, settings);
@@ -81,13 +82,16 @@ void require_hard_rays() {
 
 TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") { require_scenes(false); }
 
-TEST_CASE("device and reference agree in single precision on BRL-CAD's models", "[agreement]") { require_models(false); }
+TEST_CASE("device and reference agree in single precision on BRL-CAD's models", "[agreement]") {
+    require_models(false);
+}
 
 TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[agreement]") {
     require_hard_rays();
 }
 
-TEST_CASE("device and reference agree in both single precisions, each scene with its own program", "[.long][agreement]") {
+TEST_CASE("device and reference agree in both single precisions, each scene with its own program",
+          "[.long][agreement]") {
     require_scenes(true);
     require_models(true);
 }

@@ -57,7 +57,8 @@ inline std::vector<Ray> random_rays(const Box& box, int count) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
     const auto inside = [&] {
-        return Vec3{box.low.x + unit(random) * (box.high.x - box.low.x), box.low.y + unit(random) * (box.high.y - box.low.y),
+        return Vec3{box.low.x + unit(random) * (box.high.x - box.low.x),
+                    box.low.y + unit(random) * (box.high.y - box.low.y),
                     box.low.z + unit(random) * (box.high.z - box.low.z)};
     };
     std::vector<Ray> rays;
@@ -120,7 +121,8 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
         require_same(batched.render(view), first);
         REQUIRE(first.names.size() == 10);
         for (std::size_t c = 0; c < first.names.size(); ++c)
-            CHECK(std::memcmp(first.channels[c].data(), expected.channels[c].data(), first.channels[c].size() * 4) == 0);
+            CHECK(std::memcmp(first.channels[c].data(), expected.channels[c].data(), first.channels[c].size() * 4) ==
+                  0);
     }
     const std::vector<Ray> list = random_rays(reference.bounds(), rays);
     const auto expected = reference.shoot(list);

@@ -1,5 +1,5 @@
-// A scene of every form of some kinds of solids, and rays of all families at them. One scene, because it is compiled for
-// a device as one program.
+// A scene of every form of some kinds of solids, and rays of all families at them. One scene, because it is compiled
+// for a device as one program.
 #pragma once
 
 #include <string>

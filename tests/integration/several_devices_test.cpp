@@ -1,5 +1,5 @@
-// Several devices share a frame, or a list of rays: the same bits as from one. In a process of its own, which PoCL shows
-// the processor twice (POCL_DEVICES).
+// Several devices share a frame, or a list of rays: the same bits as from one. In a process of its own, which PoCL
+// shows the processor twice (POCL_DEVICES).
 #include "catch.hpp"
 
 #include <atomic>
@@ -97,7 +97,8 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
 TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
     // Its memory is registered to them, or not.
     const bool is_registered = GENERATE(false, true);
-    const Scene scene = is_registered ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    const Scene scene =
+        is_registered ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
     Settings settings;
     settings.device = one_pocl();
     Renderer one(scene, {}, settings);

@@ -1,5 +1,5 @@
-// PoCL compiles the kernels with kernels/shared/builtins.h in place of its own declarations; a function that is missing there would cost
-// every start two builds.
+// PoCL compiles the kernels with kernels/shared/builtins.h in place of its own declarations; a function that is missing
+// there would cost every start two builds.
 #include <string>
 #include <vector>
 
@@ -15,7 +15,8 @@ using namespace csgrt;
 TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
     const std::vector<FoundDevice> found = find_devices().devices;
     Device device(found[choose_device(infos_of(found), "cpu", Kernels::compiled_by_device)]);
-    if (test::sanitized) return;  // it is PoCL that works here: three programs of all types of solids for each precision
+    if (test::sanitized)
+        return;  // it is PoCL that works here: three programs of all types of solids for each precision
     if (!is_pocl(device.info()) || !device.info().driver.starts_with("3.")) {
         WARN("the processor's driver is not PoCL 3: nothing seen");
         return;
@@ -38,8 +39,8 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
             CHECK(program.has_own_declarations());
             CHECK(program.build_log() == "");
         };
-        std::vector<std::string> exact = {"0_cull_tiles.cl", "1_count_hits.cl", "scan.cl",     "2_store_segments.cl",
-                                          "3_weave.cl",       "4_evaluate.cl",   "5_shade.cl"};
+        std::vector<std::string> exact = {"0_cull_tiles.cl", "1_count_hits.cl", "scan.cl",   "2_store_segments.cl",
+                                          "3_weave.cl",      "4_evaluate.cl",   "5_shade.cl"};
         require_own(exact);
         require_own({"tile_list.cl"});
         defines.push_back("CSGRT_PRIVATE_ENDS");

@@ -131,7 +131,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     std::vector<RayCount> places(count + 1);
     each([&] { find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), nullptr); });
     std::vector<Candidate> candidates(scan(places).segments);
-    each([&] { find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), candidates.data()); });
+    each([&] {
+        find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), candidates.data());
+    });
     std::vector<End> found(2 * candidates.size());
     each_of(candidates.size(), [&] {
         count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
@@ -147,13 +149,15 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     run.tallies.resize(count);
     std::vector<float> values(13 * count);
     each_of(candidates.size(), [&] {
-        store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(), scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data(),
+        store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                       scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data(),
                        run.offsets.data(), run.ends.data(), run.bits.data());
     });
-    each_of(run.ends.size(), [&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data()); });
+    each_of(run.ends.size(),
+            [&] { order_ends(&frame, run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data()); });
     each([&] {
-        kernel::weave(&frame, rays.data(), listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.bits.data(),
-                      run.tallies.data());
+        kernel::weave(&frame, rays.data(), listed, run.offsets.data(), run.ends.data(), run.nodes.data(),
+                      run.bits.data(), run.tallies.data());
     });
     each_of(run.ends.size(), [&] {
         evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.trees.data(), run.offsets.data(),
@@ -161,9 +165,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     });
     if (rays.empty()) {
         each([&] {
-            shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(), scene.inner_nodes.data(),
-                  scene.materials.data(), prepared.lights.data(), listed, run.offsets.data(), run.ends.data(), run.nodes.data(),
-                  run.tallies.data(), nullptr, values.data());
+            shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                  scene.inner_nodes.data(), scene.materials.data(), prepared.lights.data(), listed, run.offsets.data(),
+                  run.ends.data(), run.nodes.data(), run.tallies.data(), nullptr, values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
     }
@@ -171,7 +175,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
 }
 
 /// The first hits by their own kernels. Returns how many rays had no room.
-inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFrame& prepared, std::vector<float>& picture) {
+inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFrame& prepared,
+                                    std::vector<float>& picture) {
     using namespace kernel;
     Frame frame = prepared.frame;
     frame.first_ray = 0;
@@ -185,9 +190,10 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     frame.ray_count = static_cast<u32>(numbers.size());
     std::vector<float> values(10 * numbers.size());
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
-        first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(), scene.inner_nodes.data(),
-                   scene.nodes.data(), scene.starts.data(), scene.trees.data(), scene.materials.data(), prepared.lights.data(),
-                   tiles.lists.data(), numbers.data(), &report, overflown.data(), values.data());
+        first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                   scene.inner_nodes.data(), scene.nodes.data(), scene.starts.data(), scene.trees.data(),
+                   scene.materials.data(), prepared.lights.data(), tiles.lists.data(), numbers.data(), &report,
+                   overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return report.overflows;
 }

@@ -28,15 +28,18 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
             const PreparedFrame prepared = prepare_frame(compiled, view);
             const test::HostRun run = test::run_kernels(compiled, prepared);
             ReferenceCounts counts;
-            const std::vector<kernel::Pixel> expected = Reference(compiled, *kernels, 1).render(prepared, nullptr, counts);
+            const std::vector<kernel::Pixel> expected =
+                Reference(compiled, *kernels, 1).render(prepared, nullptr, counts);
             CHECK(2 * run.offsets.back().segments == counts.hits);
             const auto differing = [&](const std::vector<float>& picture, bool counted) {
                 std::size_t different = 0;
                 const std::size_t size = expected.size();
                 for (std::size_t i = 0; i < size; ++i) {
                     const kernel::Pixel& p = expected[i];
-                    const float values[] = {p.rgba[0], p.rgba[1], p.rgba[2], p.rgba[3], p.z, p.normal[0], p.normal[1], p.normal[2],
-                                            float(p.region), float(p.solid), float(p.depth), float(p.partitions), float(p.overlap)};
+                    const float values[] = {
+                        p.rgba[0],      p.rgba[1],           p.rgba[2],       p.rgba[3],       p.z,
+                        p.normal[0],    p.normal[1],         p.normal[2],     float(p.region), float(p.solid),
+                        float(p.depth), float(p.partitions), float(p.overlap)};
                     for (std::size_t c = 0; c < (counted ? 13 : 10); ++c)
                         different += std::memcmp(&picture[c * size + i], &values[c], sizeof(float)) != 0;
                 }

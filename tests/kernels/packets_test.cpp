@@ -14,17 +14,20 @@ using namespace csgrt;
 
 namespace {
 
-// Cones seen from above, so that some rays of a packet are steeper than their sides; quadrics, of which a ray may have two segments; a
-// tapered cone and tori, of which packets tell only which rays may meet them; a particle, which they do not know; surfaces seen
-// from within; and 70 shells one in another, more than a ray has room for while none is claimed.
+// Cones seen from above, so that some rays of a packet are steeper than their sides; quadrics, of which a ray may have
+// two segments; a tapered cone and tori, of which packets tell only which rays may meet them; a particle, which they do
+// not know; surfaces seen from within; and 70 shells one in another, more than a ray has room for while none is
+// claimed.
 std::string scene() {
     std::string text = R"({"csgrt": 1, "units": "mm", "solids": {
         "blunt": {"type": "cone", "base": [0, 0, 0], "height": [0, 0, 10], "radius": 9, "top_radius": 2},
         "sharp": {"type": "cone", "base": [20, 0, 0], "height": [0, 0, 10], "radius": 9, "top_radius": 0},
-        "leaning": {"type": "tgc", "base": [-20, 0, 0], "height": [3, 0, 10], "a": [8, 0, 0], "b": [0, 5, 0], "c": [3, 0, 0], "d": [0, 4, 0]},
+        "leaning": {"type": "tgc", "base": [-20, 0, 0], "height": [3, 0, 10], "a": [8, 0, 0], "b": [0, 5, 0],
+                    "c": [3, 0, 0], "d": [0, 4, 0]},
         "ring": {"type": "tor", "center": [0, 20, 4], "axis": [0, 0.1, 1], "radius": 6, "tube": 2},
         "link": {"type": "pipe", "points": [{"position": [0, -20, 0], "outer": 3, "inner": 1, "bend": 5},
-            {"position": [0, -32, 0], "outer": 3, "inner": 1, "bend": 5}, {"position": [0, -32, 12], "outer": 3, "inner": 1, "bend": 5}]},
+            {"position": [0, -32, 0], "outer": 3, "inner": 1, "bend": 5},
+            {"position": [0, -32, 12], "outer": 3, "inner": 1, "bend": 5}]},
         "dome": {"type": "epa", "base": [20, -20, 0], "height": [0, 1, 9], "a": [8, 0, 0], "r1": 8, "r2": 5},
         "peak": {"type": "ehy", "base": [-20, -20, 0], "height": [1, 0, 9], "a": [0, 8, 0], "r1": 8, "r2": 6, "c": 2},
         "waist": {"type": "hyp", "base": [40, 0, 0], "height": [0, 0, 12], "a": [8, 0, 0], "b": 6, "neck": 0.4},
@@ -78,7 +81,9 @@ TEST_CASE("first hits of a scene larger than a processor's caches agree", "[agre
     constexpr int balls = 140'000;
     Scene parsed = scene_of(scene());
     std::mt19937 random(7);
-    const auto between = [&](double low, double high) { return low + (high - low) * double(random() >> 8) / double(1u << 24); };
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * double(random() >> 8) / double(1u << 24);
+    };
     for (int i = 0; i < balls; ++i) {  // a cloud, dense in its middle
         const double spread = i % 4 == 0 ? 2 : 30;
         const Vec3 at{10 + between(-spread, spread), between(-spread, spread), 22 + between(-spread, spread) / 4};

@@ -83,8 +83,10 @@ TEST_CASE("the native device has the kernels of the default method and says so o
     CHECK_THROWS_WITH(program.kernel("list_tiles"), ContainsSubstring("clCreateKernel (list_tiles)"));
     Kernel scan_sums = program.kernel("scan_sums");
     Buffer sums(device, "sums", 64);
-    CHECK_THROWS_WITH(scan_sums.launch(64, 64, sums, cl_ulong{8}), ContainsSubstring("clSetKernelArg (scan_sums, argument 1)"));
-    CHECK_THROWS_WITH(scan_sums.launch(64, 0x100000, sums, cl_uint{8}), ContainsSubstring("clEnqueueNDRangeKernel (scan_sums"));
+    CHECK_THROWS_WITH(scan_sums.launch(64, 64, sums, cl_ulong{8}),
+                      ContainsSubstring("clSetKernelArg (scan_sums, argument 1)"));
+    CHECK_THROWS_WITH(scan_sums.launch(64, 0x100000, sums, cl_uint{8}),
+                      ContainsSubstring("clEnqueueNDRangeKernel (scan_sums"));
 }
 
 TEST_CASE("the native device draws the same bits with any number of threads", "[device]") {

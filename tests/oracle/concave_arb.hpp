@@ -1,10 +1,10 @@
 // An arb whose faces are flat, but which is not convex: the polyhedron that its faces enclose.
 //
-// A face is the outline through its vertices that differ, in BRL-CAD's order. It is flat if no vertex lies off the plane
-// of its widest triangle by more than the lesser of 0.0005 mm and 1e-6 of the arb's size. A polyhedron is convex if it
-// lies on one side of the plane of each of its faces. Where it is not, a point is inside if any ray from it meets the
-// faces an odd number of times (Jordan's theorem); a point of a face's plane is in the face if any ray in the plane meets
-// the outline an odd number of times.
+// A face is the outline through its vertices that differ, in BRL-CAD's order. It is flat if no vertex lies off the
+// plane of its widest triangle by more than the lesser of 0.0005 mm and 1e-6 of the arb's size. A polyhedron is convex
+// if it lies on one side of the plane of each of its faces. Where it is not, a point is inside if any ray from it meets
+// the faces an odd number of times (Jordan's theorem); a point of a face's plane is in the face if any ray in the plane
+// meets the outline an odd number of times.
 #pragma once
 
 #include <algorithm>

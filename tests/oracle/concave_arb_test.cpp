@@ -41,7 +41,7 @@ Arb some_dart(Random& random) {
     const double u = random.between(0.05, 0.9), v = random.between(0.05, 0.95) * (1 - u);
     const auto somewhere = [&] { return to_vec3(random.in_cube()); };
     const Vec3 a = somewhere(), b = somewhere(), c = somewhere(), h = somewhere();
-    const auto mix = [&](double Vec3::* k) { return a.*k + v * (b.*k - a.*k) + (1 - u - v) * (c.*k - a.*k); };
+    const auto mix = [&](double Vec3::*k) { return a.*k + v * (b.*k - a.*k) + (1 - u - v) * (c.*k - a.*k); };
     const std::array<Vec3, 4> base{a, b, {mix(&Vec3::x), mix(&Vec3::y), mix(&Vec3::z)}, c};
     Arb arb;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -64,8 +64,8 @@ TEST_CASE("oracle: a dart is what its faces enclose, and its half-spaces are rej
         double x, y;
         bool inside;
     };
-    for (const Known& k : {Known{8, 0.5, true}, Known{0.5, 8, true}, Known{2, 2.25, true}, Known{5, 5, false},
-                           Known{3.5, 3.5, false}}) {
+    for (const Known& k :
+         {Known{8, 0.5, true}, Known{0.5, 8, true}, Known{2, 2.25, true}, Known{5, 5, false}, Known{3.5, 3.5, false}}) {
         INFO(k.x << " " << k.y);
         const Ray ray{{k.x, k.y, -10}, {0, 0, 1}};
         CHECK(contains(dart, {k.x, k.y, 2.5}) == k.inside);

@@ -35,10 +35,9 @@ inline Shape part_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(0, r, f);  // no axis
     }
 }
-inline constexpr const char *part_forms[] = {
-    "capsule",      "cone",     "widening",        "to a point",
-    "from a point", "one ball", "nearly one ball", "needle",
-    "two near",     "no axis"};
+inline constexpr const char* part_forms[] = {"capsule",      "cone",     "widening",        "to a point",
+                                             "from a point", "one ball", "nearly one ball", "needle",
+                                             "two near",     "no axis"};
 
 inline Shape epa_form(std::size_t form, const LocalFrame& s, Random& random) {
     const auto of = [&](double h, double r_1, double r_2) {
@@ -60,8 +59,7 @@ inline Shape epa_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(1, 1e-3, 1e-3);  // needle
     }
 }
-inline constexpr const char *epa_forms[] = {"plain", "round", "elliptical",
-                                            "blade", "dish",  "needle"};
+inline constexpr const char* epa_forms[] = {"plain", "round", "elliptical", "blade", "dish", "needle"};
 
 inline Shape rpc_form(std::size_t form, const LocalFrame& s, Random& random) {
     const auto of = [&](double h, double b, double r) {
@@ -81,8 +79,7 @@ inline Shape rpc_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(1e-3, b, r);  // a slice
     }
 }
-inline constexpr const char *rpc_forms[] = {"plain", "random", "blade", "sheet",
-                                            "slice"};
+inline constexpr const char* rpc_forms[] = {"plain", "random", "blade", "sheet", "slice"};
 
 inline Shape rhc_form(std::size_t form, const LocalFrame& s, Random& random) {
     const auto of = [&](double h, double b, double r, double c) {
@@ -104,8 +101,7 @@ inline Shape rhc_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(1e-3, b, r, 0.5);  // a slice
     }
 }
-inline constexpr const char *rhc_forms[] = {
-    "plain", "random", "near wedge", "near parabola", "blade", "slice"};
+inline constexpr const char* rhc_forms[] = {"plain", "random", "near wedge", "near parabola", "blade", "slice"};
 
 inline Shape hyp_form(std::size_t form, const LocalFrame& s, Random& random) {
     const auto of = [&](double h, double a, double b, double neck) {
@@ -129,9 +125,8 @@ inline Shape hyp_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(1, 1e-3, 2e-3, 0.3);  // needle
     }
 }
-inline constexpr const char *hyp_forms[] = {
-    "plain",         "random", "thin neck", "near cones",
-    "near cylinder", "disc",   "needle"};
+inline constexpr const char* hyp_forms[] = {"plain",         "random", "thin neck", "near cones",
+                                            "near cylinder", "disc",   "needle"};
 
 inline Shape eto_form(std::size_t form, const LocalFrame& s, Random& random) {
     // The ellipse's semi-axes in units of the circle's radius, c leaning away
@@ -163,8 +158,7 @@ inline Shape eto_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(2, 0.3, 0.25, stretch);  // high
     }
 }
-inline constexpr const char *eto_forms[] = {
-    "upright", "flat", "leaning", "torus", "ring", "shell", "horn", "high"};
+inline constexpr const char* eto_forms[] = {"upright", "flat", "leaning", "torus", "ring", "shell", "horn", "high"};
 
 inline Shape superell_form(std::size_t form, const LocalFrame& s, Random& random) {
     const double a = random.between(0.5, 2), b = random.between(0.5, 2), c = random.between(0.5, 2);
@@ -199,9 +193,8 @@ inline Shape superell_form(std::size_t form, const LocalFrame& s, Random& random
             return of(2.5, 5);
     }
 }
-inline constexpr const char *superell_forms[] = {
-    "sphere", "cushion",    "near box", "convex",      "octahedron",
-    "star",   "thin poles", "thin rim", "square dome", "spikes"};
+inline constexpr const char* superell_forms[] = {"sphere", "cushion",    "near box", "convex",      "octahedron",
+                                                 "star",   "thin poles", "thin rim", "square dome", "spikes"};
 
 inline Shape hrt_form(std::size_t form, const LocalFrame& s, Random& random) {
     const double a = random.between(0.5, 2), b = random.between(0.5, 2), lean = random.between(-0.5, 0.5);
@@ -219,8 +212,7 @@ inline Shape hrt_form(std::size_t form, const LocalFrame& s, Random& random) {
             return of(1, a, b, lean);
     }
 }
-inline constexpr const char *hrt_forms[] = {"plain", "stretched", "flat",
-                                            "skew"};
+inline constexpr const char* hrt_forms[] = {"plain", "stretched", "flat", "skew"};
 
 inline Shape metaball_form(std::size_t form, const LocalFrame& s, Random& random) {
     using Method = Metaball::Method;
@@ -257,8 +249,7 @@ inline Shape metaball_form(std::size_t form, const LocalFrame& s, Random& random
         }
     }
 }
-inline constexpr const char *metaball_forms[] = {
-    "ball",        "three",       "eight",     "blob",
-    "three blobs", "eight blobs", "metaballs", "touching"};
+inline constexpr const char* metaball_forms[] = {"ball",        "three",       "eight",     "blob",
+                                                 "three blobs", "eight blobs", "metaballs", "touching"};
 
-} // namespace csgrt::oracle::detail
+}  // namespace csgrt::oracle::detail

@@ -27,11 +27,10 @@ struct Verdict {
 
 inline constexpr double normal_precision = 1e-9;
 
-Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& answer,
-              const std::vector<Segment>& segments);
+Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& answer, const std::vector<Segment>& segments);
 
 /// Everything about one ray that failed.
-std::string report(const std::string& what, const Ray& ray, const Answer& answer,
-                   const std::vector<Segment>& segments, const Verdict& verdict);
+std::string report(const std::string& what, const Ray& ray, const Answer& answer, const std::vector<Segment>& segments,
+                   const Verdict& verdict);
 
 }  // namespace csgrt::oracle

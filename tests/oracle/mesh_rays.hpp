@@ -67,8 +67,7 @@ private:
         const double u = random_.between(-0.2, 1.2), b = random_.between(-1, 1), a = random_.between(-1, 1);
         QVec d = direction_or(quad(a) * e + quad(b) * f);
         QVec on = p + quad(u) * e + quad(random_.between(-0.2, 1.2 - u)) * f;
-        if (random_.coin())
-            on = on + quad(random_.signed_power(-12, -3) * surface_.radius) * surface_.normal(i);
+        if (random_.coin()) on = on + quad(random_.signed_power(-12, -3) * surface_.radius) * surface_.normal(i);
         if (random_.below(3) == 0) d = unit(d + random_.offset(-12, -2));
         return at(on, d, random_.between(-1, 5));
     }

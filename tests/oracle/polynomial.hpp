@@ -61,7 +61,8 @@ struct PolynomialOf {
         Polynomial p;
         p.degree = a.degree + b.degree;
         for (std::size_t i = 0; i <= static_cast<std::size_t>(a.degree); ++i)
-            for (std::size_t j = 0; j <= static_cast<std::size_t>(b.degree); ++j) p.c.at(i + j) = p.c.at(i + j) + a.c[i] * b.c[j];
+            for (std::size_t j = 0; j <= static_cast<std::size_t>(b.degree); ++j)
+                p.c.at(i + j) = p.c.at(i + j) + a.c[i] * b.c[j];
         return p;
     }
 };

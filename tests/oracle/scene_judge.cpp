@@ -125,11 +125,13 @@ void SceneJudge::check_piece(const Piece& piece, const RayPartitions& found, std
     const std::size_t sure = certain(piece, rank(owner));
     if (overlap) {
         for (const std::uint32_t r : overlap->regions)
-            if (!claimed(piece, to_oracle_[r]) || rank(to_oracle_[r]) != rank(owner)) wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
+            if (!claimed(piece, to_oracle_[r]) || rank(to_oracle_[r]) != rank(owner))
+                wrong << name(to_oracle_[r]) << " does not overlap at " << t << "; ";
         for (const Piece::Claim& c : piece.claims) {
             bool listed = false;
             for (const std::uint32_t r : overlap->regions) listed = listed || to_oracle_[r] == c.region;
-            if (c.certain && !listed && rank(c.region) == rank(owner)) wrong << name(c.region) << " is missing from the overlap at " << t << "; ";
+            if (c.certain && !listed && rank(c.region) == rank(owner))
+                wrong << name(c.region) << " is missing from the overlap at " << t << "; ";
         }
     } else if (sure > 1) {
         wrong << "no overlap listed at " << t << "; ";

@@ -1,11 +1,11 @@
 // Puts the partitions of a ray before the scene oracle.
 //
 // Everywhere in front of the ray's start: where no region can be, nothing is reported; where one is for certain, one
-// that may be there is, and none that must yield to it: one of a later rank (air to a solid, FASTGEN's to others), or of the same rank and later
-// in the model; where several of that rank are, the overlap is listed with all of them. On rays without a tie partitions
-// begin and end where some solid does; without overlaps, too, each region's are the oracle's spans, end for end.
-// Normals are unit vectors, and at an end that belongs to one solid's surface alone they are that surface's, turned
-// against the ray on the way in and along it on the way out.
+// that may be there is, and none that must yield to it: one of a later rank (air to a solid, FASTGEN's to others), or
+// of the same rank and later in the model; where several of that rank are, the overlap is listed with all of them. On
+// rays without a tie partitions begin and end where some solid does; without overlaps, too, each region's are the
+// oracle's spans, end for end. Normals are unit vectors, and at an end that belongs to one solid's surface alone they
+// are that surface's, turned against the ray on the way in and along it on the way out.
 #pragma once
 
 #include <ostream>
@@ -35,7 +35,8 @@ private:
     std::size_t certain(const Piece& piece, int rank) const;
     /// Do several regions hold it for certain, of whatever rank?
     static bool contested(const Piece& piece);
-    /// Do regions overlap by more than that behind the ray's start? Nobody lists it, but it cuts what reaches across the start.
+    /// Do regions overlap by more than that behind the ray's start? Nobody lists it, but it cuts what reaches across
+    /// the start.
     static bool overlap_behind(const SceneAnswer& answer, double slack);
     static bool claimed(const Piece& piece, std::uint32_t region);
 

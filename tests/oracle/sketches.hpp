@@ -127,8 +127,7 @@ private:
                 sketch_.curves.push_back(Sketch::Arc{a, b, r, left, one == 2 ? !left : random_.coin()});
             } else {
                 Sketch::Bezier bezier{{a}};
-                for (std::size_t k = 1 + random_.below(5); k > 0; --k)
-                    bezier.points.push_back(some_vertex(1.2));
+                for (std::size_t k = 1 + random_.below(5); k > 0; --k) bezier.points.push_back(some_vertex(1.2));
                 bezier.points.push_back(b);
                 sketch_.curves.push_back(bezier);
             }

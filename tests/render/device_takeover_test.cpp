@@ -196,7 +196,8 @@ TEST_CASE("where no device is found the first ones go on, and nothing was wrong"
         DeviceTakeover takeover(model.plan([&] {
             ++searches;
             return std::vector<FoundDevice>{};
-        }), model.set_up(), waits);
+        }),
+                                model.set_up(), waits);
         wait_for_job(takeover);
         for (const bool every : {true, false, true}) CHECK(takeover.drawer(every).name().starts_with("native"));
         CHECK(!takeover.take_fault());

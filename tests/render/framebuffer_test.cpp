@@ -57,7 +57,8 @@ TEST_CASE("a framebuffer holds the last frame alone") {
         require_redrawn(renderer, framebuffer, view_of(renderer, 133, 101, 35, shift, 1));
         CHECK((seen() > 0) == (shift != 5.0));
     }
-    for (const double zoom : {0.2, 3.0, 0.1}) require_redrawn(renderer, framebuffer, view_of(renderer, 133, 101, 80, 0, zoom));
+    for (const double zoom : {0.2, 3.0, 0.1})
+        require_redrawn(renderer, framebuffer, view_of(renderer, 133, 101, 80, 0, zoom));
 
     View view = view_of(renderer, 133, 101, 10, 0, 0.5);
     SECTION("another background") {

@@ -10,7 +10,8 @@ using csgrt::Partition;
 
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
 const csgrt::Vec3 along{2, 0, 0}, against{-1, 0, 0}, out{1, 0, 0}, grazing{0, 1, 0};
 const csgrt::Blur blur{along, 0.5, 1e-3, 100};
 

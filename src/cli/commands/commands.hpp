@@ -83,8 +83,8 @@ Status run(const TextArguments& arguments);
 /// the use of the result.
 Settings with_progress(const Settings& settings, Progress& progress);
 
-/// Prints warnings on standard error, one a line; of more than FindingList::most the first and the number of the others.
-/// `pictures`: also warnings about the appearance of pictures.
+/// Prints warnings on standard error, one a line; of more than FindingList::most the first and the number of the
+/// others. `pictures`: also warnings about the appearance of pictures.
 void report(std::vector<Warning> warnings, bool pictures = true);
 
 /// Loads a scene. Throws Error (interrupted) after an interrupt.

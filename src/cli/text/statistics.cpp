@@ -15,12 +15,18 @@ using Times = decltype(Statistics::ms);
 
 /// The times in the order in which they are printed.
 constexpr std::pair<const char*, double Times::*> times[] = {
-    {"load", &Times::load},   {"compile", &Times::compile},
-    {"build", &Times::build}, {"count_hits", &Times::count_hits},
-    {"scan", &Times::scan},   {"store_segments", &Times::store_segments},
-    {"weave", &Times::weave}, {"evaluate", &Times::evaluate},
-    {"shade", &Times::shade}, {"cull_tiles", &Times::cull_tiles},
-    {"first_hits", &Times::first_hits}, {"frame", &Times::frame},
+    {"load", &Times::load},
+    {"compile", &Times::compile},
+    {"build", &Times::build},
+    {"count_hits", &Times::count_hits},
+    {"scan", &Times::scan},
+    {"store_segments", &Times::store_segments},
+    {"weave", &Times::weave},
+    {"evaluate", &Times::evaluate},
+    {"shade", &Times::shade},
+    {"cull_tiles", &Times::cull_tiles},
+    {"first_hits", &Times::first_hits},
+    {"frame", &Times::frame},
     {"write", &Times::write},
 };
 

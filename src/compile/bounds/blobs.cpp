@@ -15,39 +15,36 @@ namespace {
 /// Points of a quarter of the heart's surface, x and y not negative, around its
 /// centre: it is the surface t(direction), because (a t^2 - 1) / t^(5/3) grows
 /// with t. Close enough that none lies more than `sparse` outside their hull.
-const std::vector<Wide> &heart_points() {
-  constexpr long double pi = 3.14159265358979323846L;
-  constexpr int around = 64, upward = 256;
-  static const std::vector<Wide> points = [] {
-    std::vector<Wide> all;
-    for (int i = 0; i <= around; ++i)
-      for (int k = 0; k <= upward; ++k) {
-        const long double phi = 0.5L * pi * i / around,
-                          height = pi * (1.0L * k / upward - 0.5L);
-        const Wide d(std::cos(height) * std::cos(phi),
-                     std::cos(height) * std::sin(phi), std::sin(height));
-        const long double a = d.x * d.x + 2.25L * d.y * d.y + d.z * d.z,
-                          b = d.z * std::cbrt(d.x * d.x + 0.1125L * d.y * d.y);
-        long double low = 0, high = 2;
-        for (int step = 0; step < 50; ++step) {
-          const long double t = 0.5L * (low + high);
-          (a * t * t - 1 < b * std::cbrt(t) * std::cbrt(t) * t ? low : high) =
-              t;
-        }
-        all.push_back(high * d);
-      }
-    return all;
-  }();
-  return points;
+const std::vector<Wide>& heart_points() {
+    constexpr long double pi = 3.14159265358979323846L;
+    constexpr int around = 64, upward = 256;
+    static const std::vector<Wide> points = [] {
+        std::vector<Wide> all;
+        for (int i = 0; i <= around; ++i)
+            for (int k = 0; k <= upward; ++k) {
+                const long double phi = 0.5L * pi * i / around, height = pi * (1.0L * k / upward - 0.5L);
+                const Wide d(std::cos(height) * std::cos(phi), std::cos(height) * std::sin(phi), std::sin(height));
+                const long double a = d.x * d.x + 2.25L * d.y * d.y + d.z * d.z,
+                                  b = d.z * std::cbrt(d.x * d.x + 0.1125L * d.y * d.y);
+                long double low = 0, high = 2;
+                for (int step = 0; step < 50; ++step) {
+                    const long double t = 0.5L * (low + high);
+                    (a * t * t - 1 < b * std::cbrt(t) * std::cbrt(t) * t ? low : high) = t;
+                }
+                all.push_back(high * d);
+            }
+        return all;
+    }();
+    return points;
 }
 constexpr long double sparse = 5e-4L;
 
 /// A cube within -1 to 1 and how far it reaches in the direction that is asked
 /// for.
 struct Cube {
-  Wide center;
-  long double half, reach;
-  bool operator<(const Cube &other) const { return reach < other.reach; }
+    Wide center;
+    long double half, reach;
+    bool operator<(const Cube& other) const { return reach < other.reach; }
 };
 
 /// How far the fields reach in direction n: cubes in which they may add up to
@@ -55,70 +52,62 @@ struct Cube {
 /// small.
 class FieldSupport {
 public:
-  explicit FieldSupport(const Metaball &s) : s_(s), frame_(frame_of(s)) {
-    for (const Metaball::Point &p : s.points)
-      points_.push_back((wide(p.position) - frame_.center) / frame_.reach);
-  }
-
-  long double operator()(long double x, long double y, long double z) const {
-    const Wide n(x, y, z);
-    const long double width = std::fabs(x) + std::fabs(y) + std::fabs(z);
-    constexpr long double smallest = 1.0L / 4096;
-    std::size_t budget = 20'000'000 / (points_.size() + 10);
-    std::priority_queue<Cube> cubes;
-    cubes.push({Wide(0), 1, width});
-    while (!cubes.empty()) {
-      const Cube cube = cubes.top();
-      if (cube.half < smallest || budget < 8)
-        return cube.reach;
-      cubes.pop();
-      for (int corner = 0; corner < 8; ++corner, --budget) {
-        const long double half = 0.5L * cube.half;
-        const Wide at =
-            cube.center + half * Wide(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
-                                      corner & 4 ? 1 : -1);
-        if (may_hold(at, half))
-          cubes.push({at, half, glm::dot(n, at) + half * width});
-      }
+    explicit FieldSupport(const Metaball& s) : s_(s), frame_(frame_of(s)) {
+        for (const Metaball::Point& p : s.points) points_.push_back((wide(p.position) - frame_.center) / frame_.reach);
     }
-    return 0; // nowhere
-  }
+
+    long double operator()(long double x, long double y, long double z) const {
+        const Wide n(x, y, z);
+        const long double width = std::fabs(x) + std::fabs(y) + std::fabs(z);
+        constexpr long double smallest = 1.0L / 4096;
+        std::size_t budget = 20'000'000 / (points_.size() + 10);
+        std::priority_queue<Cube> cubes;
+        cubes.push({Wide(0), 1, width});
+        while (!cubes.empty()) {
+            const Cube cube = cubes.top();
+            if (cube.half < smallest || budget < 8) return cube.reach;
+            cubes.pop();
+            for (int corner = 0; corner < 8; ++corner, --budget) {
+                const long double half = 0.5L * cube.half;
+                const Wide at =
+                    cube.center + half * Wide(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+                if (may_hold(at, half)) cubes.push({at, half, glm::dot(n, at) + half * width});
+            }
+        }
+        return 0;  // nowhere
+    }
 
 private:
-  bool may_hold(const Wide &at, long double half) const {
-    long double sum = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Wide away =
-          glm::max(glm::abs(at - points_[i]) - Wide(half), Wide(0));
-      sum += field(s_, s_.points[i],
-                   glm::dot(away, away) * frame_.reach * frame_.reach);
-      if (sum >= s_.threshold)
-        return true;
+    bool may_hold(const Wide& at, long double half) const {
+        long double sum = 0;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const Wide away = glm::max(glm::abs(at - points_[i]) - Wide(half), Wide(0));
+            sum += field(s_, s_.points[i], glm::dot(away, away) * frame_.reach * frame_.reach);
+            if (sum >= s_.threshold) return true;
+        }
+        return false;
     }
-    return false;
-  }
 
-  const Metaball &s_;
-  MetaballFrame frame_;
-  std::vector<Wide> points_;
+    const Metaball& s_;
+    MetaballFrame frame_;
+    std::vector<Wide> points_;
 };
 
-} // namespace
+}  // namespace
 
-Box Tight::operator()(const Hrt &s) const {
-  return support_box(m, wide(s.v), {wide(s.x), wide(s.y), wide(s.z)},
-                     [](long double x, long double y, long double z) {
-                       const Wide n(std::fabs(x), std::fabs(y), z);
-                       long double most = 0;
-                       for (const Wide &p : heart_points())
-                         most = std::max(most, glm::dot(n, p));
-                       return most + sparse * glm::length(n);
-                     });
+Box Tight::operator()(const Hrt& s) const {
+    return support_box(m, wide(s.v), {wide(s.x), wide(s.y), wide(s.z)},
+                       [](long double x, long double y, long double z) {
+                           const Wide n(std::fabs(x), std::fabs(y), z);
+                           long double most = 0;
+                           for (const Wide& p : heart_points()) most = std::max(most, glm::dot(n, p));
+                           return most + sparse * glm::length(n);
+                       });
 }
 
-Box Tight::operator()(const Metaball &s) const {
-  const MetaballFrame frame = frame_of(s);
-  return support_box(m, frame.center, WideMatrix(frame.reach), FieldSupport(s));
+Box Tight::operator()(const Metaball& s) const {
+    const MetaballFrame frame = frame_of(s);
+    return support_box(m, frame.center, WideMatrix(frame.reach), FieldSupport(s));
 }
 
-} // namespace csgrt
+}  // namespace csgrt

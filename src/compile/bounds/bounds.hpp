@@ -13,8 +13,8 @@ namespace csgrt {
 struct SolidBoxes {
     /// Around everything that a ray can hit of the solid: tight, and rounded outward. Infinite if it is not bounded.
     Box tight;
-    /// The box that BRL-CAD gives the solid, which is wider for some (cones, hyperboloids), and not rounded. The boxes of
-    /// regions and with them its view of a model come from these.
+    /// The box that BRL-CAD gives the solid, which is wider for some (cones, hyperboloids), and not rounded. The boxes
+    /// of regions and with them its view of a model come from these.
     Box brlcad;
 };
 /// `cuts` (a torus only; see Piece) leave what is inside them. `faces`: an arb's, if they are known.

@@ -22,7 +22,8 @@ std::string extent_fault(const Shape& shape, const Matrix& matrix, const Box& bo
         if (distance <= most) return {};
         return "lies " + rounded_text(distance) + " mm from the origin where it stands; " + length_limit();
     }
-    const bool is_open = std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);  // unless its faces close
+    const bool is_open =
+        std::holds_alternative<Arb>(shape) || std::holds_alternative<Arbn>(shape);  // unless its faces close
     const double far = std::max(largest(box.low), largest(box.high));
     if (!(far <= most) && !(is_open && std::isinf(far)))
         return "reaches to " + rounded_text(far) + " mm from the origin where it stands; " + length_limit();
@@ -40,8 +41,8 @@ std::vector<ExtentFault> extent_faults(const Scene& scene, const FlatScene& flat
     for (std::size_t i = 0; i < flat.instances.size(); ++i) {
         const Instance& instance = flat.instances[i];
         const Box& box = measured.boxes[i];
-        const bool plain = largest(box.low) <= most && largest(box.high) <= most &&
-                           box.high.x - box.low.x >= Limits::least_length;
+        const bool plain =
+            largest(box.low) <= most && largest(box.high) <= most && box.high.x - box.low.x >= Limits::least_length;
         if (plain) continue;
         std::string fault = extent_fault(shape_of(scene, flat, instance), *instance.matrix, box);
         if (!fault.empty()) faults.push_back({instance.object, std::move(fault)});

@@ -1,4 +1,5 @@
-// Where the placed solids of a scene reach: not so far, and none so small, that what is computed of them loses its meaning.
+// Where the placed solids of a scene reach: not so far, and none so small, that what is computed of them loses its
+// meaning.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Top down, each range of boxes cut in two (bvh_split.hpp). Ranges of many boxes go to a common queue, the others are done in
-// one piece; which of the two a range is depends on its size alone, so the result does not depend on the number of threads.
+// Top down, each range of boxes cut in two (bvh_split.hpp). Ranges of many boxes go to a common queue, the others are
+// done in one piece; which of the two a range is depends on its size alone, so the result does not depend on the number
+// of threads.
 #include "compile/bvh/build.hpp"
 
 #include <algorithm>
@@ -102,8 +103,8 @@ kernel::BvhNode Builder::node(const Range& range) const {
     return result;
 }
 
-/// Depth-first order: a node comes before its children, the left one right after it. `right`: memory for where the right child
-/// of each node is; none: a leaf.
+/// Depth-first order: a node comes before its children, the left one right after it. `right`: memory for where the
+/// right child of each node is; none: a leaf.
 void Builder::in_one_piece(Task& task, std::vector<std::uint32_t>& right) {
     struct Open {
         Range range;

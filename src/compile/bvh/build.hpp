@@ -15,20 +15,22 @@ struct Hierarchy {
     std::vector<std::uint32_t> order;    ///< boxes in the order of the leaves
 };
 
-/// Boxes are widened by this much of the radius, all around. The slab test of kernels/traversal/candidates.h takes the ray's origin
-/// within one radius of the centre, and with all its roundings to float displaces a side by less than half of this.
+/// Boxes are widened by this much of the radius, all around. The slab test of kernels/shared/slab.h takes the
+/// ray's origin within one radius of the centre, and with all its roundings to float displaces a side by less than half
+/// of this.
 inline constexpr double bvh_padding = 1.0 / (1 << 20);
 
-/// Builds the hierarchy by the binned surface area heuristic, with 1 to 4 boxes a leaf. `box_of(i)`, for i < count < 2^28,
-/// may be called by several threads at once. `center` and `radius` are of a sphere around all boxes. The box that comes
-/// i-th in the order gets the number first_solid + i. `threads` (0: as many as there are processors) changes nothing but
-/// the time.
+/// Builds the hierarchy by the binned surface area heuristic, with 1 to 4 boxes a leaf. `box_of(i)`, for i < count <
+/// 2^28, may be called by several threads at once. `center` and `radius` are of a sphere around all boxes. The box that
+/// comes i-th in the order gets the number first_solid + i. `threads` (0: as many as there are processors) changes
+/// nothing but the time.
 Hierarchy build_bvh(std::size_t count, const std::function<Box(std::size_t)>& box_of, const Vec3& center, double radius,
                     std::uint32_t first_solid, unsigned threads = 0);
 
 inline Hierarchy build_bvh(const std::vector<Box>& boxes, const Vec3& center, double radius, std::uint32_t first_solid,
                            unsigned threads = 0) {
-    return build_bvh(boxes.size(), [&](std::size_t i) { return boxes[i]; }, center, radius, first_solid, threads);
+    return build_bvh(
+        boxes.size(), [&](std::size_t i) { return boxes[i]; }, center, radius, first_solid, threads);
 }
 
 }  // namespace csgrt

@@ -1,5 +1,5 @@
-// How a range of boxes is cut in two: by the surface area heuristic, among the borders of bins; a few boxes are put in order
-// and cut anywhere. Boxes are moved, not pointed at, so that all passes are in sequence.
+// How a range of boxes is cut in two: by the surface area heuristic, among the borders of bins; a few boxes are put in
+// order and cut anywhere. Boxes are moved, not pointed at, so that all passes are in sequence.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ struct FloatBox {
 };
 
 inline constexpr float largest = std::numeric_limits<float>::max();
-inline constexpr FloatBox nothing{{{largest, largest, largest, largest}}, {{-largest, -largest, -largest, -largest}}};  // of no box
+inline constexpr FloatBox nothing{{{largest, largest, largest, largest}},
+                                  {{-largest, -largest, -largest, -largest}}};  // of no box
 
 inline void unite(FloatBox& to, const FloatBox& box) {
     for (int i = 0; i < 4; ++i) to.low.v[i] = box.low.v[i] < to.low.v[i] ? box.low.v[i] : to.low.v[i];

@@ -103,7 +103,9 @@ struct TermsPart {
 
 /// Asks for what the terms after number `i` will read first, most of the time.
 void prefetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, std::size_t i) {
-    const auto object_at = [&](std::size_t term) { return terms[term].forest->leftmost_start(terms[term].node).object; };
+    const auto object_at = [&](std::size_t term) {
+        return terms[term].forest->leftmost_start(terms[term].node).object;
+    };
     if (i + 2 < terms.size()) prefetch_whole(scene.objects[object_at(i + 2)]);
     if (i + 1 == terms.size() || index.kind(object_at(i + 1)) >= Names::Kind::solid) return;
     const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[object_at(i + 1)]).tree.nodes;
@@ -123,7 +125,8 @@ TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<c
         TermsPart::Written& written = part.regions.emplace_back();
         FlatRegion& region = written.region;
         written.kind = flattener.write(*forest, term, region.tree);
-        region.info = describe_region(std::get_if<Combination>(&origin), forest->attributes_of(start), scene.region_colors);
+        region.info =
+            describe_region(std::get_if<Combination>(&origin), forest->attributes_of(start), scene.region_colors);
         region.info.path = forest->path(start.path);
         written.contains_space = written.kind == Flattener::Kind::everything ||
                                  (written.kind == Flattener::Kind::tree && contains_empty_space(region.tree));
@@ -226,7 +229,8 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     }
 
     // Their trees.
-    reserve_cleared(result.instances, std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
+    reserve_cleared(result.instances,
+                    std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
     result.regions.reserve(terms.size());
     Joiner joiner(scene, terms, result);
     constexpr std::size_t part_size = 512;
@@ -249,7 +253,8 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     };
     const auto contains_space = [&](const char* what, const std::string& name, const Place& place) {
         if (scene.lenient)
-            return warn(name, place, std::string("left out: the ") + what + " contains the empty space where no solid is");
+            return warn(name, place,
+                        std::string("left out: the ") + what + " contains the empty space where no solid is");
         findings.add({place,
                       std::string(what) + " " + name + " contains the empty space where no solid is",
                       "intersect the complement with something that bounds it",
@@ -277,14 +282,16 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     }
     if (!findings.empty()) throw Error(Status::scene, findings.take());
     if (const std::vector<std::string> fastgen = fastgen_regions(result); !fastgen.empty())
-        warn({}, {}, counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
-                         ": plain regions are before plates, plates before volumes, then the first in the model; "
-                         "FASTGEN's rules of thickness along the ray are not followed");
+        warn({}, {},
+             counted(fastgen.size(), "FASTGEN region", "FASTGEN regions") + ", " + some(fastgen) +
+                 ": plain regions are before plates, plates before volumes, then the first in the model; "
+                 "FASTGEN's rules of thickness along the ray are not followed");
     if (!air_regions.empty())
         warn({}, {}, counted(air_regions.size(), "air region", "air regions") + " left out: " + some(air_regions));
     if (!empty_regions.empty())
-        warn({}, {}, counted(empty_regions.size(), "region without solids", "regions without solids") +
-                         " left out: " + some(empty_regions));
+        warn({}, {},
+             counted(empty_regions.size(), "region without solids", "regions without solids") +
+                 " left out: " + some(empty_regions));
     return result;
 }
 

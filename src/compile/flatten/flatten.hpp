@@ -20,8 +20,8 @@ struct Instance {
 };
 
 struct FlatRegion {
-    RegionInfo info;  ///< all but the bounds
-    FlatTree tree;    ///< leaves are instances
+    RegionInfo info;        ///< all but the bounds
+    FlatTree tree;          ///< leaves are instances
     double brightness = 0;  ///< of one that shines; see add_region_lights
 };
 
@@ -38,8 +38,8 @@ const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance&
 const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance);
 
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
-/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient scene such a
-/// region is left out.
+/// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient
+/// scene such a region is left out.
 FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air);
 
 inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {

@@ -1,5 +1,5 @@
-// Solids that are made of others: a pipe is tubes and bends, a cline a cylinder with or without a bore; and an arb that is
-// not convex, the surface of its faces.
+// Solids that are made of others: a pipe is tubes and bends, a cline a cylinder with or without a bore; and an arb that
+// is not convex, the surface of its faces.
 #pragma once
 
 #include <cstdint>

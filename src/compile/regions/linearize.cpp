@@ -5,8 +5,8 @@
 // where p and n are lists of finished binary nodes, and perhaps the complement of that. Unions, intersections and
 // differences all come from "all of p, none of n" by de Morgan's laws, so chains of one kind become one list,
 // complements move upward until they vanish, and x - (y - z) or x + !y take no special care. A list is finished as a
-// balanced tree, whatever chain the model has, so that the walk's way to any leaf is short. Lists are linked: joining two
-// takes no time, however long a chain of the model is.
+// balanced tree, whatever chain the model has, so that the walk's way to any leaf is short. Lists are linked: joining
+// two takes no time, however long a chain of the model is.
 
 #include "compile/regions/linearize.hpp"
 
@@ -20,8 +20,7 @@ namespace csgrt {
 
 void check_tree_words(std::uint64_t count) {
     if (count > std::uint64_t{TREE_MASK} + 1)
-        throw Error(Status::scene,
-                    "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
+        throw Error(Status::scene, "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
 }
 
 bool contains_empty_space(const FlatTree& tree) {
@@ -134,8 +133,8 @@ std::uint32_t Linearizer::add_difference(std::uint32_t from, std::uint32_t what)
     return add_node(OP_REVERSE_DIFFERENCE, what, from);
 }
 
-/// All members under one operator. Those with the least stacks are joined first, so that the way to each member is short
-/// and, because two equal stacks make one of one more, no tree of n leaves needs more than log2(n) entries.
+/// All members under one operator. Those with the least stacks are joined first, so that the way to each member is
+/// short and, because two equal stacks make one of one more, no tree of n leaves needs more than log2(n) entries.
 std::uint32_t Linearizer::join(std::uint32_t op, const List& list) {
     using Member = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // stack, when it came, node
     std::priority_queue<Member, std::vector<Member>, std::greater<>> members;

@@ -29,11 +29,17 @@ struct RegionChunk {
 kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, double ambient) {
     const Finish& f = info.finish;
     const auto to_float = [](double x) { return static_cast<float>(x); };
-    kernel::MaterialRecord m{to_float(info.color.x), to_float(info.color.y),  to_float(info.color.z),
-                             to_float(f.specular),   to_float(f.diffuse),     to_float(f.ambient),
-                             static_cast<std::uint32_t>(std::max(f.shine, 0)), 0};
+    kernel::MaterialRecord m{to_float(info.color.x),
+                             to_float(info.color.y),
+                             to_float(info.color.z),
+                             to_float(f.specular),
+                             to_float(f.diffuse),
+                             to_float(f.ambient),
+                             static_cast<std::uint32_t>(std::max(f.shine, 0)),
+                             0};
     if (!f.light) return m;
-    // A body that shines has half of its colour everywhere, and the other half where it faces the eye, by which it looks round.
+    // A body that shines has half of its colour everywhere, and the other half where it faces the eye, by which it
+    // looks round.
     m.specular = m.diffuse = 0;
     m.ambient = ambient > 0 ? to_float(0.5 * brightness / ambient) : 0;
     m.glow = to_float((ambient > 0 ? 0.5 : 1) * brightness);
@@ -95,10 +101,9 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         const RegionChunk& chunk = chunks[c];
         for (std::size_t i = first; i < last; ++i) compiled.regions[i].first_word += chunk.first_word;
-        std::transform(chunk.words.begin(), chunk.words.end(), compiled.trees.begin() + chunk.first_word,
-                       [&](std::uint32_t word) {
-                           return word >> TREE_SHIFT == OP_LEAF ? word : word + chunk.first_word;
-                       });
+        std::transform(
+            chunk.words.begin(), chunk.words.end(), compiled.trees.begin() + chunk.first_word,
+            [&](std::uint32_t word) { return word >> TREE_SHIFT == OP_LEAF ? word : word + chunk.first_word; });
     });
 }
 

@@ -113,7 +113,8 @@ Attributes RegionForest::attributes_of(const RegionStart& start) const {
     Attributes attributes;
     if (start.above != none) attributes = above_[start.above].attributes;
     if (inside_ != nothing) return attributes;  // below a region nothing sets them
-    if (const auto* combination = std::get_if<Combination>(&scene_.objects[start.object])) attributes.apply(*combination);
+    if (const auto* combination = std::get_if<Combination>(&scene_.objects[start.object]))
+        attributes.apply(*combination);
     return attributes;
 }
 

@@ -78,10 +78,11 @@ public:
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
     const RegionStart& leftmost_start(std::uint32_t node) const;
-    /// The object whose id, air code and the like a region has: where it starts, or the region that the path to the named
-    /// object leads through.
+    /// The object whose id, air code and the like a region has: where it starts, or the region that the path to the
+    /// named object leads through.
     std::uint32_t origin_of(const RegionStart& start) const { return inside_ == nothing ? start.object : inside_; }
-    /// Where it stands, and what it and all above have set. Left to those who need them, since the walk is one thread's.
+    /// Where it stands, and what it and all above have set. Left to those who need them, since the walk is one
+    /// thread's.
     Matrix matrix_of(const RegionStart& start) const;
     Attributes attributes_of(const RegionStart& start) const;
     /// "/top/.../name"

@@ -121,12 +121,13 @@ struct TermChunk {
     std::vector<std::uint32_t> starts;  ///< the solids that start each of them, each once
     std::vector<Alone> alone;           ///< what the term is where that solid alone covers
     std::vector<std::uint32_t> ends;    ///< one a term, among these
-    std::vector<std::pair<std::uint32_t, bool>> leaves;  ///< of one term: solid, and whether the term is true where it alone covers
-    std::vector<bool> is_true;                           ///< so far, of each of its words
+    std::vector<std::pair<std::uint32_t, bool>>
+        leaves;                 ///< of one term: solid, and whether the term is true where it alone covers
+    std::vector<bool> is_true;  ///< so far, of each of its words
 };
 
-/// Whether the term holds where each of its starts, from `first` on, alone covers: then one of an operator's two operands is empty.
-/// The linearizer leaves no complements.
+/// Whether the term holds where each of its starts, from `first` on, alone covers: then one of an operator's two
+/// operands is empty. The linearizer leaves no complements.
 void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::size_t first, TermChunk& chunk) {
     auto& leaves = chunk.leaves;
     auto& is_true = chunk.is_true;
@@ -190,7 +191,9 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
                 right.needed = kernel::with(left.needed, needed);
             } else if (op != OP_REVERSE_DIFFERENCE) {
                 next[right.last - term.first] = left.first;
-                right = {right.first, left.last, left.leaves + right.leaves,
+                right = {right.first,
+                         left.last,
+                         left.leaves + right.leaves,
                          {left.needed.even & needed.even, left.needed.odd & needed.odd}};
             }
         }
@@ -220,8 +223,8 @@ void claim_alone(const CompiledScene& compiled, kernel::SolidRecord& solid, Alon
 }
 
 /// Gives each solid as much of a table as it counts, and counts anew. Returns how large the table is.
-std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::* first,
-                      std::uint32_t kernel::SolidRecord::* count) {
+std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t kernel::SolidRecord::*first,
+                      std::uint32_t kernel::SolidRecord::*count) {
     std::uint32_t total = 0;
     for (kernel::SolidRecord& solid : solids) {
         solid.*first = total;
@@ -244,7 +247,8 @@ void list_leaves(const std::vector<Term>& terms, CompiledScene& compiled) {
     const std::size_t first = compiled.trees.size();
     std::vector<std::uint32_t> leaves(
         lay_out(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count));
-    for_each([&](kernel::SolidRecord& solid, std::uint32_t node) { leaves[solid.first_leaf + solid.leaf_count++] = node; });
+    for_each(
+        [&](kernel::SolidRecord& solid, std::uint32_t node) { leaves[solid.first_leaf + solid.leaf_count++] = node; });
     for (kernel::SolidRecord& solid : compiled.solids) solid.first_leaf += static_cast<std::uint32_t>(first);
     compiled.trees.insert(compiled.trees.end(), leaves.begin(), leaves.end());
 }

@@ -10,7 +10,8 @@ namespace csgrt {
 /// where a term may begin (`begins`), and what claims where a solid alone covers (`alone`).
 void list_terms(CompiledScene& compiled);
 
-/// Appends the table of roles of the term in the words from `first` to `end`. Returns where it begins; NONE: there is no room.
+/// Appends the table of roles of the term in the words from `first` to `end`. Returns where it begins; NONE: there is
+/// no room.
 std::uint32_t write_roles(std::vector<std::uint32_t>& trees, std::uint32_t first, std::uint32_t end);
 
 /// Notes at the solids of that term where it may begin to be true: as the ray enters them, leaves them, or both.

@@ -22,8 +22,9 @@ inline AxisFrame axis_frame(const Revolve& s) {
     return {x, glm::cross(z, x), z};
 }
 
-/// How far it is turned. The half planes where the turn begins and ends are one if the angle between them is no more than the limit
-/// of planes that are: then a turn is whole, without a seam, or there is nothing of it; and the two of half a turn are one plane.
+/// How far it is turned. The half planes where the turn begins and ends are one if the angle between them is no more
+/// than the limit of planes that are: then a turn is whole, without a seam, or there is nothing of it; and the two of
+/// half a turn are one plane.
 enum class Turn { none, less, half, more, whole };
 
 inline Turn turn_of(const Revolve& s) {

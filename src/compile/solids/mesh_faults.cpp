@@ -176,9 +176,10 @@ private:
     const Bot& bot_;
     std::vector<std::uint32_t> point_;  ///< of each vertex
     double reach_ = 0, size_ = 0;
-    std::vector<Corners> faces_;        ///< points
-    std::vector<std::uint32_t> from_;   ///< as MendedMesh has it
-    /// Of each face, while they are chosen: how often it is given, and how often wound the other way; may it be left out?
+    std::vector<Corners> faces_;       ///< points
+    std::vector<std::uint32_t> from_;  ///< as MendedMesh has it
+    /// Of each face, while they are chosen: how often it is given, and how often wound the other way; may it be left
+    /// out?
     std::vector<std::uint32_t> copies_, turned_copies_;
     std::vector<bool> optional_;
     bool any_optional_ = false;
@@ -240,8 +241,8 @@ void Mender::take_faces() {
     }
 }
 
-/// Which of the faces that may be left out count, so that edges have an even number of faces: an edge at which only one is
-/// not decided yet decides it. An edge that has but one face in all asks for nothing.
+/// Which of the faces that may be left out count, so that edges have an even number of faces: an edge at which only one
+/// is not decided yet decides it. An edge that has but one face in all asks for nothing.
 void Mender::choose(Copies rule) {
     if (!any_optional_) return;
     const Edges edges(faces_);
@@ -319,7 +320,8 @@ std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edge
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
 
     // Cells so small that a surface has about one end in each; and no smaller than what is looked for.
-    const double side = std::max(size_ / std::clamp(std::sqrt(static_cast<double>(ends.size())), 1.0, 1024.0), 2 * near);
+    const double side =
+        std::max(size_ / std::clamp(std::sqrt(static_cast<double>(ends.size())), 1.0, 1024.0), 2 * near);
     const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / side)); };
     std::vector<std::pair<std::uint64_t, std::uint32_t>> cells;
     for (const std::uint32_t p : ends) cells.emplace_back(cell_hash({cell(v[p].x), cell(v[p].y), cell(v[p].z)}), p);
@@ -384,7 +386,8 @@ void cut(Corners face, Cuts on, std::vector<Corners>& parts) {
         std::rotate(on.begin(), on.begin() + 1, on.end());
     }
     // A fan from the third corner to the first edge; its outer two triangles take the other edges' points.
-    const auto fan = [&parts](std::uint32_t tip, std::uint32_t from, const std::vector<std::uint32_t>& by, std::uint32_t to) {
+    const auto fan = [&parts](std::uint32_t tip, std::uint32_t from, const std::vector<std::uint32_t>& by,
+                              std::uint32_t to) {
         for (const std::uint32_t p : by) parts.push_back({tip, std::exchange(from, p), p});
         parts.push_back({tip, from, to});
     };
@@ -537,10 +540,13 @@ MendedMesh Mender::surface(const Edges& edges) {
 
     std::vector<std::string> notes = common_notes();
     if (counts_.split > 0)
-        notes.push_back(counted(counts_.split, "face is", "faces are") + " cut at vertices in the middle of their edges");
+        notes.push_back(counted(counts_.split, "face is", "faces are") +
+                        " cut at vertices in the middle of their edges");
     if (against > 0)
         notes.push_back(counted(against, "face winds", "faces wind") + " against the others" +
-                        (is_closed ? "; what is inside is told by parity" : is_oriented ? against == 1 ? " and counts turned over" : " and count turned over" : ""));
+                        (is_closed     ? "; what is inside is told by parity"
+                         : is_oriented ? against == 1 ? " and counts turned over" : " and count turned over"
+                                       : ""));
     const bool lies = is_closed && is_oriented && edges.winds_one_way && !faces_.empty() &&
                       winds_outward() != (bot_.orientation == Bot::Orientation::counterclockwise);
     if (lies)
@@ -548,8 +554,9 @@ MendedMesh Mender::surface(const Edges& edges) {
                         (has_gaps_ ? "with the vertices in the middle of edges, it is taken at its word"
                                    : "what is inside is told by parity"));
     if (!is_closed)
-        notes.push_back(counted(edges.open, "edge is", "edges are") + " open; where a ray comes through a gap, " +
-                        (is_oriented ? "a way in and the next way out are a pair" : "crossings are paired from the first on"));
+        notes.push_back(
+            counted(edges.open, "edge is", "edges are") + " open; where a ray comes through a gap, " +
+            (is_oriented ? "a way in and the next way out are a pair" : "crossings are paired from the first on"));
     if (edges.crowded > 0)
         notes.push_back(counted(edges.crowded, "edge has", "edges have") +
                         " more than two faces; what is inside is told by parity");
@@ -561,7 +568,8 @@ MendedMesh Mender::surface(const Edges& edges) {
 
 MendedMesh Mender::plates() {
     FaceNumbers number_of;
-    std::vector<std::uint32_t> last, before;  // kept faces: of each number the last one, and of each of them the one before it
+    std::vector<std::uint32_t> last,
+        before;  // kept faces: of each number the last one, and of each of them the one before it
     const auto same_plate = [&](std::uint32_t a, std::uint32_t b) {
         if (bot_.mode == Bot::Mode::surface) return true;
         return bot_.thickness[a] == bot_.thickness[b] && (bot_.append.empty() || bot_.append[a] == bot_.append[b]);
@@ -591,12 +599,15 @@ MendedMesh Mender::plates() {
 std::vector<std::string> Mender::common_notes() const {
     std::vector<std::string> notes;
     if (counts_.repeated > 0)
-        notes.push_back(counted(counts_.repeated, "face that was given before does", "faces that were given before do") +
-                        " not count again");
+        notes.push_back(
+            counted(counts_.repeated, "face that was given before does", "faces that were given before do") +
+            " not count again");
     if (counts_.walls > 0)
-        notes.push_back(counted(counts_.walls, "face", "faces") + " between parts of it count for nothing: they are inside");
+        notes.push_back(counted(counts_.walls, "face", "faces") +
+                        " between parts of it count for nothing: they are inside");
     if (counts_.flat > 0)
-        notes.push_back(counted(counts_.flat, "face has no area and counts", "faces have no area and count") + " for nothing");
+        notes.push_back(counted(counts_.flat, "face has no area and counts", "faces have no area and count") +
+                        " for nothing");
     return notes;
 }
 

@@ -24,8 +24,8 @@ using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
                 CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared);
 
-/// pack_solid for each instance of `order`; `common` stands for the box of those that are not bounded. The arithmetic is
-/// done by several threads.
+/// pack_solid for each instance of `order`; `common` stands for the box of those that are not bounded. The arithmetic
+/// is done by several threads.
 void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
                  const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled);
 

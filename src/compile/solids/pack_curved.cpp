@@ -76,19 +76,22 @@ void Packer::operator()(const Eto& s) {
     const long double reach = std::hypot(out * f.long_axis, up * f.short_axis);
     real(1 + reach);
     // An ellipse that touches the axis may pass it by rounding.
-    if (reach > 1 + 1e-15L) crossed(out * out * u + up * up * w, out * up * (u - w), up * up * u + out * out * w, u * w, reach);
+    if (reach > 1 + 1e-15L)
+        crossed(out * out * u + up * up * w, out * up * (u - w), up * up * u + out * out * w, u * w, reach);
 }
 
 /// The pivots of an eto whose ellipse reaches across the axis (crossed_eto.h). With F = 0 at rho = 0,
-/// z = (beta +- s) / gamma, s^2 = beta^2 - gamma (alpha - 1) = determinant (reach^2 - 1); and F(rho) = F(-rho) = 0 off the axis where
-/// z = alpha / beta and alpha rho^2 = 1 - alpha determinant / beta^2.
-void Packer::crossed(long double alpha, long double beta, long double gamma, long double determinant, long double reach) {
+/// z = (beta +- s) / gamma, s^2 = beta^2 - gamma (alpha - 1) = determinant (reach^2 - 1); and F(rho) = F(-rho) = 0 off
+/// the axis where z = alpha / beta and alpha rho^2 = 1 - alpha determinant / beta^2.
+void Packer::crossed(long double alpha, long double beta, long double gamma, long double determinant,
+                     long double reach) {
     record.type = SOLID_CROSSED_ETO;
     const long double s = std::sqrt(determinant * (reach - 1) * (reach + 1));
     const auto pivot = [&](long double height, long double lin, long double odd, long double radius) {
         for (const long double value : {height, lin, odd, radius}) real(value);
     };
-    for (const long double side : {-s, s}) pivot((beta + side) / gamma, 2 * side, 2 * (beta * side - determinant) / gamma, 0);
+    for (const long double side : {-s, s})
+        pivot((beta + side) / gamma, 2 * side, 2 * (beta * side - determinant) / gamma, 0);
     const long double rest = beta * beta - alpha * determinant;
     if (rest > 0)
         pivot(alpha / beta, 2 * determinant / beta, 0, std::sqrt(rest / alpha) / std::fabs(beta));

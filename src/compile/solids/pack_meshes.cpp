@@ -131,7 +131,9 @@ void pack_volume(Packer& packer, const Bot& bot) {
     packer.record.first_word = shared_words(packer, &bot, [&] {
         MendedMesh mended = mend(bot);
         packer.notes = std::move(mended.notes);
-        const std::uint32_t facing = !mended.told_by_facing ? 0 : bot.orientation == Bot::Orientation::counterclockwise ? 1 : 2;
+        const std::uint32_t facing = !mended.told_by_facing                                  ? 0
+                                     : bot.orientation == Bot::Orientation::counterclockwise ? 1
+                                                                                             : 2;
         add_mesh(mended.mesh, frame_of(mended.mesh), packer.scene, facing);
     });
     place_mesh(packer, packer.record.first_word, identity);

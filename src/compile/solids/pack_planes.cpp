@@ -41,8 +41,8 @@ std::size_t drop_repeated(std::uint32_t* refs, std::size_t count) {
     std::unordered_set<std::uint32_t> seen;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const bool again = count > few ? !seen.insert(refs[i]).second
-                                       : std::find(refs, refs + kept, refs[i]) != refs + kept;
+        const bool again =
+            count > few ? !seen.insert(refs[i]).second : std::find(refs, refs + kept, refs[i]) != refs + kept;
         if (!again) refs[kept++] = refs[i];
     }
     return kept;
@@ -58,7 +58,8 @@ struct Film {
 std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
     const auto apart = [&](std::size_t i, std::size_t j) {
         const PlaneTable::Key &a = faces[i].key, &b = faces[j].key;
-        return std::fabs(glm::dot(wide(a.one.normal), wide(b.one.normal)) < 0 ? a.offset + b.offset : a.offset - b.offset);
+        return std::fabs(glm::dot(wide(a.one.normal), wide(b.one.normal)) < 0 ? a.offset + b.offset
+                                                                              : a.offset - b.offset);
     };
     constexpr std::size_t few = 16;
     std::unordered_map<std::uint32_t, std::size_t> seen;
@@ -89,16 +90,17 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
             if (compiled.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
             if (++count > shown) continue;
             const Box& box = is_finite(compiled.solid_boxes[solid]) ? compiled.solid_boxes[solid] : common;
-            const double of_size = PlaneTable::gap * diagonal(box), of_place = coordinate_rounding * largest_coordinate(box);
-            const char* const what = of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates";
+            const double of_size = PlaneTable::gap * diagonal(box),
+                         of_place = coordinate_rounding * largest_coordinate(box);
+            const char* const what =
+                of_size >= of_place ? "1e-10 of its size" : "what rounding may do to its coordinates";
             std::string reason = "nothing is left of it: two of its faces are " + rounded_text(thickness) +
                                  " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
                                  what + ", are one surface";
             warn(compiled.solid_info[solid].name, std::move(reason));
         }
     }
-    if (count > shown)
-        warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
+    if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
 }  // namespace
@@ -126,7 +128,8 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
     });
     shards.sort();
 
-    std::vector<std::vector<Shards::Member>> firsts(Shards::count);  // where the records of each shard's table came from
+    std::vector<std::vector<Shards::Member>> firsts(
+        Shards::count);  // where the records of each shard's table came from
     shards.for_each(empty, [&](PlaneTable& table, std::span<const Shards::Member> members, std::size_t shard) {
         const auto plane_at = [&](std::size_t i) -> PackedPlane& {
             return chunks[members[i].chunk].planes[members[i].index];

@@ -118,7 +118,8 @@ void Packer::operator()(const Revolve& s) {
     if (turn != Turn::whole) {
         // Outward from what lies between the two: of the solid, or of what is missing.
         const Wide first = less ? -axes.y : axes.y;
-        Wide second = std::cos(static_cast<long double>(s.angle)) * axes.y - std::sin(static_cast<long double>(s.angle)) * axes.x;
+        Wide second =
+            std::cos(static_cast<long double>(s.angle)) * axes.y - std::sin(static_cast<long double>(s.angle)) * axes.x;
         if (!less) second = -second;
         if (turn == Turn::none) second = -first;
         if (turn == Turn::half) second = first;

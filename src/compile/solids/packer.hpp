@@ -25,8 +25,8 @@ struct Packer {
     std::vector<double>& reals;  ///< where this solid's begin at first_real: the scene's, for solids of any size
     std::vector<Plane>& planes;  ///< the faces, to be found in the table of planes
     kernel::SolidRecord record{};
-    WideMatrix axes_in_world{};  ///< of the last frame
-    bool is_polyhedron = false;  ///< faces in one plane are one
+    WideMatrix axes_in_world{};        ///< of the last frame
+    bool is_polyhedron = false;        ///< faces in one plane are one
     std::vector<std::string> notes{};  ///< what is worth telling of the solid
 
     void real(long double value) { reals.push_back(static_cast<double>(value)); }

@@ -53,8 +53,9 @@ double PlaneTable::offset(const Plane& plane) const {
     return static_cast<double>(plane.distance - glm::dot(wide(plane.normal), wide(center_)));
 }
 
-/// How far the offsets of two planes across one axis may differ that are the same over `box`: of those nothing but their distance is
-/// to be compared. With a margin for what the normals differ by, anywhere in the scene, and for rounding.
+/// How far the offsets of two planes across one axis may differ that are the same over `box`: of those nothing but
+/// their distance is to be compared. With a margin for what the normals differ by, anywhere in the scene, and for
+/// rounding.
 double PlaneTable::parallel_reach(const Key& key, const Box& box) const {
     return 2 * gap * diagonal(box) + 2 * rounding_ + 10 * axis_tilt * radius_ + 1e-15 * std::fabs(key.offset);
 }
@@ -90,11 +91,12 @@ PlaneTable::Key PlaneTable::key_of(const Plane& plane) const {
 }
 
 void PlaneTable::add_to(Shards::Chunk& chunk, const Key& key, const Box& box, std::size_t planes) const {
-    // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay apart.
+    // Small, since many normals are the same; yet so large that few planes lie near a border and most shards stay
+    // apart.
     const double part_of_radius =
         std::max(1.0 / 8192, 4 * offset_reach_ / radius_ * static_cast<double>(planes) / (Shards::count / 16));
-    // Of two planes it is enough that one looks into the cell of the other. So those across an axis, which crowd where solids stand
-    // on one plate, look no farther than to each other, and the rest to them.
+    // Of two planes it is enough that one looks into the cell of the other. So those across an axis, which crowd where
+    // solids stand on one plate, look no farther than to each other, and the rest to them.
     const double reach = key.axis ? parallel_reach(key, box) : 2 * offset_reach_;
     const auto cells = [&](const Vec3& n, double offset) {
         constexpr double normal = 0.25;
@@ -112,7 +114,8 @@ std::uint32_t PlaneTable::find_in_cell(std::uint64_t cell, const Key& key, const
     std::uint32_t found = none;
     for (std::uint32_t record = cells_.find(cell); record != none; record = links_[record].next) {
         const Link& link = links_[record];
-        const bool is_near = std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? reach_across : offset_reach_);
+        const bool is_near =
+            std::fabs(link.offset - key.offset) <= (link.axis && link.axis == key.axis ? reach_across : offset_reach_);
         if (is_near && record < found && same(entries_[record], key.one, box)) found = record;
     }
     return found;

@@ -36,9 +36,9 @@ public:
         Plane one;          ///< the plane, or the one that looks the other way: see facing()
         double offset = 0;  ///< of `one` from the scene's centre
         std::uint64_t cell = 0;
-        bool flipped = false;  ///< `one` looks the other way
-        bool alone = false;    ///< no plane that is the same lies in another cell
-        std::uint8_t axis = 0; ///< 1, 2, 3: the normal of `one` is that axis, as far as rounding goes
+        bool flipped = false;   ///< `one` looks the other way
+        bool alone = false;     ///< no plane that is the same lies in another cell
+        std::uint8_t axis = 0;  ///< 1, 2, 3: the normal of `one` is that axis, as far as rounding goes
     };
     Key key_of(const Plane& plane) const;
     static kernel::PlaneRecord record_of(const Key& key);
@@ -90,8 +90,8 @@ private:
     double limit(const Box& a, const Box& b) const;
     double parallel_reach(const Key& key, const Box& box) const;
 
-    // Offsets are looked up by cells of this size, in parts of the scene's radius. Both boxes lie in the scene, where a tilt moves
-    // a plane by tilt x radius at most.
+    // Offsets are looked up by cells of this size, in parts of the scene's radius. Both boxes lie in the scene, where a
+    // tilt moves a plane by tilt x radius at most.
     static constexpr double offset_cell = 1.5e-8, offset_reach = 3 * tilt + gap;
 
     Vec3 center_;
@@ -100,7 +100,7 @@ private:
     double offset_reach_, offset_cell_;
     std::vector<Entry> entries_;
     std::vector<Link> links_;  ///< one an entry
-    CellTable cells_;  ///< the last record of each
+    CellTable cells_;          ///< the last record of each
 };
 
 }  // namespace csgrt

@@ -93,8 +93,8 @@ struct Triangle {
     Wide corner, normal;
 };
 
-/// Corners 0, 1, 2 if they are as wide as any three because opposite sides are equal to the last bit and shorter than both
-/// diagonals: then all four triangles have the same two shorter sides. None: it must be looked at more closely.
+/// Corners 0, 1, 2 if they are as wide as any three because opposite sides are equal to the last bit and shorter than
+/// both diagonals: then all four triangles have the same two shorter sides. None: it must be looked at more closely.
 std::optional<Triangle> half_of_rectangle(const std::array<Wide, 4>& corners, long double in_line) {
     const Wide u = corners[1] - corners[0], v = corners[2] - corners[1];
     if (corners[2] - corners[3] != u || corners[3] - corners[0] != v) return std::nullopt;

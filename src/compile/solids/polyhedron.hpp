@@ -15,10 +15,10 @@ Plane plane_through(const Wide& p, const Wide& normal);
 /// A plane of the model, moved to the world.
 Plane transform_plane(const Matrix& matrix, const Plane& plane);
 
-/// The faces of an arb in the world; outward is away from the mean of the corners. Where faces are flat but for rounding,
-/// however thin the arb, they go through their widest triangles of corners. Else a face is the plane through its first
-/// three corners that are neither nearly equal nor in line, in BRL-CAD's order; with fewer such corners it is none; and
-/// where corners lie outside, the sides of the corners' box are added.
+/// The faces of an arb in the world; outward is away from the mean of the corners. Where faces are flat but for
+/// rounding, however thin the arb, they go through their widest triangles of corners. Else a face is the plane through
+/// its first three corners that are neither nearly equal nor in line, in BRL-CAD's order; with fewer such corners it is
+/// none; and where corners lie outside, the sides of the corners' box are added.
 struct ArbFaces {
     std::vector<Plane> planes;
     bool is_hull = false;  ///< the planes bound the corners' hull: faces are flat, no corner lies outside

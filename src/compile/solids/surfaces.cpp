@@ -120,7 +120,8 @@ std::array<Shards::Chunk::Dimension, 5> SurfaceTable::coarse_cells(const Surface
     // What is found in a cell may lie anywhere in it.
     constexpr double of_point = 2 * (reach + point_cell), of_size = 2 * (reach + size_cell);
     const auto along = [&](int i) {
-        return Shards::Chunk::Dimension{surface.at[i], of_point * radius_ + 10 * rounding_, 0.25 * radius_ + 640 * rounding_};
+        return Shards::Chunk::Dimension{surface.at[i], of_point * radius_ + 10 * rounding_,
+                                        0.25 * radius_ + 640 * rounding_};
     };
     return {{along(0), along(1), along(2), {surface.at[3], of_size, 0.25}, {double(surface.type), 0, 1}}};
 }
@@ -159,8 +160,8 @@ std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, co
             std::copy(mine.begin(), mine.end(), first.begin());
         return entries_[found].number;
     }
-    const std::uint64_t hash = cell_hash(
-        {surface.type, cells(0, 0).first, cells(1, 0).first, cells(2, 0).first, cells(3, 0).first});
+    const std::uint64_t hash =
+        cell_hash({surface.type, cells(0, 0).first, cells(1, 0).first, cells(2, 0).first, cells(3, 0).first});
     const auto next = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({number, cells_.exchange(hash, next)});
     return number;

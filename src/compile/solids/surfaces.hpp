@@ -20,8 +20,8 @@ namespace csgrt {
 
 class SurfaceTable {
 public:
-    /// One surface is another if nowhere on the smaller solid they lie farther apart than this, of its box's diagonal; far
-    /// from the origin, than coordinate_rounding (linear.hpp).
+    /// One surface is another if nowhere on the smaller solid they lie farther apart than this, of its box's diagonal;
+    /// far from the origin, than coordinate_rounding (linear.hpp).
     static constexpr double gap = 1e-10;
 
     /// `around`: a sphere around the scene.
@@ -31,8 +31,8 @@ public:
     /// A surface as it is looked up; depends on nothing else, so several threads may find it ahead.
     struct Surface {
         std::uint32_t type;
-        double at[4];     ///< a point that belongs to it alone, from the scene's centre; the logarithm of its size
-        double limit;     ///< one that lies no farther off is the same
+        double at[4];  ///< a point that belongs to it alone, from the scene's centre; the logarithm of its size
+        double limit;  ///< one that lies no farther off is the same
     };
     /// None for solids whose surfaces are not shared.
     std::optional<Surface> surface_of(std::uint32_t type, const double* reals, const WideMatrix& axes,

@@ -33,7 +33,8 @@ Scene parse_brlcad_asc(const TextSource& source, bool lenient) {
     const std::string_view text = source.text().substr(source.begin());
     Findings findings(source);
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
-        findings.add(source.begin() + zero, {}, "a zero byte: this is no text", "a binary database is read if its name ends in .g");
+        findings.add(source.begin() + zero, {}, "a zero byte: this is no text",
+                     "a binary database is read if its name ends in .g");
     } else if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
         findings.add(0, {}, "the file is empty");
     }

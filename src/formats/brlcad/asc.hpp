@@ -10,7 +10,8 @@ namespace csgrt {
 class TextSource;
 
 /// Reads an .asc file of either form. Throws Error: file if it cannot be read, scene with every finding if it is wrong,
-/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: see load_scene.
+/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: see
+/// load_scene.
 Scene read_brlcad_asc(const std::string& path, bool lenient = false);
 
 /// The same for a text in memory: v5 if it starts with a Tcl command, else v4.

@@ -99,9 +99,11 @@ public:
     }
 
 private:
-    static constexpr double single_precision = 1e-6;  // of the last row's largest entry: as much as BRL-CAD's importer bears
+    static constexpr double single_precision =
+        1e-6;  // of the last row's largest entry: as much as BRL-CAD's importer bears
 
-    Warning warning_{{}, {}, "the last row of a matrix is not 0 0 0 w by the noise of single precision, which is divided out", 0};
+    Warning warning_{
+        {}, {}, "the last row of a matrix is not 0 0 0 w by the noise of single precision, which is divided out", 0};
 };
 
 }  // namespace
@@ -109,8 +111,8 @@ private:
 void BrlcadObjects::add_balls(const Entry& entry, const BrlcadPoints& points, bool used, std::vector<Object>& objects,
                               std::vector<Warning>& warnings) const {
     if (points.without_scale > 0) {
-        warnings.push_back({entry.name, entry.place, "a point without a scale has no inside; it is left out",
-                            points.without_scale});
+        warnings.push_back(
+            {entry.name, entry.place, "a point without a scale has no inside; it is left out", points.without_scale});
     }
     if (points.balls.empty() && !used) return;
     Combination all;
@@ -170,7 +172,8 @@ std::vector<Object> BrlcadObjects::take(const std::string& model, std::vector<Wa
             add_balls(entry, *points, used[i], objects, warnings);
         } else if (used[i] && findings_.is_lenient()) {
             const std::string type = type_of(item);
-            objects.emplace_back(Solid{entry.name, Shape(Unsupported{type, "a " + type + " has no inside"}), entry.place});
+            objects.emplace_back(
+                Solid{entry.name, Shape(Unsupported{type, "a " + type + " has no inside"}), entry.place});
         } else if (used[i]) {
             Combination empty;
             empty.name = entry.name;

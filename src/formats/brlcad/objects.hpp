@@ -57,8 +57,8 @@ class BrlcadObjects {
 public:
     explicit BrlcadObjects(Findings& findings) : findings_(findings) {}
 
-    /// Keeps the object; a second one of a name is a finding at `offset`, or borne, and is dropped. An extrude or revolve comes
-    /// with no more of its sketch than the name; an ebm, vol or dsp without cells.
+    /// Keeps the object; a second one of a name is a finding at `offset`, or borne, and is dropped. An extrude or
+    /// revolve comes with no more of its sketch than the name; an ebm, vol or dsp without cells.
     void add(Combination combination, std::size_t offset);
     void add(const std::string& name, BrlcadItem item, Place place, std::size_t offset);
 
@@ -72,8 +72,8 @@ public:
     /// Solids and combinations in the order in which they came; leaves none. Solids are completed from the other
     /// objects and from files, whose names are relative to the folder of `model`; one whose parts are not to be had
     /// becomes Unsupported, with the reason. What has no inside is left out, or, if a combination uses it, is the empty
-    /// set; in a lenient scene, Unsupported. Points are the union of their balls: a region of its own outside all regions, as any
-    /// solid is. What is borne is added to `warnings`.
+    /// set; in a lenient scene, Unsupported. Points are the union of their balls: a region of its own outside all
+    /// regions, as any solid is. What is borne is added to `warnings`.
     std::vector<Object> take(const std::string& model, std::vector<Warning>& warnings);
 
 private:

@@ -17,7 +17,8 @@ constexpr int with_color = 1, with_scale = 2, with_normal = 4;
 constexpr int last_type = with_color | with_scale | with_normal;
 
 std::size_t numbers_of(int type) {
-    return 3u + ((type & with_color) != 0 ? 3 : 0) + ((type & with_scale) != 0 ? 1 : 0) + ((type & with_normal) != 0 ? 3 : 0);
+    return 3u + ((type & with_color) != 0 ? 3 : 0) + ((type & with_scale) != 0 ? 1 : 0) +
+           ((type & with_normal) != 0 ? 3 : 0);
 }
 
 /// A point's own scale is its ball's radius, else that of all; without one, of more than 0, it has no inside.

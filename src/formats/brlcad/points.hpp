@@ -13,7 +13,8 @@ class Parameters;
 /// Keys count, type, scale and data, a list of lists of numbers. Throws Fault.
 BrlcadPoints read_v5_points(Parameters& p);
 
-/// scale: a double  type: 2 bytes  count: 4 bytes  doubles of each point: x y z, colour?, scale?, normal?. Throws Fault.
+/// scale: a double  type: 2 bytes  count: 4 bytes  doubles of each point: x y z, colour?, scale?, normal?. Throws
+/// Fault.
 BrlcadPoints read_g_points(ByteReader& bytes);
 
 }  // namespace csgrt

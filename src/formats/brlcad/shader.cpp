@@ -206,8 +206,10 @@ std::string shader_warning(std::string_view shader) {
     for (const std::string_view known : {"", "plastic", "phong", "default", "light"})
         if (shader == known) return {};
     if (shader == "mirror") return "the shader 'mirror' is drawn without reflections, as plastic";
-    if (shader == "glass") return "the shader 'glass' is drawn opaque, as plastic: neither transparent nor with reflections";
-    if (shader == "stack") return "the shader 'stack' is drawn as the last plastic, mirror or glass in it, or as plastic";
+    if (shader == "glass")
+        return "the shader 'glass' is drawn opaque, as plastic: neither transparent nor with reflections";
+    if (shader == "stack")
+        return "the shader 'stack' is drawn as the last plastic, mirror or glass in it, or as plastic";
     return "the shader " + quoted(shader) + " is drawn as plastic";
 }
 
@@ -215,7 +217,8 @@ void warn_of_shaders(Scene& scene) {
     std::map<std::string, Warning> warnings;  // by reason: the order does not hang on that of the file
     const auto add = [&](const Combination& combination, std::string reason) {
         if (reason.empty()) return;
-        const auto [found, is_new] = warnings.try_emplace(reason, Warning{combination.name, combination.place, reason, 0, true});
+        const auto [found, is_new] =
+            warnings.try_emplace(reason, Warning{combination.name, combination.place, reason, 0, true});
         ++found->second.count;
     };
     for (const Object& object : scene.objects) {

@@ -7,9 +7,7 @@ namespace csgrt {
 
 namespace {
 
-bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 int digit_of(char c, int base) {
     const int digit = c >= '0' && c <= '9'   ? c - '0'
@@ -80,9 +78,7 @@ void TclReader::fail(std::size_t index, std::string message, std::string suggest
     throw Fault{source_.offset_at(index), std::move(message), std::move(suggestion)};
 }
 
-bool TclReader::ends_word(char c) const {
-    return is_blank(c) || c == '\n' || (script_ && c == ';');
-}
+bool TclReader::ends_word(char c) const { return is_blank(c) || c == '\n' || (script_ && c == ';'); }
 
 /// The length of a backslash and the end of a line, if they stand here: together they are a blank.
 std::size_t TclReader::continuation() const {

@@ -17,8 +17,8 @@ struct Unit {
     std::string_view name;
     double millimetres;
 };
-/// BRL-CAD's units with its factors, in small letters and without blanks, since neither counts; of units of one length the
-/// first is the name that is written, of two units of one name (Mm and mm) the first is meant, both as in BRL-CAD.
+/// BRL-CAD's units with its factors, in small letters and without blanks, since neither counts; of units of one length
+/// the first is the name that is written, of two units of one name (Mm and mm) the first is meant, both as in BRL-CAD.
 constexpr Unit units[] = {
     {"mm", 1},
     {"none", 1},
@@ -185,8 +185,6 @@ Fastgen fastgen_of(std::string_view flag) {
     return flag == "P" ? Fastgen::plate : flag == "V" ? Fastgen::volume : Fastgen::none;
 }
 
-Vec3 color_of_bytes(int r, int g, int b) {
-    return {r / 255.0, g / 255.0, b / 255.0};
-}
+Vec3 color_of_bytes(int r, int g, int b) { return {r / 255.0, g / 255.0, b / 255.0}; }
 
 }  // namespace csgrt

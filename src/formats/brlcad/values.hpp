@@ -29,8 +29,8 @@ Plane unit_plane(Vec3 normal, double distance);
 /// `v` made a unit vector; a zero vector stays.
 Vec3 unit_vector(const Vec3& v);
 
-/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. One that is not affine, or not finite then,
-/// stays so: only what uses it is unusable, and validation says so there.
+/// Divides BRL-CAD's uniform scale (element 15 is its inverse) out of a matrix. One that is not affine, or not finite
+/// then, stays so: only what uses it is unusable, and validation says so there.
 Matrix without_scale(Matrix matrix);
 
 /// What a region's flag says: P a plate, V a volume, others neither.

@@ -124,7 +124,10 @@ private:
 
     static std::vector<double> numbers(std::span<const Word> words, std::size_t count) {
         if (words.size() != count + 1)
-            throw Fault{words[0].offset, quoted(words[0].text) + " takes " + std::to_string(count) + (count == 1 ? " number" : " numbers"), {}};
+            throw Fault{
+                words[0].offset,
+                quoted(words[0].text) + " takes " + std::to_string(count) + (count == 1 ? " number" : " numbers"),
+                {}};
         std::vector<double> values;
         for (const Word& word : words.subspan(1)) values.push_back(number(word, word.text));
         return values;
@@ -187,8 +190,8 @@ private:
     }
 
     [[noreturn]] static void unknown(const Word& word) {
-        const std::vector<std::string_view> known = {"ae",    "clean",     "end",      "eye_pt",  "lookat_pt",
-                                                     "orientation", "set", "start", "viewrot", "viewsize"};
+        const std::vector<std::string_view> known = {"ae",          "clean", "end",   "eye_pt",  "lookat_pt",
+                                                     "orientation", "set",   "start", "viewrot", "viewsize"};
         std::string hint = did_you_mean(word.text, known);
         if (hint.empty()) hint = "a view is viewsize, orientation and eye_pt, as MGED's saveview writes them";
         throw Fault{word.offset, quoted(word.text) + " is no command of a saved view", std::move(hint)};
@@ -196,7 +199,8 @@ private:
 
     void check(std::size_t end) {
         const auto lacks = [&](bool is_there, const char* what) {
-            if (!is_there) findings_.add(std::min(end, source_.text().size()), {}, std::string("this view lacks ") + what);
+            if (!is_there)
+                findings_.add(std::min(end, source_.text().size()), {}, std::string("this view lacks ") + what);
         };
         lacks(state_.size.has_value(), "its size: viewsize MM");
         lacks(state_.eye.has_value(), "its eye: eye_pt X Y Z");

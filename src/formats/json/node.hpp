@@ -51,8 +51,8 @@ public:
     std::string name() const;  ///< a string that is not empty
     /// The number of the name that the string is, one of `names`.
     std::size_t choice(const std::vector<std::string_view>& names, std::size_t otherwise) const;
-    Vec3 vector() const;       ///< three numbers, as they stand
-    Vec3 color() const;        ///< three numbers from 0 to 1
+    Vec3 vector() const;  ///< three numbers, as they stand
+    Vec3 color() const;   ///< three numbers from 0 to 1
     /// The same in millimetres.
     double length() const { return file_->unit * number(); }
     double positive_length() const { return file_->unit * positive(); }

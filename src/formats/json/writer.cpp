@@ -73,9 +73,10 @@ private:
         }
         if (ordered_json camera = json_of_camera(); !camera.empty()) out["camera"] = std::move(camera);
         for (const Light& light : scene_.lights) {
-            ordered_json& written = out["lights"].emplace_back(ordered_json{{"position", unit_.lengths(light.position)},
-                                                                            {"color", unit_.vector(light.color)},
-                                                                            {"intensity", unit_.number(light.intensity)}});
+            ordered_json& written =
+                out["lights"].emplace_back(ordered_json{{"position", unit_.lengths(light.position)},
+                                                        {"color", unit_.vector(light.color)},
+                                                        {"intensity", unit_.number(light.intensity)}});
             const Light plain;
             if (light.infinite) written["infinite"] = true;
             if (!same_bits(light.angle, plain.angle)) written["angle"] = unit_.number(light.angle);
@@ -97,7 +98,8 @@ private:
         const Camera &camera = scene_.camera, usual;
         ordered_json out;
         if (!camera.eye && !same_bits(camera.azimuth, usual.azimuth)) out["azimuth"] = unit_.number(camera.azimuth);
-        if (!camera.eye && !same_bits(camera.elevation, usual.elevation)) out["elevation"] = unit_.number(camera.elevation);
+        if (!camera.eye && !same_bits(camera.elevation, usual.elevation))
+            out["elevation"] = unit_.number(camera.elevation);
         if (!same_bits(camera.perspective, usual.perspective)) out["perspective"] = unit_.number(camera.perspective);
         if (camera.center) out["center"] = unit_.lengths(*camera.center);
         if (camera.view_size) out["size"] = unit_.length(*camera.view_size);

@@ -8,14 +8,19 @@
 
 namespace csgrt {
 
-/// Which rays a batch's kernels are run for, and in which buffer they are listed: tiles of a picture, single pixels of it, or
-/// rays as they were given.
+/// Which rays a batch's kernels are run for, and in which buffer they are listed: tiles of a picture, single pixels of
+/// it, or rays as they were given.
 enum class Work : std::uint32_t { tiles = WORK_TILES, pixels = WORK_PIXELS, rays = WORK_RAYS };
 
 struct BatchBuffers {
     explicit BatchBuffers(Device& device)
-        : frame(device, "frame"), costs(device, "tiles' costs"), tile_nodes(device, "tiles' nodes"), tiles(device, "list of tiles"),
-          pixels(device, "list of pixels"), rays(device, "list of rays"), report(device, "report"),
+        : frame(device, "frame"),
+          costs(device, "tiles' costs"),
+          tile_nodes(device, "tiles' nodes"),
+          tiles(device, "list of tiles"),
+          pixels(device, "list of pixels"),
+          rays(device, "list of rays"),
+          report(device, "report"),
           overflown(device, "rays that overflowed") {}
 
     Buffer frame;       ///< kernel::Frame in the program's precision
@@ -35,7 +40,8 @@ struct BatchBuffers {
     }
     std::uint64_t held() const {
         std::uint64_t sum = 0;
-        for (const Buffer* buffer : {&costs, &tile_nodes, &tiles, &pixels, &rays, &report, &overflown}) sum += buffer->size();
+        for (const Buffer* buffer : {&costs, &tile_nodes, &tiles, &pixels, &rays, &report, &overflown})
+            sum += buffer->size();
         return sum;
     }
     /// Gives the memory back.

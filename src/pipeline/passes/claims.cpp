@@ -35,7 +35,8 @@ std::vector<std::uint32_t> claimants_of(const CompiledScene& scene, const kernel
     return claimants;
 }
 
-/// The same for a partition that several regions claim, which are found again on the host: on one side at least of a contact.
+/// The same for a partition that several regions claim, which are found again on the host: on one side at least of a
+/// contact.
 std::vector<std::uint32_t> all_claimants(const CompiledScene& scene, const kernel::End* ends, std::uint32_t segments,
                                          const std::uint32_t* bits) {
     kernel::cover cover{ends, bits, segments, 0, 1, scene.solids.data(), scene.starts.data(), scene.trees.data()};
@@ -53,7 +54,8 @@ std::vector<std::uint32_t> all_claimants(const CompiledScene& scene, const kerne
 
 }  // namespace
 
-std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, const TracedPartitions& traced, std::size_t ray) {
+std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, const TracedPartitions& traced,
+                                                 std::size_t ray) {
     std::vector<ClaimedPartition> claims;
     const kernel::RayCount& begin = traced.offsets[ray];
     const std::uint32_t segments = traced.offsets[ray + 1].segments - begin.segments;
@@ -70,8 +72,8 @@ std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, con
         claim.out_enters = partition.out_end % 2 == 0;
         claim.region = region;
         if (partition.owner & OVERLAP)
-            claim.claimants =
-                all_claimants(scene, ends, segments, traced.bits.data() + begin.words + node * kernel::words_of(segments));
+            claim.claimants = all_claimants(scene, ends, segments,
+                                            traced.bits.data() + begin.words + node * kernel::words_of(segments));
         claims.push_back(std::move(claim));
     }
     return claims;

@@ -18,6 +18,7 @@ struct TracedPartitions {
 };
 
 /// The claimed partitions of one of the rays, in order along it, each with all regions that claim it if several do.
-std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, const TracedPartitions& traced, std::size_t ray);
+std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, const TracedPartitions& traced,
+                                                 std::size_t ray);
 
 }  // namespace csgrt

@@ -2,7 +2,8 @@
 
 namespace csgrt {
 
-CullPass::CullPass(Device& device, const Program& program) : device_(device), cull_tiles_(program.kernel("cull_tiles")) {}
+CullPass::CullPass(Device& device, const Program& program)
+    : device_(device), cull_tiles_(program.kernel("cull_tiles")) {}
 
 Event CullPass::launch(const SceneTables& scene, BatchBuffers& batch, const kernel::Frame& frame) {
     const std::uint32_t tiles = frame.ray_count / tile_rays;
@@ -14,7 +15,8 @@ Event CullPass::launch(const SceneTables& scene, BatchBuffers& batch, const kern
     else
         batch.tile_nodes.reserve(tiles * LISTED_NODES * sizeof(kernel::TileNode));
     if (frame.rows) batch.report.reserve(BatchBuffers::report_bytes({0, frame.ray_count}));
-    return cull_tiles_.launch(tiles, divergent_group(device_), batch.frame, scene.nodes(), batch.costs, batch.tile_nodes, batch.report);
+    return cull_tiles_.launch(tiles, divergent_group(device_), batch.frame, scene.nodes(), batch.costs,
+                              batch.tile_nodes, batch.report);
 }
 
 std::vector<std::uint32_t> CullPass::seen(const RayBatch& batch, const BatchBuffers& buffers) {

@@ -13,9 +13,9 @@ public:
     CullPass(Device& device, const Program& program);
     static constexpr const char* file = "0_cull_tiles.cl";
 
-    /// Writes the costs of the frame's tiles and lists their nodes: by distance for first hits, else in the hierarchy's order
-    /// (on a GPU, for every partition, not at all: `tile_nodes` is empty).
-    /// Clears the report of a batch whose pixels are row-major. Does not wait.
+    /// Writes the costs of the frame's tiles and lists their nodes: by distance for first hits, else in the hierarchy's
+    /// order (on a GPU, for every partition, not at all: `tile_nodes` is empty). Clears the report of a batch whose
+    /// pixels are row-major. Does not wait.
     Event launch(const SceneTables& scene, BatchBuffers& batch, const kernel::Frame& frame);
     /// The numbers of the batch's tiles that may see a solid, ascending. Waits.
     static std::vector<std::uint32_t> seen(const RayBatch& batch, const BatchBuffers& buffers);

@@ -19,18 +19,20 @@ FirstHitPass::FirstHitPass(Device& device, const CompiledScene& scene, const Set
       rays_an_item_(traces_packets(device, settings) ? packet_rays : 1),
       program_(device,
                assemble_program({CullPass::file,
-                                 rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h", "first_hits.cl"}),
+                                 rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h",
+                                 "first_hits.cl"}),
                options_of(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")) {}
 
-TimedKernels FirstHitPass::launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays) {
+TimedKernels FirstHitPass::launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture,
+                                  std::uint32_t rays) {
     batch.overflown.reserve(rays * ray_bytes);
     TimedKernels timed;
     timed.emplace_back(&PipelineCounts::first_hits,
-                       first_hits_.launch(rays / rays_an_item_, divergent_group(device_), batch.frame, scene.geometry(), scene.nodes(),
-                                          scene.regions(), scene.appearance(), batch.tile_nodes, batch.tiles, batch.report,
-                                          batch.overflown, picture));
+                       first_hits_.launch(rays / rays_an_item_, divergent_group(device_), batch.frame, scene.geometry(),
+                                          scene.nodes(), scene.regions(), scene.appearance(), batch.tile_nodes,
+                                          batch.tiles, batch.report, batch.overflown, picture));
     return timed;
 }
 

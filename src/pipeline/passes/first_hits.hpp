@@ -11,8 +11,8 @@ public:
     /// Compiles its kernels. Throws Error (device_fault).
     FirstHitPass(Device& device, const CompiledScene& scene, const Settings& settings);
 
-    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. The report counts the rays whose
-    /// segments found no place, which are listed in `overflown`: nothing is drawn of them. Does not wait.
+    /// Draws the pixels of the batch's tiles, which are culled and listed, into `picture`. The report counts the rays
+    /// whose segments found no place, which are listed in `overflown`: nothing is drawn of them. Does not wait.
     TimedKernels launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
 
     CullPass& cull() { return cull_; }

@@ -24,7 +24,8 @@ struct Wanted {
 
 bool PartitionMemory::reserve_rays(std::uint32_t rays) {
     const std::uint64_t entries = (std::uint64_t{rays} + 1) * sizeof(kernel::RayCount);
-    const Wanted wanted[] = {{&ray_counts_, entries}, {&offsets_, entries}, {&tally_sums_, scan_blocks_of(rays) * sizeof(kernel::RayTally)}};
+    const Wanted wanted[] = {
+        {&ray_counts_, entries}, {&offsets_, entries}, {&tally_sums_, scan_blocks_of(rays) * sizeof(kernel::RayTally)}};
     std::uint64_t more = 0;
     for (const Wanted& w : wanted) more += w.bytes > w.buffer->size() ? w.bytes : 0;
     if (more > device_.available()) release_counted();
@@ -55,7 +56,8 @@ bool PartitionMemory::reserve_candidates(std::uint32_t candidates) {
 bool PartitionMemory::reserve_segments(const kernel::RayCount& total) {
     if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
     const Wanted wanted[] = {{&ends_, total.segments * segment_bytes()}, {&bits_, total.words * sizeof(std::uint32_t)}};
-    const std::uint64_t partitions = partition_bytes(total.segments), more = partitions > found_.size() ? partitions : 0;
+    const std::uint64_t partitions = partition_bytes(total.segments),
+                        more = partitions > found_.size() ? partitions : 0;
     std::uint64_t needed = more, grown = more, held = 0;
     if (more > device_.max_buffer()) return false;
     for (const Wanted& w : wanted) {
@@ -75,14 +77,16 @@ PartitionSizes PartitionMemory::capacity() const {
     const auto holds = [](const Buffer& buffer, std::size_t bytes) {
         return static_cast<std::uint32_t>(std::min<std::size_t>(buffer.size() / bytes, NONE / 2));
     };
-    return {.candidates = std::min(holds(candidates_, sizeof(kernel::Candidate)), holds(found_, segment_bytes())),
-            .total = {.segments = std::min(holds(ends_, segment_bytes()), holds(found_, 2 * sizeof(kernel::PartitionNode))),
-                      .words = holds(bits_, sizeof(std::uint32_t))}};
+    return {
+        .candidates = std::min(holds(candidates_, sizeof(kernel::Candidate)), holds(found_, segment_bytes())),
+        .total = {.segments = std::min(holds(ends_, segment_bytes()), holds(found_, 2 * sizeof(kernel::PartitionNode))),
+                  .words = holds(bits_, sizeof(std::uint32_t))}};
 }
 
 std::uint64_t PartitionMemory::held() const {
     std::uint64_t sum = 0;
-    for (const Buffer* buffer : {&ray_counts_, &offsets_, &candidates_, &found_, &ends_, &bits_, &tally_sums_}) sum += buffer->size();
+    for (const Buffer* buffer : {&ray_counts_, &offsets_, &candidates_, &found_, &ends_, &bits_, &tally_sums_})
+        sum += buffer->size();
     return sum;
 }
 

@@ -25,7 +25,8 @@ struct PartitionSizes {
     kernel::RayCount total{};  ///< segments, and words of partitions' bits
 
     bool fit(const PartitionSizes& capacity) const {
-        return candidates <= capacity.candidates && total.segments <= capacity.total.segments && total.words <= capacity.total.words;
+        return candidates <= capacity.candidates && total.segments <= capacity.total.segments &&
+               total.words <= capacity.total.words;
     }
 };
 
@@ -46,8 +47,8 @@ public:
     /// Bytes of a ray whatever it hits.
     static constexpr std::uint64_t ray_bytes = 2 * sizeof(kernel::RayCount) + sizeof(kernel::RayTally);
 
-    /// Each makes room and returns true, or returns false if there is not enough device memory. Buffers only grow, unless they
-    /// would not fit.
+    /// Each makes room and returns true, or returns false if there is not enough device memory. Buffers only grow,
+    /// unless they would not fit.
     bool reserve_rays(std::uint32_t rays);
     bool reserve_candidates(std::uint32_t candidates);
     bool reserve_segments(const kernel::RayCount& total);
@@ -61,7 +62,9 @@ public:
     void release_counted();  ///< only what depends on what rays hit
 
 private:
-    static std::uint64_t partition_bytes(std::uint32_t segments) { return 2 * std::uint64_t{segments} * sizeof(kernel::PartitionNode); }
+    static std::uint64_t partition_bytes(std::uint32_t segments) {
+        return 2 * std::uint64_t{segments} * sizeof(kernel::PartitionNode);
+    }
     std::uint64_t segment_bytes() const { return 2 * std::uint64_t{end_bytes_}; }
 
     Device& device_;

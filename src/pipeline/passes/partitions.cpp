@@ -9,17 +9,19 @@ namespace {
 std::vector<std::string> files_of(bool packets) {
     std::vector<std::string> files = {CullPass::file};
     if (packets) files.push_back("1_packet_candidates.cl");
-    files.insert(files.end(), {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
+    files.insert(files.end(),
+                 {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
     return files;
 }
 
 }  // namespace
 
-PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings)
+PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels,
+                             const Settings& settings)
     : device_(device),
       kernels_(kernels),
-      program_(device, assemble_program(files_of(traces_packets(device, settings))), program_options(device, scene, settings),
-               settings.precision != Precision::double_),
+      program_(device, assemble_program(files_of(traces_packets(device, settings))),
+               program_options(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
       count_hits_(program_.kernel("count_hits")),
@@ -44,8 +46,8 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
 // The first step of a scan: the entries become sums within their block, and each block's sum is written.
 void PartitionPass::sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed) {
     sums.reserve(scan_blocks_of(size) * sizeof(kernel::RayCount));
-    timed.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{scan_blocks_of(size)} * work_group, work_group, entries,
-                                                                  sums, cl_uint{size}));
+    timed.emplace_back(&PipelineCounts::scan, scan_blocks_.launch(std::size_t{scan_blocks_of(size)} * work_group,
+                                                                  work_group, entries, sums, cl_uint{size}));
 }
 
 // Exclusive prefix sums over rays + 1 entries. The last entry need not be set: it is part of no sum.
@@ -54,13 +56,14 @@ void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels&
     sum_blocks(counts, entries, scan_sums_buffer_, timed);
     if (blocks > 1) {
         timed.emplace_back(&PipelineCounts::scan, scan_sums_.launch(work_group, work_group, scan_sums_buffer_, blocks));
-        timed.emplace_back(&PipelineCounts::scan, scan_add_.launch(entries, work_group, counts, scan_sums_buffer_, entries));
+        timed.emplace_back(&PipelineCounts::scan,
+                           scan_add_.launch(entries, work_group, counts, scan_sums_buffer_, entries));
     }
     device_.flush();
 }
 
-// NVIDIA's GPUs make copies to the host one after another: one that is queued behind kernels would hold up the copies of other
-// queues, too. So the copy is queued only when the kernels are done.
+// NVIDIA's GPUs make copies to the host one after another: one that is queued behind kernels would hold up the copies
+// of other queues, too. So the copy is queued only when the kernels are done.
 kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed) {
     wait_for(timed.back().second);
     read_total_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
@@ -71,7 +74,7 @@ kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t r
 std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, TimedKernels& timed) {
     if (auto sizes = try_counted(input, timed)) return sizes;
     for (const auto& [time, kernel] : timed) wait_for(kernel);  // throws if a fault, and not the memory, is the reason
-    memory_.release_counted();  // a smaller batch needs it
+    memory_.release_counted();                                  // a smaller batch needs it
     return {};
 }
 
@@ -96,8 +99,10 @@ std::optional<PartitionSizes> PartitionPass::capacity_for(std::uint32_t rays) co
     };
     const PartitionSizes capacity = memory_.capacity();
     // Earlier rays say little about these: half of what they would need may do.
-    if (capacity.candidates == 0 || capacity.total.segments == 0 || expected(&Average::candidates) / 2 > capacity.candidates ||
-        expected(&Average::segments) / 2 > capacity.total.segments || expected(&Average::words) / 2 > capacity.total.words)
+    if (capacity.candidates == 0 || capacity.total.segments == 0 ||
+        expected(&Average::candidates) / 2 > capacity.candidates ||
+        expected(&Average::segments) / 2 > capacity.total.segments ||
+        expected(&Average::words) / 2 > capacity.total.words)
         return {};
     return capacity;
 }
@@ -114,12 +119,13 @@ void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
     const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
     Buffer& places = memory_.candidate_places();
-    timed.emplace_back(&PipelineCounts::count_hits,
-                       in_packets(input)
-                           ? packet_candidates_->count.launch(input.rays / packet_rays, work_group, batch.frame, input.scene.nodes(),
-                                                              tile_nodes, batch.tiles, places)
-                           : find_candidates_.launch(input.rays, work_group, batch.frame, input.scene.nodes(), tile_nodes, batch.rays,
-                                                     batch.numbers(input.work), places, no_buffer_));
+    timed.emplace_back(
+        &PipelineCounts::count_hits,
+        in_packets(input)
+            ? packet_candidates_->count.launch(input.rays / packet_rays, work_group, batch.frame, input.scene.nodes(),
+                                               tile_nodes, batch.tiles, places)
+            : find_candidates_.launch(input.rays, work_group, batch.frame, input.scene.nodes(), tile_nodes, batch.rays,
+                                      batch.numbers(input.work), places, no_buffer_));
     scan(places, input.rays, timed);
 }
 
@@ -131,37 +137,40 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
     const std::size_t listing_rays = candidates ? input.rays : 0;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
     add(in_packets(input)
-            ? packet_candidates_->list.launch(listing_rays / packet_rays, work_group, batch.frame, input.scene.geometry(),
-                                              input.scene.nodes(), tile_nodes, batch.tiles, memory_.candidate_places(),
-                                              memory_.candidates(), memory_.found())
-            : find_candidates_.launch(listing_rays, work_group, batch.frame, input.scene.nodes(), tile_nodes, batch.rays, numbers,
-                                      memory_.candidate_places(), memory_.candidates()));
+            ? packet_candidates_->list.launch(listing_rays / packet_rays, work_group, batch.frame,
+                                              input.scene.geometry(), input.scene.nodes(), tile_nodes, batch.tiles,
+                                              memory_.candidate_places(), memory_.candidates(), memory_.found())
+            : find_candidates_.launch(listing_rays, work_group, batch.frame, input.scene.nodes(), tile_nodes,
+                                      batch.rays, numbers, memory_.candidate_places(), memory_.candidates()));
     device_.flush();
     add(count_hits_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
                            memory_.candidate_places(), memory_.candidates(), memory_.found()));
-    add(sum_hits_.launch(input.rays, work_group, batch.frame, memory_.candidate_places(), memory_.candidates(), memory_.offsets()));
+    add(sum_hits_.launch(input.rays, work_group, batch.frame, memory_.candidate_places(), memory_.candidates(),
+                         memory_.offsets()));
     scan(memory_.offsets(), input.rays, timed);
 }
 
 // Kernels 2 to 4. `candidates`, `segments`: as many work-items, or twice as many where an item is an end.
-void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates, std::uint32_t segments, TimedKernels& timed) {
+void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates, std::uint32_t segments,
+                                    TimedKernels& timed) {
     const BatchBuffers& batch = input.batch;
     const Buffer& numbers = batch.numbers(input.work);
     const std::size_t ends = 2 * std::size_t{segments};
     const auto add = [&](double PipelineCounts::*time, Event event) { timed.emplace_back(time, std::move(event)); };
     add(&PipelineCounts::store_segments,
-        store_segments_.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
-                               memory_.candidate_places(), memory_.candidates(), memory_.found(), memory_.offsets(), memory_.ends(),
-                               memory_.bits()));
+        store_segments_.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(), batch.rays,
+                               numbers, memory_.candidate_places(), memory_.candidates(), memory_.found(),
+                               memory_.offsets(), memory_.ends(), memory_.bits()));
     device_.flush();
     memory_.reserve_partitions(segments);  // the driver keeps the memory that it replaces until kernel 2 has ended
+    add(&PipelineCounts::weave, order_ends_.launch(ends, work_group, batch.frame, memory_.offsets(), memory_.ends(),
+                                                   memory_.bits(), memory_.partitions()));
     add(&PipelineCounts::weave,
-        order_ends_.launch(ends, work_group, batch.frame, memory_.offsets(), memory_.ends(), memory_.bits(), memory_.partitions()));
-    add(&PipelineCounts::weave,
-        weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.ends(), memory_.partitions(),
-                      memory_.bits(), memory_.ray_tallies()));
-    add(&PipelineCounts::evaluate, evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), memory_.offsets(),
-                                                    memory_.ends(), memory_.bits(), memory_.partitions()));
+        weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.ends(),
+                      memory_.partitions(), memory_.bits(), memory_.ray_tallies()));
+    add(&PipelineCounts::evaluate,
+        evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), memory_.offsets(), memory_.ends(),
+                         memory_.bits(), memory_.partitions()));
 }
 
 TracedPartitions PartitionPass::read(std::uint32_t rays) {
@@ -173,10 +182,11 @@ TracedPartitions PartitionPass::read(std::uint32_t rays) {
 }
 
 void PartitionPass::shade(const Input& input, const Buffer& picture, TimedKernels& timed) {
-    timed.emplace_back(&PipelineCounts::shade,
-                       shade_.launch(input.rays, work_group, input.batch.frame, input.scene.geometry(), input.scene.appearance(),
-                                     input.batch.numbers(input.work), memory_.offsets(), memory_.ends(), memory_.partitions(),
-                                     memory_.ray_tallies(), input.batch.report, picture));
+    timed.emplace_back(
+        &PipelineCounts::shade,
+        shade_.launch(input.rays, work_group, input.batch.frame, input.scene.geometry(), input.scene.appearance(),
+                      input.batch.numbers(input.work), memory_.offsets(), memory_.ends(), memory_.partitions(),
+                      memory_.ray_tallies(), input.batch.report, picture));
 }
 
 // Only the blocks' sums come to the host, not every ray's tally.
@@ -198,9 +208,10 @@ void PartitionPass::add_sizes(const PartitionSizes& needed, std::uint32_t rays, 
     counts.segments += needed.total.segments;
     counts.hits += nodes;
     counts.partitions_allocated += nodes;
-    counts.segment_bytes +=
-        nodes * kernels_.end_bytes() + needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
-    counts.partition_bytes += nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needed.total.words} * sizeof(std::uint32_t);
+    counts.segment_bytes += nodes * kernels_.end_bytes() +
+                            needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
+    counts.partition_bytes +=
+        nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needed.total.words} * sizeof(std::uint32_t);
     average_before_ = std::exchange(average_, {.candidates = double(needed.candidates) / rays,
                                                .segments = double(needed.total.segments) / rays,
                                                .words = double(needed.total.words) / rays});

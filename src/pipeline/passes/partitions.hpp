@@ -2,9 +2,9 @@
 //
 //   1 count hits -> 2 store segments -> 3 weave -> 4 evaluate -> 5 shade
 //
-// Either the host reads what the rays need between the kernels and allocates exactly that (trace_counted), or all kernels are
-// queued at once into the buffers at hand (trace_queued). In the second case the kernels write nothing if the rays need more than
-// the capacity that their frame states; the batch's report says what they need.
+// Either the host reads what the rays need between the kernels and allocates exactly that (trace_counted), or all
+// kernels are queued at once into the buffers at hand (trace_queued). In the second case the kernels write nothing if
+// the rays need more than the capacity that their frame states; the batch's report says what they need.
 #pragma once
 
 #include <optional>
@@ -31,10 +31,11 @@ public:
         std::uint32_t rays;
     };
 
-    /// Kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns what the rays need; nothing if
-    /// that does not fit the memory: then the caller takes a smaller batch.
+    /// Kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns what the rays need;
+    /// nothing if that does not fit the memory: then the caller takes a smaller batch.
     std::optional<PartitionSizes> trace_counted(const Input& input, TimedKernels& timed);
-    /// The capacity of the buffers at hand; nothing if it would hardly do for so many rays, as far as earlier rays tell.
+    /// The capacity of the buffers at hand; nothing if it would hardly do for so many rays, as far as earlier rays
+    /// tell.
     std::optional<PartitionSizes> capacity_for(std::uint32_t rays) const;
     /// Kernels 1 to 4 in the buffers at hand. The frame's capacities are `capacity`. Does not wait.
     void trace_queued(const Input& input, const PartitionSizes& capacity, TimedKernels& timed);
@@ -82,14 +83,14 @@ private:
         Kernel count, list;
     };
     std::optional<PacketCandidates> packet_candidates_;  ///< on processors
-    Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_sums_, scan_add_, store_segments_, order_ends_, weave_,
-        evaluate_, shade_;
+    Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_sums_, scan_add_, store_segments_, order_ends_,
+        weave_, evaluate_, shade_;
     PartitionMemory memory_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;
-    kernel::RayCount counted_{};         ///< by the last trace_counted
+    kernel::RayCount counted_{};        ///< by the last trace_counted
     Average average_, average_before_;  ///< of the last rays whose sizes are known, and of those before
-    std::size_t tally_count_ = 0;        ///< of sums
+    std::size_t tally_count_ = 0;       ///< of sums
     QueuedRead read_, read_total_;
 };
 

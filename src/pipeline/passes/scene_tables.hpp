@@ -17,7 +17,7 @@ public:
     /// A frame's lights, as its kernels read them. Waits.
     void set_lights(const std::vector<std::byte>& lights);
 
-    const Buffer& nodes() const { return nodes_; }                                                ///< the scene's hierarchy
+    const Buffer& nodes() const { return nodes_; }  ///< the scene's hierarchy
     auto geometry() const { return std::tie(solids_, reals_, planes_, words_, inner_nodes_); }  ///< GEOMETRY_ARGS
     auto regions() const { return std::tie(starts_, trees_); }                                  ///< REGION_ARGS
     auto appearance() const { return std::tie(materials_, lights_); }                           ///< APPEARANCE_ARGS

@@ -24,10 +24,11 @@ std::array<Event, 2> TileListPass::list(const RayBatch& batch, BatchBuffers& buf
 }
 
 Event TileListPass::write_background(const kernel::Frame& frame, const RayBatch& batch, const Buffer& costs,
-                                     const kernel::ChannelValues& background, std::uint32_t channels, const Buffer& picture) {
+                                     const kernel::ChannelValues& background, std::uint32_t channels,
+                                     const Buffer& picture) {
     if (channels == 0) return {};
-    return write_background_->launch(batch.rays, tile_rays, costs, frame.screen, cl_uint{batch.first}, cl_uint{frame.rows},
-                                     cl_uint{channels}, background, picture);
+    return write_background_->launch(batch.rays, tile_rays, costs, frame.screen, cl_uint{batch.first},
+                                     cl_uint{frame.rows}, cl_uint{channels}, background, picture);
 }
 
 }  // namespace csgrt

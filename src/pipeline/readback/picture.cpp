@@ -35,8 +35,12 @@ struct Run {
 class Tiles {
 public:
     Tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-           const float* values, const RenderTarget& target)
-        : rows_(frame, first, end), width_(frame.width), drawn_(drawn.size()), values_(values), places_(end - first, none),
+          const float* values, const RenderTarget& target)
+        : rows_(frame, first, end),
+          width_(frame.width),
+          drawn_(drawn.size()),
+          values_(values),
+          places_(end - first, none),
           target_(target) {
         for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
         std::size_t covered = 0;
@@ -46,7 +50,8 @@ public:
 
     void put() const {
         const std::size_t rows = rows_.count();
-        const std::size_t rows_a_chunk = std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
+        const std::size_t rows_a_chunk =
+            std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
         for_chunks(rows, rows_a_chunk, target_.threads, [&](std::size_t row, std::size_t last, std::size_t) {
             std::vector<Run> runs;
             for (; row < last; ++row) {
@@ -86,7 +91,7 @@ private:
                 for (const Run& run : runs) {
                     if (run.place != none)
                         copy(line + run.begin, run.end - run.begin,
-                                   values_ + ((c * drawn_ + run.place) * TILE + y) * TILE);
+                             values_ + ((c * drawn_ + run.place) * TILE + y) * TILE);
                     else
                         std::fill_n(line + run.begin, run.end - run.begin, channel.background);
                 }
@@ -106,7 +111,7 @@ private:
 }  // namespace
 
 void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                const float* values, const RenderTarget& target) {
+               const float* values, const RenderTarget& target) {
     Tiles(frame, first, end, drawn, values, target).put();
 }
 
@@ -121,18 +126,20 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
     std::size_t floats = 0;
     for (const Rectangle& r : rectangles)
         for (std::size_t p = 0; p < target.channels.size(); ++p) {
-            parts.push_back({&r, values + r.begin + p * r.size(), target.channels[p].pixels + r.top * frame.width + r.left});
+            parts.push_back(
+                {&r, values + r.begin + p * r.size(), target.channels[p].pixels + r.top * frame.width + r.left});
             floats += r.size();
         }
     const std::size_t threads = 1 + floats / floats_a_thread;
     const unsigned most = thread_count(target.threads);
-    for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)), [&](std::size_t i, std::size_t, std::size_t) {
-        if (arrived) arrived(i);
-        const ChannelLines& part = parts[i];
-        const std::size_t columns = part.rectangle->columns();
-        for (std::size_t line = 0; line < part.rectangle->lines(); ++line)
-            std::copy_n(part.values + line * columns, columns, part.pixels + line * frame.width);
-    });
+    for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)),
+               [&](std::size_t i, std::size_t, std::size_t) {
+                   if (arrived) arrived(i);
+                   const ChannelLines& part = parts[i];
+                   const std::size_t columns = part.rectangle->columns();
+                   for (std::size_t line = 0; line < part.rectangle->lines(); ++line)
+                       std::copy_n(part.values + line * columns, columns, part.pixels + line * frame.width);
+               });
 }
 
 void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
@@ -149,16 +156,17 @@ void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
         find(row * across, row * across + (is_within ? left : across));
         if (is_within) find(row * across + right, (row + 1) * across);
     }
-    for_chunks(covered.size(), pixels_a_thread / (TILE * TILE), target.threads, [&](std::size_t i, std::size_t last, std::size_t) {
-        for (; i < last; ++i) {
-            const std::size_t x = covered[i] % across * TILE, y = covered[i] / across * TILE;
-            const std::size_t columns = std::min<std::size_t>(TILE, frame.width - x);
-            for (const ChannelMemory& channel : target.channels)
-                for (std::size_t line = y; line < std::min<std::size_t>(y + TILE, frame.height); ++line)
-                    std::fill_n(channel.pixels + line * frame.width + x, columns, channel.background);
-            target.covered[covered[i]] = 0;
-        }
-    });
+    for_chunks(covered.size(), pixels_a_thread / (TILE * TILE), target.threads,
+               [&](std::size_t i, std::size_t last, std::size_t) {
+                   for (; i < last; ++i) {
+                       const std::size_t x = covered[i] % across * TILE, y = covered[i] / across * TILE;
+                       const std::size_t columns = std::min<std::size_t>(TILE, frame.width - x);
+                       for (const ChannelMemory& channel : target.channels)
+                           for (std::size_t line = y; line < std::min<std::size_t>(y + TILE, frame.height); ++line)
+                               std::fill_n(channel.pixels + line * frame.width + x, columns, channel.background);
+                       target.covered[covered[i]] = 0;
+                   }
+               });
 }
 
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,

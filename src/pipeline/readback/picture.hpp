@@ -25,10 +25,11 @@ struct RenderTarget {
     const RegisteredMemory* registered = nullptr;  ///< the channels' memory, as far as devices copy into it
 };
 
-/// Writes the pixels of the screen's tiles from number `first` to `end`. `drawn`: the tiles that were drawn, in any order;
-/// `values`: for each channel the floats of their rays, tile by tile. The others become background if they were covered.
+/// Writes the pixels of the screen's tiles from number `first` to `end`. `drawn`: the tiles that were drawn, in any
+/// order; `values`: for each channel the floats of their rays, tile by tile. The others become background if they were
+/// covered.
 void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-                const float* values, const RenderTarget& target);
+               const float* values, const RenderTarget& target);
 
 /// Writes the background into the covered tiles outside of the frame's screen bounds.
 void clear_around(const kernel::Frame& frame, const RenderTarget& target);
@@ -43,8 +44,8 @@ struct Rectangle {
     std::size_t size() const { return columns() * lines(); }
 };
 
-/// Writes rectangles' pixels. `arrived`, if there is one, is called before the values of part i are read: part i is channel
-/// i % channels of rectangle i / channels. Several threads call it.
+/// Writes rectangles' pixels. `arrived`, if there is one, is called before the values of part i are read: part i is
+/// channel i % channels of rectangle i / channels. Several threads call it.
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
                     const RenderTarget& target, const std::function<void(std::size_t)>& arrived = nullptr);
 

@@ -22,8 +22,8 @@ TileRows::Extent extent_of(std::span<const std::uint8_t> bytes, std::size_t left
     return begin == end ? TileRows::Extent{} : TileRows::Extent{left + begin, left + end};
 }
 
-/// A row's pixels; where there is room beside them, whole lines of the processor's cache, the first of which begins with
-/// pixel `aligned`: a GPU writes those a quarter sooner (docs/experiments/gpu-frames.md).
+/// A row's pixels; where there is room beside them, whole lines of the processor's cache, the first of which begins
+/// with pixel `aligned`: a GPU writes those a quarter sooner (docs/experiments/gpu-frames.md).
 Rectangle pixels_of(const TileRows& rows, std::size_t row, TileRows::Extent extent, std::size_t aligned) {
     constexpr std::size_t line = 64 / sizeof(float);
     const TileRows::Extent all = rows.whole(row);
@@ -43,7 +43,8 @@ bool hold(const TileRows& rows, const Rectangle& r) {
     return fits(r.top) && fits(r.bottom - 1);
 }
 
-constexpr std::size_t copy_cost = 1 << 12;  // pixels that a copy's begin takes as long as (docs/experiments/gpu-frames.md)
+constexpr std::size_t copy_cost =
+    1 << 12;  // pixels that a copy's begin takes as long as (docs/experiments/gpu-frames.md)
 
 /// Of rows that follow each other, what is between two columns of tiles.
 struct Part {
@@ -56,8 +57,8 @@ Part around(const Part& a, const Part& b) {
     return {std::min(a.first_row, b.first_row),
             std::max(a.end_row, b.end_row),
             {std::min(a.columns.begin, b.columns.begin), std::max(a.columns.end, b.columns.end)},
-            {std::min(a.pixels.left, b.pixels.left), std::max(a.pixels.right, b.pixels.right), std::min(a.pixels.top, b.pixels.top),
-             std::max(a.pixels.bottom, b.pixels.bottom)}};
+            {std::min(a.pixels.left, b.pixels.left), std::max(a.pixels.right, b.pixels.right),
+             std::min(a.pixels.top, b.pixels.top), std::max(a.pixels.bottom, b.pixels.bottom)}};
 }
 
 /// The batch's tiles that are needed, and what holds them.
@@ -66,11 +67,13 @@ public:
     Needed(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
            const RenderTarget& target)
         : rows_(frame, first, end), across_(kernel::tiles_across(frame.screen)), tiles_(rows_.count() * across_) {
-        const std::size_t behind = reinterpret_cast<std::uintptr_t>(target.channels.front().pixels) % 64 / sizeof(float);
+        const std::size_t behind =
+            reinterpret_cast<std::uintptr_t>(target.channels.front().pixels) % 64 / sizeof(float);
         aligned_ = (16 - behind) % 16;
         for (std::size_t row = 0; row < rows_.count(); ++row) {
             const TileRows::Extent all = rows_.whole(row);
-            const std::uint8_t *own = shown.data() + rows_.place(row, all.begin), *covered = rows_.covered(row, target).data();
+            const std::uint8_t *own = shown.data() + rows_.place(row, all.begin),
+                               *covered = rows_.covered(row, target).data();
             std::uint8_t* const needed = tiles_.data() + row * across_ + all.begin;
             for (std::size_t i = 0; i < all.end - all.begin; ++i) needed[i] = own[i] | covered[i];
         }
@@ -165,8 +168,8 @@ std::vector<Rectangle> find_rectangles(const kernel::Frame& frame, std::uint32_t
     return Needed(frame, first, end, shown, target).rectangles();
 }
 
-void mark_covered(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint8_t> shown,
-                const RenderTarget& target) {
+void mark_covered(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
+                  std::span<const std::uint8_t> shown, const RenderTarget& target) {
     const TileRows rows(frame, first, end);
     for (std::size_t row = 0; row < rows.count(); ++row) {
         const auto covered = rows.covered(row, target);

@@ -13,8 +13,8 @@ public:
     /// All channels of a picture, `bytes` from `data` on. The memory must outlive this.
     RegisteredMemory(void* data, std::size_t bytes) : data_(data), bytes_(bytes) {}
 
-    /// Registers the memory with a device, which takes a tenth of a second a gigabyte. A driver may refuse: then the device's
-    /// pixels come by staging memory.
+    /// Registers the memory with a device, which takes a tenth of a second a gigabyte. A driver may refuse: then the
+    /// device's pixels come by staging memory.
     void add(const Device& device);
     bool has(const Device& device) const { return registered_.contains(device.context()); }
 

@@ -52,9 +52,14 @@ void ReadbackRing::collect(const kernel::Frame& frame, const RayBatch& batch, st
     for (Rectangle& r : rectangles) {
         r.begin = floats;
         floats += r.size() * target.channels.size();
-        copies.push_back({.columns = r.columns(), .lines = r.lines(), .channels = target.channels.size(),
-                          .begin = (r.top - all.top) * all.columns() + r.left - all.left, .pitch = all.columns(), .slice = all.size(),
-                          .target = target.channels.front().pixels + r.top * frame.width + r.left, .target_pitch = frame.width,
+        copies.push_back({.columns = r.columns(),
+                          .lines = r.lines(),
+                          .channels = target.channels.size(),
+                          .begin = (r.top - all.top) * all.columns() + r.left - all.left,
+                          .pitch = all.columns(),
+                          .slice = all.size(),
+                          .target = target.channels.front().pixels + r.top * frame.width + r.left,
+                          .target_pitch = frame.width,
                           .target_slice = std::size_t{frame.width} * frame.height});
     }
     if (is_registered) {
@@ -63,7 +68,8 @@ void ReadbackRing::collect(const kernel::Frame& frame, const RayBatch& batch, st
     }
     const std::size_t pixels = std::size_t{frame.width} * frame.height;
     const bool has_many_batches = pixels > 2 * std::size_t{batch.rays};  // another of which may have more to copy
-    Staging& staging = free_staging(std::max(floats, has_many_batches ? batch.rays * target.channels.size() : 0) * sizeof(float));
+    Staging& staging =
+        free_staging(std::max(floats, has_many_batches ? batch.rays * target.channels.size() : 0) * sizeof(float));
     for (std::size_t i = 0; i < copies.size(); ++i) {
         copies[i].target = static_cast<float*>(staging.memory->data()) + rectangles[i].begin;
         copies[i].target_pitch = rectangles[i].columns();
@@ -87,7 +93,8 @@ ReadbackRing::Staging& ReadbackRing::free_staging(std::size_t bytes) {
 }
 
 void ReadbackRing::copy_by_thread(const kernel::Frame& frame, std::vector<Rectangle> rectangles,
-                                  std::vector<CopyFeed::Copy> copies, const RenderTarget& target, Staging& staging, DevicePicture& picture) {
+                                  std::vector<CopyFeed::Copy> copies, const RenderTarget& target, Staging& staging,
+                                  DevicePicture& picture) {
     const auto* const values = static_cast<const float*>(staging.memory->data());
     const auto copied = picture.copied = copies_.add(picture.buffer, std::move(copies));
     const auto put_all = [=, rectangles = std::move(rectangles)] {
@@ -104,8 +111,8 @@ void ReadbackRing::copy_by_thread(const kernel::Frame& frame, std::vector<Rectan
 
 // The host copies a channel of a rectangle as soon as it is there.
 void ReadbackRing::copy_at_once(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
-                                std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Staging& staging,
-                                const Buffer& picture) {
+                                std::span<const CopyFeed::Copy> copies, const RenderTarget& target,
+                                const Staging& staging, const Buffer& picture) {
     const auto* const values = static_cast<const float*>(staging.memory->data());
     constexpr std::size_t piece = std::size_t{1} << 18;  // floats that are worth a copy of their own
     struct Pieces {
@@ -127,7 +134,8 @@ void ReadbackRing::copy_at_once(const kernel::Frame& frame, std::span<const Rect
             device_.flush_copies();
         }
     }
-    put_rectangles(frame, rectangles, values, target, [&](std::size_t i) { wait_for(pieces.events[pieces.event_of[i]]); });
+    put_rectangles(frame, rectangles, values, target,
+                   [&](std::size_t i) { wait_for(pieces.events[pieces.event_of[i]]); });
 }
 
 void ReadbackRing::finish() {

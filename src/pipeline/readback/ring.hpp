@@ -1,8 +1,8 @@
 // Pixels of a GPU's batches on their way into the picture, while the GPU draws the next batches.
 //
-// A batch is drawn into a row-major picture on the device. Rectangles of it that show something, or did so before, are copied
-// into the target: by the GPU itself where the target's memory is registered with it, else into staging memory, from which the
-// host copies them.
+// A batch is drawn into a row-major picture on the device. Rectangles of it that show something, or did so before, are
+// copied into the target: by the GPU itself where the target's memory is registered with it, else into staging memory,
+// from which the host copies them.
 #pragma once
 
 #include <array>
@@ -29,17 +29,18 @@ public:
 
     explicit ReadbackRing(Device& device);
 
-    /// Memory for a batch's picture, until collect() or cancel(). Nothing if batches use all of it or the device has no more.
+    /// Memory for a batch's picture, until collect() or cancel(). Nothing if batches use all of it or the device has no
+    /// more.
     DevicePicture* acquire(std::size_t bytes);
     static void cancel(DevicePicture& picture) noexcept { picture.is_in_use = false; }
     /// Returns when the pixels that were in it are copied, so that kernels may write it. Throws what kept them from it.
     static void wait(DevicePicture& picture);
 
-    /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: of each tile a byte, not 0 if it shows
-    /// something. May return before the copies are made: the target must live until finish() or abandon(). Of a frame's last
-    /// batch only copies into registered memory are left then.
-    void collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown, DevicePicture& picture,
-                 bool is_last, const RenderTarget& target);
+    /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: of each tile a byte, not 0
+    /// if it shows something. May return before the copies are made: the target must live until finish() or abandon().
+    /// Of a frame's last batch only copies into registered memory are left then.
+    void collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown,
+                 DevicePicture& picture, bool is_last, const RenderTarget& target);
     /// Returns when all copies are made. Throws what kept one from being made.
     void finish();
     /// The same, but throws nothing, and no batch uses a picture any more.
@@ -57,10 +58,12 @@ private:
         std::future<void> done;  ///< its destructor waits until nothing works on the memory
     };
     Staging& free_staging(std::size_t bytes);
-    void copy_by_thread(const kernel::Frame& frame, std::vector<Rectangle> rectangles, std::vector<CopyFeed::Copy> copies,
-                        const RenderTarget& target, Staging& staging, DevicePicture& picture);
-    void copy_at_once(const kernel::Frame& frame, std::span<const Rectangle> rectangles, std::span<const CopyFeed::Copy> copies,
-                      const RenderTarget& target, const Staging& staging, const Buffer& picture);
+    void copy_by_thread(const kernel::Frame& frame, std::vector<Rectangle> rectangles,
+                        std::vector<CopyFeed::Copy> copies, const RenderTarget& target, Staging& staging,
+                        DevicePicture& picture);
+    void copy_at_once(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
+                      std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Staging& staging,
+                      const Buffer& picture);
 
     Device& device_;
     std::vector<DevicePicture> pictures_;

@@ -44,8 +44,13 @@ public:
 
     /// The screen's tiles from number `first` to `end`.
     TileRows(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end)
-        : screen_(frame.screen), across_(kernel::tiles_across(screen_)), picture_across_((frame.width + TILE - 1) / TILE),
-          first_(first), end_(end), first_row_(first / across_), count_((end + across_ - 1) / across_ - first_row_) {}
+        : screen_(frame.screen),
+          across_(kernel::tiles_across(screen_)),
+          picture_across_((frame.width + TILE - 1) / TILE),
+          first_(first),
+          end_(end),
+          first_row_(first / across_),
+          count_((end + across_ - 1) / across_ - first_row_) {}
 
     std::size_t count() const { return count_; }
     Extent whole(std::size_t row) const {
@@ -57,12 +62,15 @@ public:
     /// The target's account of a row: not 0 for tiles that hold anything but background.
     std::span<std::uint8_t> covered(std::size_t row, const RenderTarget& target) const {
         const Extent all = whole(row);
-        return target.covered.subspan((screen_.top / TILE + first_row_ + row) * picture_across_ + screen_.left / TILE + all.begin,
-                                    all.end - all.begin);
+        return target.covered.subspan(
+            (screen_.top / TILE + first_row_ + row) * picture_across_ + screen_.left / TILE + all.begin,
+            all.end - all.begin);
     }
 
     /// The picture's column that a tile of the screen begins with, and the line that a row does.
-    std::size_t column(std::size_t tile) const { return std::min<std::size_t>(screen_.left + tile * TILE, screen_.right); }
+    std::size_t column(std::size_t tile) const {
+        return std::min<std::size_t>(screen_.left + tile * TILE, screen_.right);
+    }
     std::size_t top(std::size_t row) const {
         return std::min<std::size_t>(screen_.top + (first_row_ + row) * TILE, screen_.bottom);
     }

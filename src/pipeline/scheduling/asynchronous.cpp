@@ -51,8 +51,9 @@ AsynchronousSchedule::Batch* AsynchronousSchedule::with(State state) {
     return found == batches_.end() ? nullptr : &*found;
 }
 
-// Every partition: the kernels of all batches share buffers, so they are queued one after another, but for culling. First hits:
-// each batch has a queue of its own, so that the next one's kernels begin while the longest rays of the last are drawn.
+// Every partition: the kernels of all batches share buffers, so they are queued one after another, but for culling.
+// First hits: each batch has a queue of its own, so that the next one's kernels begin while the longest rays of the
+// last are drawn.
 std::size_t AsynchronousSchedule::queue_of(const Batch& batch, bool every_partition) const {
     return every_partition ? 1 : static_cast<std::size_t>(&batch - batches_.data());
 }
@@ -65,10 +66,18 @@ void AsynchronousSchedule::render(const FrameJob& job) {
     is_memory_short_ = false;
     while (Batch* const batch = next(job)) {
         switch (batch->state) {
-            case State::free: is_memory_short_ = !start_next(*batch, job); break;
-            case State::culled: trace(*batch, job); break;
-            case State::traced: shade(*batch, job); break;
-            case State::shaded: collect(*batch, job); break;
+            case State::free:
+                is_memory_short_ = !start_next(*batch, job);
+                break;
+            case State::culled:
+                trace(*batch, job);
+                break;
+            case State::traced:
+                shade(*batch, job);
+                break;
+            case State::shaded:
+                collect(*batch, job);
+                break;
         }
     }
     if (overflown_.empty()) return;
@@ -144,8 +153,10 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
     batch.frame_upload.start<std::byte>(batch.buffers.frame, frame);
     batch.culling.push_back(passes_.cull(batch.frame).launch(passes_.tables, batch.buffers, batch.frame));
     const std::uint32_t most_in_parts = every ? 0 : TileListPass::most_in_parts(passes_.device);
-    for (Event& event : passes_.tile_list().list(rays, batch.buffers, most_in_parts)) batch.culling.push_back(std::move(event));
-    batch.report_read.start(batch.buffers.report, every ? sizeof(kernel::BatchReport) : BatchBuffers::report_bytes(rays));
+    for (Event& event : passes_.tile_list().list(rays, batch.buffers, most_in_parts))
+        batch.culling.push_back(std::move(event));
+    batch.report_read.start(batch.buffers.report,
+                            every ? sizeof(kernel::BatchReport) : BatchBuffers::report_bytes(rays));
     if (!every) {
         ReadbackRing::wait(*batch.picture);
         write_background(batch, job);
@@ -180,8 +191,8 @@ void AsynchronousSchedule::write_background(Batch& batch, const FrameJob& job) {
         static_cast<std::uint32_t>(job.target.channels.size()), batch.picture->buffer));
 }
 
-// culled -> traced: kernels 1 to 4 are queued behind those of the batch before, if the buffers at hand will probably do; else
-// that one is collected first, and this one's memory is counted.
+// culled -> traced: kernels 1 to 4 are queued behind those of the batch before, if the buffers at hand will probably
+// do; else that one is collected first, and this one's memory is counted.
 void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
     wait_for(batch.culling.back());
     batch.report_read.fetch();
@@ -257,8 +268,8 @@ void AsynchronousSchedule::collect_partitions(Batch& batch, const FrameJob& job)
     read_pixels(batch, job);
 }
 
-// Nothing was written: the rays need more than the buffers at hand hold. The other batch goes back, and this one is traced again
-// in memory that is counted.
+// Nothing was written: the rays need more than the buffers at hand hold. The other batch goes back, and this one is
+// traced again in memory that is counted.
 void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     passes_.device.finish();
     ++job.counts.retried;
@@ -271,7 +282,8 @@ void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
     trace_alone(batch, job);
 }
 
-// culled -> traced, in memory that is counted, while no other batch is underway; or -> free, and the source has the batch in halves.
+// culled -> traced, in memory that is counted, while no other batch is underway; or -> free, and the source has the
+// batch in halves.
 void AsynchronousSchedule::trace_alone(Batch& batch, const FrameJob& job) {
     if (!try_alone(batch, job)) {  // memory that is kept for later is taken before a smaller batch
         for (Batch& one : batches_)

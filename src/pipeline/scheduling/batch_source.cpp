@@ -8,8 +8,8 @@
 namespace csgrt {
 namespace {
 
-// The range's first batch, of at most `most` rays: whole tiles, or parts of one; and whole rows of the screen's tiles if they are
-// many, for what a GPU copies of them is in few pieces then.
+// The range's first batch, of at most `most` rays: whole tiles, or parts of one; and whole rows of the screen's tiles
+// if they are many, for what a GPU copies of them is in few pieces then.
 std::uint64_t end_of_batch(const RayRange& range, std::uint64_t most, std::uint64_t row) {
     const std::uint64_t end = std::min(range.first + most, range.end), in_tile = range.first % tile_rays;
     if (row == 0) return end;
@@ -43,7 +43,8 @@ RayBatch BatchSource::next() {
 
 void BatchSource::halve(const RayBatch& batch, std::uint64_t budget) {
     if (batch.rays == 1)
-        throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" + std::to_string(budget >> 20) +
+        throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
+                                               std::to_string(budget >> 20) +
                                                " MiB): raise --max-memory, or use --reference");
     size_ = batch.rays / 2;
     give_back(batch);

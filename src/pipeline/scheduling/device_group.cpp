@@ -12,8 +12,8 @@
 namespace csgrt {
 namespace {
 
-// Parts of a device's share of what the rays cost. Of first hits, launches soon cost as much as rays; of every partition, what the host
-// waits for in each (docs/experiments/gpu-frames.md).
+// Parts of a device's share of what the rays cost. Of first hits, launches soon cost as much as rays; of every
+// partition, what the host waits for in each (docs/experiments/gpu-frames.md).
 constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 5;
 
 constexpr const char* registered_name = "registered memory";
@@ -22,8 +22,8 @@ constexpr const char* registered_name = "registered memory";
 
 static std::atomic<std::uint64_t> next_number{1};
 
-DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
-                     const Settings& settings, Readback readback)
+DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene,
+                         const HostKernels& kernels, const Settings& settings, Readback readback)
     : number_(next_number++) {
     const auto start = Clock::now();
     for (const FoundDevice& device : devices) {
@@ -33,8 +33,8 @@ DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const Compiled
     setup_ms_ = milliseconds_since(start);
 }
 
-// One device alone takes all rays as batches of its own, unless it copies the first ones' pixels while it draws others; of every
-// partition it has large ones.
+// One device alone takes all rays as batches of its own, unless it copies the first ones' pixels while it draws others;
+// of every partition it has large ones.
 std::uint64_t DeviceGroup::parts_of(const RayCosts& costs, bool every_partition) const {
     constexpr std::uint64_t large = RayCosts::of_shown << 22;
     const bool is_alone = pipelines_.size() == 1;
@@ -43,7 +43,8 @@ std::uint64_t DeviceGroup::parts_of(const RayCosts& costs, bool every_partition)
 }
 
 // A thread for each device. What the first of the devices threw is thrown, once all threads have stopped.
-void DeviceGroup::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work) {
+void DeviceGroup::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts,
+                        const Work& work) {
     const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
     const bool is_one = parts_each == 1 || rays <= tile_rays;
     const std::size_t devices = is_one ? 1 : pipelines_.size();
@@ -98,14 +99,16 @@ void DeviceGroup::drop_claims() {
     });
 }
 
-std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const ChannelMemory> channels, std::size_t pixels) {
+std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const ChannelMemory> channels,
+                                                               std::size_t pixels) {
     drop_claims();
     const std::size_t bytes = channels.size() * pixels * sizeof(float);
     if (bytes == 0) return nullptr;
     auto registered = std::make_shared<RegisteredMemory>(channels.front().pixels, bytes);
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         Device& device = *devices_[i];
-        if (!pipelines_[i]->is_asynchronous() || bytes > std::min(device.available() / 2, device.max_buffer())) continue;
+        if (!pipelines_[i]->is_asynchronous() || bytes > std::min(device.available() / 2, device.max_buffer()))
+            continue;
         registered->add(device);
         if (!registered->has(device)) continue;
         device.claim(registered_name, bytes);
@@ -115,7 +118,7 @@ std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const C
 }
 
 void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
-                       PipelineCounts& counts) {
+                         PipelineCounts& counts) {
     drop_claims();
     RenderTarget shared = target;  // until nothing more comes into it
     shared.threads = std::max(1u, thread_count(0) / static_cast<unsigned>(pipelines_.size()));
@@ -134,7 +137,7 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
 }
 
 std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                            const Progress& progress, PipelineCounts& counts) {
+                                              const Progress& progress, PipelineCounts& counts) {
     drop_claims();
     std::vector<RayPartitions> answers(rays.size());
     share(RayCosts(rays.size()), true, progress, counts,

@@ -1,5 +1,5 @@
-// One or several devices. Each has the scene and a pipeline of its own, and takes the next part of a frame, or of a list of rays,
-// when it is done with the last. Nothing that a ray computes depends on its device.
+// One or several devices. Each has the scene and a pipeline of its own, and takes the next part of a frame, or of a
+// list of rays, when it is done with the last. Nothing that a ray computes depends on its device.
 #pragma once
 
 #include <functional>
@@ -18,29 +18,30 @@ class DeviceGroup {
 public:
     /// On these devices; `settings.device` has no part in it. The scene and the kernels must outlive this.
     DeviceGroup(const std::vector<FoundDevice>& devices, const CompiledScene& scene, const HostKernels& kernels,
-              const Settings& settings, Readback readback = Readback::by_device);
+                const Settings& settings, Readback readback = Readback::by_device);
 
     /// No two in a process have the same, which is not 0.
     std::uint64_t number() const noexcept { return number_; }
 
     void prepare(bool every_partition);
-    /// Registers the memory of a picture that will be drawn into again with those GPUs that have room for it: `pixels` floats of
-    /// each channel, one channel after the other. It must outlive what is returned; this group need not.
+    /// Registers the memory of a picture that will be drawn into again with those GPUs that have room for it: `pixels`
+    /// floats of each channel, one channel after the other. It must outlive what is returned; this group need not.
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
     /// As Pipeline's. One thread at a time calls `progress`. Throws Error (interrupted), too, if it says not to go on.
     void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
                 PipelineCounts& counts);
-    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, const Progress& progress,
-                                     PipelineCounts& counts);
+    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
+                                     const Progress& progress, PipelineCounts& counts);
 
-    std::string name() const;             ///< "A", or "A + B"
-    std::uint64_t device_bytes() const;   ///< of all devices: in buffers, and what drivers hold of registered memory
+    std::string name() const;            ///< "A", or "A + B"
+    std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and what drivers hold of registered memory
     double build_ms() const;  ///< to set up the devices, and of the one that took longest to compile its kernels
 
 private:
     using Work = std::function<void(Pipeline&, const TakeRays&, const Told&, PipelineCounts&)>;
     std::uint64_t parts_of(const RayCosts& costs, bool every_partition) const;
-    void share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts, const Work& work);
+    void share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts,
+               const Work& work);
 
     void drop_claims();
 

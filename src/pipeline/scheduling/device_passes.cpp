@@ -4,8 +4,14 @@
 
 namespace csgrt {
 
-DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const HostKernels& host_kernels, const Settings& settings)
-    : device(on), scene(compiled), kernels(host_kernels), tables(on, compiled, host_kernels.tables()), settings_(settings), tile_list_(on) {}
+DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const HostKernels& host_kernels,
+                           const Settings& settings)
+    : device(on),
+      scene(compiled),
+      kernels(host_kernels),
+      tables(on, compiled, host_kernels.tables()),
+      settings_(settings),
+      tile_list_(on) {}
 
 template <class Build>
 void DevicePasses::timed_build(const Build& build) {

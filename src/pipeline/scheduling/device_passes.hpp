@@ -46,7 +46,9 @@ public:
     FirstHitPass& first_hits();
     PartitionPass& partitions();
     TileListPass& tile_list();
-    CullPass& cull(const kernel::Frame& frame) { return frame.every_partition ? partitions().cull() : first_hits().cull(); }
+    CullPass& cull(const kernel::Frame& frame) {
+        return frame.every_partition ? partitions().cull() : first_hits().cull();
+    }
     double build_ms() const { return build_ms_; }  ///< spent on compiling so far
 
     std::uint64_t held() const { return partitions_ ? partitions_->held() : 0; }

@@ -25,7 +25,8 @@ RayCosts::RayCosts(const kernel::Frame& frame, const RenderTarget& target) {
     std::vector<std::uint64_t> covered;  // of a band's middle row
     std::uint64_t all = 0;
     for (std::size_t first = 0; first < down; first += rows_a_band) {
-        covered.push_back(count_covered(rows.covered((first + std::min<std::size_t>(first + rows_a_band, down)) / 2, target)));
+        covered.push_back(
+            count_covered(rows.covered((first + std::min<std::size_t>(first + rows_a_band, down)) / 2, target)));
         all += covered.back();
     }
     for (std::size_t band = 0; band < covered.size(); ++band) {
@@ -73,7 +74,8 @@ RayRange Parts::take() {
     const std::uint64_t size = std::clamp(std::min(begin, end), std::max(smallest, std::min(most_, least_)), most_);
     RayRange& half = left_[taken_++ % left_.size()];
     RayRange part{half.first, std::min(costs_.end(half.first, size), half.end)};
-    if (costs_.before(half.end) - costs_.before(part.end) < size / 4) part.end = half.end;  // which would be left for another
+    if (costs_.before(half.end) - costs_.before(part.end) < size / 4)
+        part.end = half.end;  // which would be left for another
     half.first = part.end;
     return part;
 }

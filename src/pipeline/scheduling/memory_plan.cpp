@@ -20,10 +20,12 @@ std::uint64_t rays_fitting(const DeviceMemory& memory, std::uint64_t ray_bytes) 
     return std::clamp<std::uint64_t>(bytes / ray_bytes, 1, most);
 }
 
-MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std::uint32_t underway, std::uint64_t most_rays) {
+MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std::uint32_t underway,
+                       std::uint64_t most_rays) {
     const std::uint64_t own = frame.every_partition ? PartitionMemory::ray_bytes : FirstHitPass::ray_bytes;
     MemoryPlan plan;
-    plan.ray_bytes = underway * (frame.pixel_bytes + sizeof(std::uint32_t) + own) + CullPass::bytes(tile_rays) / tile_rays;
+    plan.ray_bytes =
+        underway * (frame.pixel_bytes + sizeof(std::uint32_t) + own) + CullPass::bytes(tile_rays) / tile_rays;
     const std::uint64_t all = std::uint64_t{frame.tiles_across} * frame.tiles_down * tile_rays;
     plan.batch_rays = std::max<std::uint64_t>(1, std::min({rays_fitting(memory, plan.ray_bytes), all, most_rays}));
     return plan;
@@ -31,8 +33,8 @@ MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std:
 
 std::uint64_t batch_bytes(const FrameShape& frame, const RayBatch& batch, std::uint64_t frame_bytes) {
     const std::uint64_t overflown = frame.every_partition ? 0 : batch.rays * FirstHitPass::ray_bytes;
-    return frame_bytes + CullPass::bytes(batch.rays) + batch.tiles() * sizeof(std::uint32_t) + BatchBuffers::report_bytes(batch) +
-           overflown;
+    return frame_bytes + CullPass::bytes(batch.rays) + batch.tiles() * sizeof(std::uint32_t) +
+           BatchBuffers::report_bytes(batch) + overflown;
 }
 
 }  // namespace csgrt

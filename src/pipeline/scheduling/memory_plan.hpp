@@ -26,14 +26,16 @@ struct MemoryPlan {
     std::uint64_t batch_rays = 1;  ///< at most; less than a tile if the memory holds no more
 };
 
-/// `underway`: batches that have memory at a time. `most_rays`: of a batch. A quarter of the memory is for what is known
-/// beforehand; the rest is for segments and partitions.
-MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std::uint32_t underway, std::uint64_t most_rays);
+/// `underway`: batches that have memory at a time. `most_rays`: of a batch. A quarter of the memory is for what is
+/// known beforehand; the rest is for segments and partitions.
+MemoryPlan plan_memory(const FrameShape& frame, const DeviceMemory& memory, std::uint32_t underway,
+                       std::uint64_t most_rays);
 
 /// Rays that the same quarter holds, of `ray_bytes` each.
 std::uint64_t rays_fitting(const DeviceMemory& memory, std::uint64_t ray_bytes);
 
-/// Bytes of a batch of whole tiles, but for its picture and its partitions: its frame (`frame_bytes`), costs, lists and report.
+/// Bytes of a batch of whole tiles, but for its picture and its partitions: its frame (`frame_bytes`), costs, lists and
+/// report.
 std::uint64_t batch_bytes(const FrameShape& frame, const RayBatch& batch, std::uint64_t frame_bytes);
 
 }  // namespace csgrt

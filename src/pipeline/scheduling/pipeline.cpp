@@ -4,8 +4,8 @@
 
 namespace csgrt {
 
-Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings, Readback readback,
-                   std::uint64_t most_rays)
+Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+                   Readback readback, std::uint64_t most_rays)
     : passes_(device, scene, kernels, settings),
       most_rays_(most_rays),
       synchronous_(passes_, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
@@ -47,10 +47,11 @@ void Pipeline::abandon() noexcept {
     if (asynchronous_) asynchronous_->abandon();
 }
 
-void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers,
-                     const Told& told, PipelineCounts& counts) {
+void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take,
+                     RayPartitions* answers, const Told& told, PipelineCounts& counts) {
     passes_.forget_tallies();  // of a call that threw
-    BatchSource source(take, [&] { return rays_fitting(memory(), synchronous_.shot_ray_bytes()); }, 0);
+    BatchSource source(
+        take, [&] { return rays_fitting(memory(), synchronous_.shot_ray_bytes()); }, 0);
     synchronous_.shoot(prepared.frame, rays, source, answers, told, counts);
 }
 

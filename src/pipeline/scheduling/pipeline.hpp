@@ -1,5 +1,5 @@
-// One device: CompiledScene + Frame -> a picture or partitions. Rays go through in batches. Nothing that a ray computes depends on
-// its batch.
+// One device: CompiledScene + Frame -> a picture or partitions. Rays go through in batches. Nothing that a ray computes
+// depends on its batch.
 #pragma once
 
 #include <optional>
@@ -16,15 +16,15 @@ public:
     /// Of a picture's batch: the pixels of one are copied while the next is drawn.
     static constexpr std::uint64_t most_rays_drawn = 1u << 22;
 
-    /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same precision.
-    /// `most_rays`: of a picture's batch. All three objects must outlive the pipeline.
+    /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same
+    /// precision. `most_rays`: of a picture's batch. All three objects must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
              Readback readback = Readback::by_device, std::uint64_t most_rays = most_rays_drawn);
 
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition);
-    /// Draws the frame's rays, so far as `take` gives them; each range begins with a tile. Some pixels may come into the target
-    /// until finish(). Throws Error (out_of_memory, device_fault).
+    /// Draws the frame's rays, so far as `take` gives them; each range begins with a tile. Some pixels may come into
+    /// the target until finish(). Throws Error (out_of_memory, device_fault).
     void render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
                 PipelineCounts& counts);
     /// Returns when the target holds all that was drawn. Throws what kept it from that.
@@ -32,8 +32,8 @@ public:
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
     /// An answer for each ray that `take` gives.
-    void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers, const Told& told,
-               PipelineCounts& counts);
+    void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers,
+               const Told& told, PipelineCounts& counts);
 
     bool is_asynchronous() const { return asynchronous_.has_value(); }
     double build_ms() const { return passes_.build_ms(); }  ///< spent on compiling kernels so far

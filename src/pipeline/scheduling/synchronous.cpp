@@ -52,7 +52,8 @@ std::optional<PartitionSizes> SynchronousSchedule::trace(const PartitionPass::In
     return passes_.partitions().trace_counted(input, timed);
 }
 
-void SynchronousSchedule::finish_trace(std::uint32_t rays, bool are_tallied, TimedKernels& timed, PipelineCounts& counts) {
+void SynchronousSchedule::finish_trace(std::uint32_t rays, bool are_tallied, TimedKernels& timed,
+                                       PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();
     if (are_tallied) pass.sum_tallies(rays, timed);
     passes_.device.finish();
@@ -95,13 +96,15 @@ bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch)
     }
     {
         const Buffer::Mapping picture = picture_.map(seen.size() * tile_rays * pixel_bytes);
-        put_tiles(frame, batch.first_tile(), batch.end_tile(), seen, static_cast<const float*>(picture.data()), job.target);
+        put_tiles(frame, batch.first_tile(), batch.end_tile(), seen, static_cast<const float*>(picture.data()),
+                  job.target);
     }
     draw_pixels(job, overflown);
     return true;
 }
 
-void SynchronousSchedule::draw_first_hits(const FrameJob& job, std::uint32_t rays, std::vector<std::uint32_t>& overflown) {
+void SynchronousSchedule::draw_first_hits(const FrameJob& job, std::uint32_t rays,
+                                          std::vector<std::uint32_t>& overflown) {
     batch_.report.reserve(sizeof(kernel::BatchReport));
     batch_.report.queue_fill(0, sizeof(kernel::BatchReport));
     const TimedKernels timed = passes_.first_hits().launch(passes_.tables, batch_, picture_, rays);
@@ -125,8 +128,11 @@ void SynchronousSchedule::draw_pixels(const FrameJob& job, std::span<const std::
     const std::uint64_t pixel_bytes = job.shape().pixel_bytes;
     const std::uint64_t ray_bytes = pixel_bytes + sizeof(std::uint32_t) + PartitionMemory::ray_bytes;
     bool is_taken = false;
-    BatchSource source([&] { return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, numbers.size()}; },
-                       [&] { return rays_fitting(memory(), ray_bytes); }, 0);
+    BatchSource source(
+        [&] {
+            return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, numbers.size()};
+        },
+        [&] { return rays_fitting(memory(), ray_bytes); }, 0);
     for_each_batch(source, passes_.device, [&](const RayBatch& batch) {
         const auto some = numbers.subspan(batch.first, batch.rays);
         kernel::Frame frame = job.frame;
@@ -144,8 +150,8 @@ void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch&
     draw_pixels(job, numbers);
 }
 
-void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> rays, BatchSource& source, RayPartitions* answers,
-                                const Told& told, PipelineCounts& counts) {
+void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> rays, BatchSource& source,
+                                RayPartitions* answers, const Told& told, PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();
     picture_.release();
     for_each_batch(source, passes_.device, [&](const RayBatch& batch) {

@@ -1,5 +1,6 @@
-// One batch at a time: the host reads which of its tiles see anything, has kernels run for these alone, and reads their pixels.
-// So processors draw, which share the host's memory. On every device, so single pixels and lists of rays are traced.
+// One batch at a time: the host reads which of its tiles see anything, has kernels run for these alone, and reads their
+// pixels. So processors draw, which share the host's memory. On every device, so single pixels and lists of rays are
+// traced.
 #pragma once
 
 #include <functional>
@@ -21,8 +22,8 @@ public:
     /// The pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
     /// Answers the rays that `source` gives, by number.
-    void shoot(const kernel::Frame& frame, std::span<const Ray> rays, BatchSource& source, RayPartitions* answers, const Told& told,
-               PipelineCounts& counts);
+    void shoot(const kernel::Frame& frame, std::span<const Ray> rays, BatchSource& source, RayPartitions* answers,
+               const Told& told, PipelineCounts& counts);
 
     std::uint64_t shot_ray_bytes() const { return passes_.kernels.ray_bytes() + PartitionMemory::ray_bytes; }
     std::uint64_t held() const { return batch_.held() + picture_.size(); }
@@ -35,7 +36,9 @@ private:
     std::optional<PartitionSizes> trace(const PartitionPass::Input& input, TimedKernels& timed);
     void finish_trace(std::uint32_t rays, bool are_tallied, TimedKernels& timed, PipelineCounts& counts);
     void make_room(std::uint64_t bytes, std::uint64_t reused);
-    void upload(const kernel::Frame& frame) { frame_upload_.start<std::byte>(batch_.frame, passes_.kernels.frame(frame)); }
+    void upload(const kernel::Frame& frame) {
+        frame_upload_.start<std::byte>(batch_.frame, passes_.kernels.frame(frame));
+    }
     /// Makes the frame one of the rays that are listed, uploads both and makes room for their pixels.
     void start_work(kernel::Frame& frame, Work work, std::span<const std::uint32_t> numbers, std::uint64_t pixel_bytes,
                     std::uint64_t ray_bytes);

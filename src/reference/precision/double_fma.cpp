@@ -1,5 +1,5 @@
-// The kernels on the host in double once more, for x86 processors that have fma as an instruction: the same bits, without a
-// call of the C library for each.
+// The kernels on the host in double once more, for x86 processors that have fma as an instruction: the same bits,
+// without a call of the C library for each.
 #include "reference/precision/double_fma.hpp"
 
 #ifdef CSGRT_DOUBLE_FMA

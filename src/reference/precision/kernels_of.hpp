@@ -28,8 +28,8 @@ real convert(double x) { return static_cast<real>(x); }
 }
 [[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) {
     const auto to_wide = [](double x) { return static_cast<wide>(x); };
-    return {to_wide(l.x),  to_wide(l.y),  to_wide(l.z),      to_wide(l.w), to_wide(l.bx), to_wide(l.by),
-            to_wide(l.bz), to_wide(l.cosine), l.r, l.g, l.b, l.beam};
+    return {to_wide(l.x),  to_wide(l.y),      to_wide(l.z), to_wide(l.w), to_wide(l.bx), to_wide(l.by),
+            to_wide(l.bz), to_wide(l.cosine), l.r,          l.g,          l.b,           l.beam};
 }
 [[maybe_unused]] k::MaterialRecord convert(const kernel::MaterialRecord& m) {
     return {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine, m.glow};
@@ -242,8 +242,9 @@ public:
             return {point(r.o), point(r.d)};
         }
     }
-    std::span<const WovenPartition> trace(const kernel::Frame& f, const Ray& ray, [[maybe_unused]] const NearSolids& near,
-                                          std::vector<kernel::End>& ends, Weaver& weaver) const override {
+    std::span<const WovenPartition> trace(const kernel::Frame& f, const Ray& ray,
+                                          [[maybe_unused]] const NearSolids& near, std::vector<kernel::End>& ends,
+                                          Weaver& weaver) const override {
         const k::Frame& frame = convert_frame(f);
         const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
         const real t_min = k::t_min_along(&frame, r);

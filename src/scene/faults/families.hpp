@@ -68,8 +68,8 @@ struct IsFinite {
     bool operator()(const Vec3& v) const { return is_finite(v); }
 };
 
-/// Reports a number that is not finite or beyond the largest length, once a solid. Nothing else is worth saying about such
-/// a solid.
+/// Reports a number that is not finite or beyond the largest length, once a solid. Nothing else is worth saying about
+/// such a solid.
 template <class... Numbers>
 bool all_finite(Faults& faults, const Numbers&... numbers) {
     const IsFinite finite;

@@ -41,12 +41,14 @@ Faults FaultsOf::operator()(const Tor& s) const {
     return faults;
 }
 
-/// BRL-CAD's rule: each of the two semi-axes by itself, c and the one across it, reaches no farther along a radius than the
-/// axis. The ellipse may: it is drawn without what lies in it and its mirror image. Where c points down the second is not asked for.
+/// BRL-CAD's rule: each of the two semi-axes by itself, c and the one across it, reaches no farther along a radius than
+/// the axis. The ellipse may: it is drawn without what lies in it and its mirror image. Where c points down the second
+/// is not asked for.
 Faults FaultsOf::operator()(const Eto& s) const {
     Faults faults;
     if (!all_finite(faults, s.v, s.n, s.c, s.r, s.r_d)) return faults;
-    const bool axis = require_length(faults, "the axis", s.n), semi_axis = require_length(faults, "the semi-axis c", s.c);
+    const bool axis = require_length(faults, "the axis", s.n),
+               semi_axis = require_length(faults, "the semi-axis c", s.c);
     require_positive(faults, "the radius", s.r);
     require_positive(faults, "the semi-axis d", s.r_d);
     if (!axis || !semi_axis || !faults.empty()) return faults;

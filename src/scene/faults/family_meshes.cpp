@@ -13,7 +13,8 @@ bool check_places(Faults& faults, const std::vector<Vec3>& places, const std::st
         const bool finite = is_finite(places[i]);
         if (finite && largest(places[i]) <= Limits::length) continue;
         faults.push_back(what + std::to_string(i) +
-                         (finite ? " lies too far away, at " + number_text(largest(places[i])) + "; " + length_limit() : " has a number that is not finite"));
+                         (finite ? " lies too far away, at " + number_text(largest(places[i])) + "; " + length_limit()
+                                 : " has a number that is not finite"));
         return false;
     }
     return true;

@@ -17,8 +17,8 @@ void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
     }
 }
 
-/// Three edges that make a volume far above what is flat, as most arbs have them: for a solid of size s and thickness t it
-/// is at most 3 t s^2, and s is at most 4 times the largest coordinate.
+/// Three edges that make a volume far above what is flat, as most arbs have them: for a solid of size s and thickness t
+/// it is at most 3 t s^2, and s is at most 4 times the largest coordinate.
 bool plainly_solid(const Arb& s) {
     double reach = 0;
     for (const Vec3& v : s.vertices) reach = std::max({reach, std::abs(v.x), std::abs(v.y), std::abs(v.z)});

@@ -100,7 +100,8 @@ Faults FaultsOf::operator()(const Extrude& s) const {
     if (!all_finite(faults, s.v, s.h, s.a, s.b)) return faults;
     const bool h = require_length(faults, "the height", s.h), a = require_length(faults, "the vector a", s.a),
                b = require_length(faults, "the vector b", s.b);
-    if (h && a && b && dependent(s.a, s.b, s.h)) faults.push_back("the vectors a and b and the height lie in one plane");
+    if (h && a && b && dependent(s.a, s.b, s.h))
+        faults.push_back("the vectors a and b and the height lie in one plane");
     const Faults of_sketch = sketch_faults(s.sketch);
     add(faults, of_sketch);
     if (!of_sketch.empty() || !is_open(s.sketch)) return faults;

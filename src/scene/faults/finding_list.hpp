@@ -40,8 +40,11 @@ public:
     /// All of them, and last how many more there are, if there are more. Empties the list.
     std::vector<Diagnostic> take() {
         if (left_out_ > 0 || stopped_)
-            found_.push_back({{}, std::string("and ") + (stopped_ ? "at least " : "") + std::to_string(left_out_) +
-                                      (left_out_ == 1 ? " more error" : " more errors"), {}, {}});
+            found_.push_back({{},
+                              std::string("and ") + (stopped_ ? "at least " : "") + std::to_string(left_out_) +
+                                  (left_out_ == 1 ? " more error" : " more errors"),
+                              {},
+                              {}});
         left_out_ = 0;
         stopped_ = false;
         return std::exchange(found_, {});

@@ -64,7 +64,8 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
         report(leaf.place, of() + "has a number that is not finite", {});
         return;
     }
-    const double most = std::abs(*std::max_element(m.begin(), m.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    const double most =
+        std::abs(*std::max_element(m.begin(), m.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
     if (most > Limits::length) {
         report(leaf.place, of() + "has the number " + number_text(most) + "; " + length_limit(), {});
         return;
@@ -76,7 +77,8 @@ void check_matrix(const TreeNode& leaf, const Report& report) {
     }
     const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
     if (dependent(x, y, z)) {
-        report(leaf.place, of() + "is singular: it flattens the object", "give it a scale other than 0 along every axis");
+        report(leaf.place, of() + "is singular: it flattens the object",
+               "give it a scale other than 0 along every axis");
     }
 }
 
@@ -118,7 +120,8 @@ void check_settings(const Scene& scene, const Report& report) {
     settings.require(!camera.eye || is_finite(*camera.eye), "/camera", "the eye must be finite");
     settings.require(!camera.look_at || is_finite(*camera.look_at), "/camera", "the point to look at must be finite");
     settings.require(!camera.up || is_axis(*camera.up), "/camera", "the direction upward must be finite, and not 0");
-    settings.require(!camera.center || !camera.look_at, "/camera", "the centre and the point to look at are one: leave one out");
+    settings.require(!camera.center || !camera.look_at, "/camera",
+                     "the centre and the point to look at are one: leave one out");
     settings.require(!camera.eye || !camera.view_size || !(camera.perspective > 0), "/camera",
                      "the eye and the perspective give the size of the view: leave one of the three out");
     settings.require(!camera.view_size || (*camera.view_size > 0 && std::isfinite(*camera.view_size)), "/camera",

@@ -35,7 +35,8 @@ struct CurveFault {
     std::string operator()(const Sketch::Arc& c) const {
         if (const std::string fault = missing({c.start, c.end}); !fault.empty()) return fault;
         if (!std::isfinite(c.radius)) return " has a radius that is not finite";
-        if (std::abs(c.radius) > Limits::length) return " has the radius " + number_text(c.radius) + "; " + length_limit();
+        if (std::abs(c.radius) > Limits::length)
+            return " has the radius " + number_text(c.radius) + "; " + length_limit();
         const Sketch::Point &p = vertices[c.start], &q = vertices[c.end];
         const double chord = std::hypot(q.u - p.u, q.v - p.v);
         if (chord == 0) return c.radius < 0 ? " is a circle of radius 0" : " is an arc from a place to itself";

@@ -13,13 +13,16 @@ struct Known {
 };
 constexpr Known known[] = {
     {"brep",
-     "a brep is bounded by NURB surfaces, which csgrt does not draw; make a mesh (bot) of it with BRL-CAD's `facetize`"},
-    {"bspline", "a bspline is bounded by NURB surfaces, which csgrt does not draw; make a mesh (bot) of it with "
-                "BRL-CAD's `facetize`"},
+     "a brep is bounded by NURB surfaces, which csgrt does not draw; make a mesh (bot) of it with BRL-CAD's "
+     "`facetize`"},
+    {"bspline",
+     "a bspline is bounded by NURB surfaces, which csgrt does not draw; make a mesh (bot) of it with "
+     "BRL-CAD's `facetize`"},
     {"poly", "a polysolid is an older form of a mesh; BRL-CAD's `dbupgrade` writes it as a bot, which csgrt draws"},
     {"hf", "an hf is an older form of a height field; BRL-CAD's `dbupgrade` writes it as a dsp, which csgrt draws"},
-    {"submodel", "a submodel names objects of another database; put them into this one with BRL-CAD's `dbconcat` and "
-                 "use them in its place"},
+    {"submodel",
+     "a submodel names objects of another database; put them into this one with BRL-CAD's `dbconcat` and "
+     "use them in its place"},
 };
 
 }  // namespace

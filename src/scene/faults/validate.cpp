@@ -33,7 +33,10 @@ std::string count_of_solids(std::uint64_t count) {
 class Validation {
 public:
     Validation(const Scene& scene, Names& names, bool skip_unsupported)
-        : scene_(scene), names_(names), skip_unsupported_(skip_unsupported || scene.lenient), objects_(scene.objects.size()) {}
+        : scene_(scene),
+          names_(names),
+          skip_unsupported_(skip_unsupported || scene.lenient),
+          objects_(scene.objects.size()) {}
 
     std::vector<Diagnostic> run(const std::vector<std::string>& named, std::vector<Warning>& warnings) {
         for (const std::uint32_t object : names_.taken())
@@ -178,10 +181,11 @@ private:
         }
         for (std::size_t i = 0; i < combination.tree.nodes.size(); ++i) {
             if (combination.tree.nodes[i].op != Operator::leaf) continue;
-            check_matrix(combination.tree.nodes[i], [&](const Place& place, const std::string& message, const std::string&) {
-                names_.leave_out(object, i);
-                bear(combination.name, place, message + "; the leg is left out");
-            });
+            check_matrix(combination.tree.nodes[i],
+                         [&](const Place& place, const std::string& message, const std::string&) {
+                             names_.leave_out(object, i);
+                             bear(combination.name, place, message + "; the leg is left out");
+                         });
         }
     }
 
@@ -193,7 +197,8 @@ private:
             ++warnings_[known->second].count;
             return;
         }
-        bear(leg.object, leg.place, "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
+        bear(leg.object, leg.place,
+             "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
     }
 
     /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
@@ -329,8 +334,8 @@ private:
     std::vector<Frame> path_;
     FindingList found_;
     std::vector<Warning> warnings_;
-    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;     ///< warnings, and the objects whose legs they count
-    std::unordered_map<std::string, std::size_t> missing_;           ///< names, and their warnings
+    std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< warnings, and the objects whose legs they count
+    std::unordered_map<std::string, std::size_t> missing_;        ///< names, and their warnings
     const Report report_ = [this](const Place& place, std::string message, std::string suggestion) {
         add(place, std::move(message), std::move(suggestion));
     };

@@ -10,8 +10,8 @@
 
 namespace csgrt {
 
-/// csgrt::validate of the scene that `names` is of. What is left out is marked there, and told in `warnings`, which this
-/// appends to.
+/// csgrt::validate of the scene that `names` is of. What is left out is marked there, and told in `warnings`, which
+/// this appends to.
 std::vector<Diagnostic> validate(const Scene& scene, Names& names, const std::vector<std::string>& objects,
                                  bool skip_unsupported, std::vector<Warning>& warnings);
 

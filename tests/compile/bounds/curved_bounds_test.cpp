@@ -16,7 +16,9 @@ constexpr double pi = 3.14159265358979323846;
 
 struct Random {
     std::mt19937 engine{11};
-    double operator()(double low = -1, double high = 1) { return std::uniform_real_distribution<double>(low, high)(engine); }
+    double operator()(double low = -1, double high = 1) {
+        return std::uniform_real_distribution<double>(low, high)(engine);
+    }
     Wide wide() { return {(*this)(), (*this)(), (*this)()}; }
     Matrix matrix() {
         Matrix m{};
@@ -151,7 +153,8 @@ TEST_CASE(
             return std::copysign(std::pow(std::fabs(x), static_cast<long double>(exponent)), x);
         };
         check_tight(Superell{narrow(v), narrow(a), narrow(b), narrow(c), n, e}, m, [&](long double u, long double w) {
-            const long double angle = 2 * static_cast<long double>(pi) * u, height = static_cast<long double>(pi) * (w - 0.5L);
+            const long double angle = 2 * static_cast<long double>(pi) * u,
+                              height = static_cast<long double>(pi) * (w - 0.5L);
             return v + power(std::cos(height), n) * (power(std::cos(angle), e) * a + power(std::sin(angle), e) * b) +
                    power(std::sin(height), n) * c;
         });
@@ -199,7 +202,8 @@ TEST_CASE("the box of a metaball holds it, and not much more") {
         for (int i = 0; i <= steps; ++i)
             for (int j = 0; j <= steps; ++j)
                 for (int k = 0; k <= steps; ++k) {
-                    const Wide p(reach * (2.0 * i / steps - 1), reach * (2.0 * j / steps - 1), reach * (2.0 * k / steps - 1));
+                    const Wide p(reach * (2.0 * i / steps - 1), reach * (2.0 * j / steps - 1),
+                                 reach * (2.0 * k / steps - 1));
                     long double sum = 0;
                     for (const Metaball::Point& point : ball.points) {
                         const Wide from = p - wide(point.position);

@@ -24,8 +24,8 @@ void add_tree(FlatTree& tree, std::uint32_t leaves, std::uint32_t solids, Random
     const std::uint32_t left = 1 + random.below(leaves - 1);
     add_tree(tree, left, solids, random);
     add_tree(tree, leaves - left, solids, random);
-    constexpr Operator operators[] = {Operator::union_, Operator::intersection, Operator::difference, Operator::difference,
-                                      Operator::xor_};
+    constexpr Operator operators[] = {Operator::union_, Operator::intersection, Operator::difference,
+                                      Operator::difference, Operator::xor_};
     tree.nodes.push_back({operators[random.below(5)], 2, 0});
 }
 

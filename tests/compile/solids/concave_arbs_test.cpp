@@ -1,4 +1,5 @@
-// Which arbs are surfaces: those with flat faces that are not convex. What crosses itself is refused; all else is as it was.
+// Which arbs are surfaces: those with flat faces that are not convex. What crosses itself is refused; all else is as it
+// was.
 #include <csgrt/csgrt.hpp>
 
 #include "catch.hpp"

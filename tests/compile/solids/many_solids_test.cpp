@@ -48,8 +48,9 @@ TEST_CASE("batches of solids give what packing them one by one gives") {
 }
 
 TEST_CASE("planes across an axis are shared as one by one, also with some that are tilted by little") {
-    // Pairs of flush blocks of a metre within 10 km, whose tops lie where the cells meet that shards are made of (planes.cpp), or beside. One of a pair is
-    // tilted: not at all, by no more than rounding, by so little that its top is the other's still, and by more.
+    // Pairs of flush blocks of a metre within 10 km, whose tops lie where the cells meet that shards are made of
+    // (planes.cpp), or beside. One of a pair is tilted: not at all, by no more than rounding, by so little that its top
+    // is the other's still, and by more.
     constexpr double size = 1e7, block = 1e3, cell = std::numbers::sqrt3 * (std::numbers::sqrt3 / 2 * size) / 8192;
     constexpr int pairs = 4000;
     Scene scene;
@@ -104,7 +105,8 @@ TEST_CASE("planes across an axis are shared as one by one, also with some that a
     std::unordered_map<std::string, std::size_t> numbers;
     for (std::size_t i = 0; i < compiled.solids.size(); ++i) numbers[compiled.solid_info[i].name] = i;
     for (int i = 0; i < pairs; ++i)
-        tops_shared += top_of(numbers.at("s" + std::to_string(2 * i))) == top_of(numbers.at("s" + std::to_string(2 * i + 1)));
+        tops_shared +=
+            top_of(numbers.at("s" + std::to_string(2 * i))) == top_of(numbers.at("s" + std::to_string(2 * i + 1)));
     CHECK(tops_shared == pairs * 3 / 4);
     require_as_one_by_one(scene, compiled);
 }

@@ -12,9 +12,7 @@
 
 namespace csgrt::asc_test {
 
-inline Scene parse(const std::string& text) {
-    return parse_brlcad_asc(TextSource("model.asc", text));
-}
+inline Scene parse(const std::string& text) { return parse_brlcad_asc(TextSource("model.asc", text)); }
 
 inline std::vector<Diagnostic> findings_in(const std::string& text) {
     try {

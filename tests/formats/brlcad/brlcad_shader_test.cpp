@@ -93,9 +93,10 @@ TEST_CASE("shader light: BRL-CAD's keys and defaults, in both notations") {
     CHECK(plain.light->visible);
     CHECK_FALSE(plain.light->infinite);
     CHECK_FALSE(plain.light->target);
-    for (const Finish& finish : {read_finish("light {b 2.5 f .5 a 30 t {1 -2 3} s 16 i 1 v 0}"),
-                                 read_finish("light", "inten=2.5 fract=.5 angle=30 aim=1,-2,3 shadows=16 infinite=1 invisible=1"),
-                                 read_finish("light bright 2.5 fract 0.5 angle 30 target 1 -2 3 shadows 16 infinite 1 visible 0")}) {
+    for (const Finish& finish :
+         {read_finish("light {b 2.5 f .5 a 30 t {1 -2 3} s 16 i 1 v 0}"),
+          read_finish("light", "inten=2.5 fract=.5 angle=30 aim=1,-2,3 shadows=16 infinite=1 invisible=1"),
+          read_finish("light bright 2.5 fract 0.5 angle 30 target 1 -2 3 shadows 16 infinite 1 visible 0")}) {
         REQUIRE(finish.light);
         CHECK(finish.light->intensity == 2.5);
         CHECK(finish.light->fraction == 0.5);
@@ -116,7 +117,8 @@ TEST_CASE("shader light: BRL-CAD's keys and defaults, in both notations") {
 
 TEST_CASE("one warning for each shader that is drawn as plastic, with how many have it") {
     Scene scene;
-    for (const char* shader : {"cloud", "glass tr=.5", "plastic", "cloud {thresh 1}", "light", "light {s 0}", "cloud"}) {
+    for (const char* shader :
+         {"cloud", "glass tr=.5", "plastic", "cloud {thresh 1}", "light", "light {s 0}", "cloud"}) {
         Combination region;
         region.name = "r" + std::to_string(scene.objects.size());
         region.finish = read_finish(shader);

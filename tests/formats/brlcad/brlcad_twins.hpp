@@ -146,7 +146,8 @@ inline std::vector<double> numbers_of(const Shape& any) {
                 out.insert(out.end(), s.matrix.begin(), s.matrix.end());
                 out.insert(out.end(), s.cells.begin(), s.cells.end());
             } else if constexpr (std::is_same_v<T, Vol>) {
-                out.insert(out.end(), {double(s.width), double(s.depth), double(s.height), double(s.low), double(s.high)});
+                out.insert(out.end(),
+                           {double(s.width), double(s.depth), double(s.height), double(s.low), double(s.high)});
                 put(s.cell);
                 out.insert(out.end(), s.matrix.begin(), s.matrix.end());
                 out.insert(out.end(), s.cells.begin(), s.cells.end());
@@ -207,8 +208,8 @@ inline PlainTree plain(const Tree& tree) {
         Part part{node.op, {}};
         for (std::size_t i = stack.size() - node.arity; i < stack.size(); ++i) {
             const bool first = i == stack.size() - node.arity;
-            const bool merges = stack[i].op == node.op && node.op != Operator::not_ &&
-                                (first || node.op != Operator::difference);
+            const bool merges =
+                stack[i].op == node.op && node.op != Operator::not_ && (first || node.op != Operator::difference);
             part.inner += merges ? stack[i].inner : stack[i].whole();
         }
         stack.resize(stack.size() - node.arity);

@@ -110,8 +110,7 @@ std::string scene_with(const std::string& form, const json& object) {
     else if (form == "metaball_point" || form == "pipe_point")
         scene["solids"]["t"] = {{"type", form.substr(0, form.find('_'))}, {"points", json::array({object})}};
     else if (form == "sketch")
-        scene["solids"]["t"] = {
-            {"type", "extrude"}, {"base", {0, 0, 0}}, {"height", {0, 0, 1}}, {"sketch", object}};
+        scene["solids"]["t"] = {{"type", "extrude"}, {"base", {0, 0, 0}}, {"height", {0, 0, 1}}, {"sketch", object}};
     else if (form == "line" || form == "arc" || form == "circle" || form == "bezier" || form == "nurb")
         return scene_with("sketch", {{"vertices", json::array()}, {"curves", json::array({object})}});
     else if (std::find(solids.begin(), solids.end(), form) != solids.end())

@@ -155,11 +155,10 @@ TEST_CASE("json: trees become postfix, with a place for each node") {
 }
 
 TEST_CASE("json: placement is scale, then rotation, then translation, and from the outside in") {
-    CHECK(
-        one_matrix(tree_of(
-            R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4],
+    CHECK(one_matrix(tree_of(
+              R"({"object": "a", "rotate": {"axis": [0, 0, 2], "angle": 90}, "scale": [2, 3, 4],
                 "translate": [5, 6, 7]})")) ==
-        one_matrix(tree_of(R"({"object": "a", "matrix": [0, -3, 0, 5, 2, 0, 0, 6, 0, 0, 4, 7, 0, 0, 0, 1]})")));
+          one_matrix(tree_of(R"({"object": "a", "matrix": [0, -3, 0, 5, 2, 0, 0, 6, 0, 0, 4, 7, 0, 0, 0, 1]})")));
     const Tree nested =
         tree_of(R"({"union": [{"object": "a", "translate": [1, 0, 0]}], "rotate": {"axis": [0, 0, 1], "angle": 180}})");
     REQUIRE(nested.nodes.size() == 2);

@@ -130,10 +130,12 @@ inline Shape random_shape(Numbers& n, std::size_t type) {
     };
     const Shape kinds[] = {
         n.coin() ? Ell{n.vector(), n.vector(), n.vector(), n.vector()} : some_sphere(),
-        n.coin() ? Tgc{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()}
-                 : some_cone(),
+        n.coin() ? Tgc{n.vector(), n.vector(), n.vector(), n.vector(), n.vector(), n.vector()} : some_cone(),
         arb(list_of(4 + n.below(5), point)),
-        Arbn{list_of(n.below(5), [&] { return Plane{n.direction(), n()}; })},
+        Arbn{list_of(n.below(5),
+                     [&] {
+                         return Plane{n.direction(), n()};
+                     })},
         Half{{n.direction(), n()}},
         Tor{n.vector(), n.vector(), n(), n()},
         Ehy{n.vector(), n.vector(), n.direction(), n(), n(), n()},
@@ -146,8 +148,14 @@ inline Shape random_shape(Numbers& n, std::size_t type) {
         Superell{n.vector(), n.vector(), n.vector(), n.vector(), n(), n()},
         Hrt{n.vector(), n.vector(), n.vector(), n.vector(), n()},
         Metaball{static_cast<Metaball::Method>(n.below(3)), n(),
-                 list_of(n.below(5), [&] { return Metaball::Point{n.vector(), n(), n.coin() ? 1 : n()}; })},
-        Pipe{list_of(n.below(5), [&] { return Pipe::Point{n.vector(), n(), n(), n()}; })},
+                 list_of(n.below(5),
+                         [&] {
+                             return Metaball::Point{n.vector(), n(), n.coin() ? 1 : n()};
+                         })},
+        Pipe{list_of(n.below(5),
+                     [&] {
+                         return Pipe::Point{n.vector(), n(), n(), n()};
+                     })},
         Cline{n.vector(), n.vector(), n(), n()},
         random_bot(n),
         Ars{list_of(n.below(5), [&] { return list_of(n.below(5), point); })},

@@ -22,8 +22,8 @@ void add_shuffled(Builder& to, std::vector<std::pair<Tree, int>> regions) {
     }
 }
 
-/// Even seeds: a room of air behind its wall, as modellers make it, with things that stand in it, in each other and in the
-/// wall. Odd ones: regions of any shape, half of them air.
+/// Even seeds: a room of air behind its wall, as modellers make it, with things that stand in it, in each other and in
+/// the wall. Odd ones: regions of any shape, half of them air.
 StressScene airy(std::uint64_t seed, std::size_t times) {
     Builder to("air", seed, times);
     Random& random = to.random();

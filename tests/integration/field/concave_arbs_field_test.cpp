@@ -1,5 +1,5 @@
-// Arbs with flat faces that are not convex: a dart in any pair of faces, drawn out straight, leaning, tapering, to a point
-// or cut askew, with six, seven or eight vertices; convex ones among them.
+// Arbs with flat faces that are not convex: a dart in any pair of faces, drawn out straight, leaning, tapering, to a
+// point or cut askew, with six, seven or eight vertices; convex ones among them.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -17,10 +17,11 @@ namespace {
 std::array<Vec3, 4> outline(Random& random) {
     const Vec3 x = random.direction(), y = unit(cross(x, random.direction()));
     const auto at = [&](double u, double v) { return u * x + v * y; };
-    const Vec3 a = at(random.between(-4, 4), random.between(-4, 4)), b = a + at(random.between(3, 8), random.between(-2, 2)),
+    const Vec3 a = at(random.between(-4, 4), random.between(-4, 4)),
+               b = a + at(random.between(3, 8), random.between(-2, 2)),
                c = a + at(random.between(-2, 2), random.between(3, 8));
-    // From sickles over darts and notches as shallow as 1e-7 to convex. In a sickle as slim as that, a ray close to the tip
-    // may be inside for less than ends may be apart.
+    // From sickles over darts and notches as shallow as 1e-7 to convex. In a sickle as slim as that, a ray close to the
+    // tip may be inside for less than ends may be apart.
     const double notch = random.coin() ? random.between(0.05, 0.9) : random.power_of_ten(-7, -1);
     const double depth = random.below(4) == 0 ? -notch : random.coin() ? notch : 1 - std::max(notch, 1e-3);
     const double along = random.between(0.2, 0.8);
@@ -50,7 +51,8 @@ bool crosses_itself(const Arb& arb) {
     const auto cross_at = [&](const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
         return apart(p, q, a, b) && apart(a, b, p, q);
     };
-    for (const auto& f : {std::array{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}}) {
+    for (const auto& f :
+         {std::array{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}}) {
         const auto at = [&](std::size_t i) { return v[static_cast<std::size_t>(f[i])]; };
         if (cross_at(at(0), at(1), at(2), at(3)) || cross_at(at(1), at(2), at(3), at(0))) return true;
     }
@@ -88,7 +90,8 @@ Arb any_arb(Random& random) {
         v[6] = v[7] = from + (beyond < 0 ? -1 : 1) * random.between(0.1, 0.8) * (base[0] + beyond * u - from);
         if (bent < 1e-4) v[6] = v[7] = from + u;
         return arb;
-    } else {  // arb7: vertex 5 in the plane of 0 1 4, vertex 6 on the line through 2 in which the planes of its faces meet
+    } else {  // arb7: vertex 5 in the plane of 0 1 4, vertex 6 on the line through 2 in which the planes of its faces
+              // meet
         v[4] = v[7] = base[0] + 0.2 * (base[1] - base[0]) + 0.2 * (base[3] - base[0]) + h;
         v[5] = base[1] + random.between(0.3, 0.9) * (v[4] - base[0]);
         const Vec3 p = cross(base[1] - base[2], v[5] - base[2]), q = cross(base[3] - base[2], v[4] - base[2]);
@@ -148,7 +151,8 @@ StressScene make_arbs(std::uint64_t seed, std::size_t times) {
                 break;
             case 3: {  // in the plane of three vertices: that of a face, often
                 // Not along an edge: the oracle tries rays beside it in eight directions, and may miss a slim wedge.
-                const Vec3 d = random.between(-1, 1) * (b - a) + random.between(-1, 1) * (c - a), n = cross(b - a, c - a);
+                const Vec3 d = random.between(-1, 1) * (b - a) + random.between(-1, 1) * (c - a),
+                           n = cross(b - a, c - a);
                 if (dot(n, n) > 1e-9 * dot(b - a, b - a) * dot(c - a, c - a)) to.ray_through(through, unit(d), 20);
                 break;
             }

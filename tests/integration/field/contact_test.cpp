@@ -1,5 +1,5 @@
-// Parts that touch: a ray in the face where they meet is in exactly one of them, from whichever end it comes, and nothing
-// overlaps. What is right follows from how the scenes are made: the ray's middle lies within the contact.
+// Parts that touch: a ray in the face where they meet is in exactly one of them, from whichever end it comes, and
+// nothing overlaps. What is right follows from how the scenes are made: the ray's middle lies within the contact.
 #include <cmath>
 #include <set>
 
@@ -184,12 +184,14 @@ Contacts curved_contacts(std::uint64_t seed, int rays) {
         const double r = random.between(0.5, 2), size = random.between(3, 4), taper = 0.25;
         const auto solid = [&](Shape shape) { return leaf(to.solid(std::move(shape)), place); };
         const auto fills = [&](const Shape& shape) {
-            to.region(operate(Operator::difference, {solid(box({-size, -size, -size}, {size, size, size})), solid(shape)}));
+            to.region(
+                operate(Operator::difference, {solid(box({-size, -size, -size}, {size, size, size})), solid(shape)}));
             to.region(solid(shape));
         };
         const auto touch = [&](const Vec3& at, const Vec3& d, bool crosses, double along) {
             const auto part = static_cast<std::uint32_t>(2 * kind);
-            all.touches.push_back({moved_point(place, at), moved_direction(place, d), {part, part + 1}, crosses, along});
+            all.touches.push_back(
+                {moved_point(place, at), moved_direction(place, d), {part, part + 1}, crosses, along});
         };
         const auto around = [&] {
             const double a = 7 * random.unit();
@@ -231,7 +233,8 @@ Contacts curved_contacts(std::uint64_t seed, int rays) {
                 break;
             default:  // a cone that lies on a plate
                 to.region(solid(box({-size, -size, -2}, {size, size, 0})));
-                to.region(solid(Tgc{{1, 0, 0.5}, {-1.5, 0, -0.25}, {0.25, 0, 0.5}, {0, 0.5, 0}, {0.125, 0, 0.25}, {0, 0.25, 0}}));
+                to.region(solid(
+                    Tgc{{1, 0, 0.5}, {-1.5, 0, -0.25}, {0.25, 0, 0.5}, {0, 0.5, 0}, {0.125, 0, 0.25}, {0, 0.25, 0}}));
                 break;
         }
         for (int i = 0; i < rays; ++i) {
@@ -245,10 +248,13 @@ Contacts curved_contacts(std::uint64_t seed, int rays) {
                 touch(r * out, crosses ? out + 0.5 * random.in_cube() : unit(cross(out, random.slanted())), crosses, 0);
             }
             if (kind == 3) touch(2 * n + 0.3 * r * up, crosses ? up + 0.5 * n : i % 3 == 1 ? n : across, crosses, 0);
-            if (kind == 1 && crosses) touch((0.5 * r + 1 - taper * height) * n + height * up, n + 0.3 * across, true, 0);
-            if (kind == 1 && i % 3 == 1) touch((0.5 * r + 1 - taper * height) * n + height * up, up - taper * n, false, 0.5);
+            if (kind == 1 && crosses)
+                touch((0.5 * r + 1 - taper * height) * n + height * up, n + 0.3 * across, true, 0);
+            if (kind == 1 && i % 3 == 1)
+                touch((0.5 * r + 1 - taper * height) * n + height * up, up - taper * n, false, 0.5);
             if (kind == 4 || kind == 8) touch({}, n, false, 0);
-            if (kind == 5 || kind == 6) touch({height, 0, 0}, i % 2 == 0 ? Vec3{1, 0, 0} : n, false, i % 2 == 0 ? 0.5 : 0);
+            if (kind == 5 || kind == 6)
+                touch({height, 0, 0}, i % 2 == 0 ? Vec3{1, 0, 0} : n, false, i % 2 == 0 ? 0.5 : 0);
             if (kind == 7) touch(1.5 * n, i % 2 == 0 ? n : around(), false, 0);
         }
     }
@@ -267,11 +273,14 @@ Contacts lone(std::uint64_t seed, int rays) {
         to.region(leaf(to.solid(box(-1 * size, size)), place));
         for (int i = 0; i < rays; ++i) {
             const double x = random.sign() * size.x, y = random.sign() * size.y;
-            const Vec3 in_face{x, random.between(-0.4, 0.4), random.between(-0.4, 0.4)}, on_edge{x, y, random.between(-0.4, 0.4)};
+            const Vec3 in_face{x, random.between(-0.4, 0.4), random.between(-0.4, 0.4)},
+                on_edge{x, y, random.between(-0.4, 0.4)};
             const double a = 7 * random.unit();
             all.touches.push_back({moved_point(place, i % 2 ? in_face : on_edge),
                                    moved_direction(place, i % 2 ? Vec3{0, std::cos(a), std::sin(a)} : Vec3{0, 0, 1}),
-                                   {number}, false, 0.5});
+                                   {number},
+                                   false,
+                                   0.5});
         }
     }
     all.made = to.take();
@@ -331,7 +340,8 @@ void check_contacts(Contacts contacts, ContactTally& tally) {
             } else if (touch.along > 0) {
                 owners[way] = owner_at(answer, back, touch.along);
                 if (owners[way] == -1) count(tally.none);
-                if (owners[way] == -2 || (owners[way] >= 0 && !touch.parts.count(static_cast<std::uint32_t>(owners[way]))))
+                if (owners[way] == -2 ||
+                    (owners[way] >= 0 && !touch.parts.count(static_cast<std::uint32_t>(owners[way]))))
                     count(tally.strange);
             }
         }
@@ -360,7 +370,9 @@ void require_contact(Contacts (*make)(std::uint64_t, int), std::uint64_t seeds, 
 TEST_CASE("flat faces in contact: a ray in them is in exactly one part", "[field]") {
     require_contact(flat_contacts, flat_parts, 8);
 }
-TEST_CASE("three cells around an edge: a ray along it is in exactly one", "[field]") { require_contact(edge_contacts, 6, 8); }
+TEST_CASE("three cells around an edge: a ray along it is in exactly one", "[field]") {
+    require_contact(edge_contacts, 6, 8);
+}
 TEST_CASE("curved faces in contact: nothing overlaps", "[field]") { require_contact(curved_contacts, 4, 12); }
 TEST_CASE("a ray that touches a lone box along a face or an edge is in it", "[field]") { require_contact(lone, 4, 8); }
 

@@ -1,5 +1,6 @@
-// Elliptical tori whose ellipse reaches across the axis, as BRL-CAD accepts them: inside is what lies in one of the ellipse and its
-// mirror image alone. Rays of all kinds, many by the lens' points on the axis and by the circle where the two cross.
+// Elliptical tori whose ellipse reaches across the axis, as BRL-CAD accepts them: inside is what lies in one of the
+// ellipse and its mirror image alone. Rays of all kinds, many by the lens' points on the axis and by the circle where
+// the two cross.
 #include <cmath>
 #include <cstdio>
 
@@ -15,10 +16,11 @@ using csgrt::test::FieldTally;
 
 namespace {
 
-/// An ellipse in the half-plane of the distance from the axis and the height, as Eto has it: in units of the circle's radius.
+/// An ellipse in the half-plane of the distance from the axis and the height, as Eto has it: in units of the circle's
+/// radius.
 struct Section {
-    double out, up;      ///< the direction of c
-    double c, d;         ///< the semi-axes
+    double out, up;  ///< the direction of c
+    double c, d;     ///< the semi-axes
     double alpha() const { return out * out / (c * c) + up * up / (d * d); }
     double beta() const { return out * up * (1 / (c * c) - 1 / (d * d)); }
     double gamma() const { return up * up / (c * c) + out * out / (d * d); }
@@ -47,14 +49,17 @@ Section some_section(Random& random) {
     }
 }
 
-double little(Random& random) { return random.below(6) == 0 ? 0 : random.between(1, 10) * random.power_of_ten(-13, -2); }
+double little(Random& random) {
+    return random.below(6) == 0 ? 0 : random.between(1, 10) * random.power_of_ten(-13, -2);
+}
 
 StressScene crossed(std::uint64_t seed, std::size_t times) {
     Builder to("crossed eto", seed, times);
     Random& random = to.random();
     const Section s = some_section(random);
     const bool upright = seed % 2 == 0;
-    const Vec3 z = upright ? Vec3{0, 0, 1} : random.direction(), x = upright ? Vec3{1, 0, 0} : any_across(z), y = cross(z, x);
+    const Vec3 z = upright ? Vec3{0, 0, 1} : random.direction(), x = upright ? Vec3{1, 0, 0} : any_across(z),
+               y = cross(z, x);
     const Vec3 at = upright ? Vec3{} : 5 * random.in_cube();
     const double r = upright ? 1 : random.between(0.5, 4), size = r * (1 + s.reach() + s.c + s.d);
     to.region(leaf(to.solid(Eto{at, z, r * s.c * s.out * x + r * s.c * s.up * z, r, r * s.d})));
@@ -68,7 +73,8 @@ StressScene crossed(std::uint64_t seed, std::size_t times) {
         Vec3 direction = random.direction();
         switch (i % 5) {
             case 0:  // anywhere
-                through = at + r * random.between(-1, 1) * x + r * random.between(-1, 1) * y + r * random.between(-1, 1) * z;
+                through =
+                    at + r * random.between(-1, 1) * x + r * random.between(-1, 1) * y + r * random.between(-1, 1) * z;
                 break;
             case 1:  // a point of the lens
                 through = at + r * (beta + random.sign() * lens) / gamma * z;
@@ -78,11 +84,14 @@ StressScene crossed(std::uint64_t seed, std::size_t times) {
                 direction = random.sign() * z + little(random) * random.direction();
                 break;
             case 3:  // the circle where the ellipse crosses its image, or the lens' rim
-                through = circle2 > 0 ? at + r * std::sqrt(circle2) * around + r * alpha / beta * z : at + r * (s.reach() - 1) * around;
+                through = circle2 > 0 ? at + r * std::sqrt(circle2) * around + r * alpha / beta * z
+                                      : at + r * (s.reach() - 1) * around;
                 break;
             default:  // the same, straight through the axis or beside the circle
-                through = circle2 > 0 ? at + r * std::sqrt(circle2) * around + r * alpha / beta * z : at + r * beta / gamma * z;
-                direction = random.coin() ? around + random.between(-1, 1) * z : cross(z, around) + random.between(-1, 1) * around;
+                through = circle2 > 0 ? at + r * std::sqrt(circle2) * around + r * alpha / beta * z
+                                      : at + r * beta / gamma * z;
+                direction = random.coin() ? around + random.between(-1, 1) * z
+                                          : cross(z, around) + random.between(-1, 1) * around;
                 break;
         }
         to.ray_through(through + little(random) * size * random.direction(), direction, random.between(2, 4) * size);
@@ -121,7 +130,8 @@ TEST_CASE("oracle: an eto across its axis is what lies in the ellipse or in its 
     }
 }
 
-// Half-width 2 about a circle of radius 1, half-height 3: at z = 0 the ellipse is -1 <= rho <= 3, its image -3 <= rho <= 1.
+// Half-width 2 about a circle of radius 1, half-height 3: at z = 0 the ellipse is -1 <= rho <= 3, its image -3 <= rho
+// <= 1.
 TEST_CASE("an eto across its axis in whole numbers, and the oracle rejects other solids", "[field]") {
     const Shape eto = Eto{{}, {0, 0, 1}, {0, 0, -3}, 1, 2};
     const oracle::ImplicitSolid solid = oracle::implicit(eto, identity);
@@ -195,7 +205,7 @@ TEST_CASE("the box of an eto across its axis holds it", "[field]") {
 TEST_CASE("10^5 rays at etos across their axis", "[.long]") {
     FieldTally tally;
     for (std::uint64_t seed = 1000; seed < 1125; ++seed) test::judge_field(crossed(seed, 20), tally);
-    std::printf("etos across their axis: %zu scenes, %zu rays, %zu ties, %zu wrong, worst end %.2f %s\n", tally.scenes, tally.rays,
-                tally.ties, tally.wrong, tally.worst, tally.first.c_str());
+    std::printf("etos across their axis: %zu scenes, %zu rays, %zu ties, %zu wrong, worst end %.2f %s\n", tally.scenes,
+                tally.rays, tally.ties, tally.wrong, tally.worst, tally.first.c_str());
     test::require_all_right(tally);
 }

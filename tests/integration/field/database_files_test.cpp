@@ -34,7 +34,8 @@ const std::string unit = "{1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}";
 
 Scene parse_g(const std::string& bytes) { return parse_brlcad_g(ByteSource("model.g", g_test::header + bytes)); }
 
-std::vector<RayPartitions> shot(const Scene& scene, const std::vector<std::string>& objects, const std::vector<Ray>& rays) {
+std::vector<RayPartitions> shot(const Scene& scene, const std::vector<std::string>& objects,
+                                const std::vector<Ray>& rays) {
     return Renderer(scene, objects, test::on_reference()).shoot(rays);
 }
 
@@ -70,13 +71,19 @@ TEST_CASE("files: cells are in a file, a name or both, the last one holds", "[fi
         return "put " + name + " ebm " + keys + " w 2 n 2 d 3 mat " + unit + "\n";
     };
     std::string text = v5;
-    for (const auto& [name, keys] : {std::pair{"1", "file h"}, {"2", "name h"}, {"3", "file {h} name {h}"}}) text += dsp(std::string("d") + name, keys);
-    for (const auto& [name, keys] :
-         {std::pair{"1", "file c"}, {"2", "name c src f"}, {"3", "file {c} name {c} src f"}, {"4", "file x name c"}, {"5", "name x file c"}, {"6", "F c"}}) {
+    for (const auto& [name, keys] : {std::pair{"1", "file h"}, {"2", "name h"}, {"3", "file {h} name {h}"}})
+        text += dsp(std::string("d") + name, keys);
+    for (const auto& [name, keys] : {std::pair{"1", "file c"},
+                                     {"2", "name c src f"},
+                                     {"3", "file {c} name {c} src f"},
+                                     {"4", "file x name c"},
+                                     {"5", "name x file c"},
+                                     {"6", "F c"}}) {
         text += vol(std::string("v") + name, keys) + ebm(std::string("e") + name, keys);
     }
     const Scene scene = read_brlcad_asc(folder.write("m.asc", text));
-    for (const char* name : {"d1", "d2", "d3"}) CHECK(shape<Dsp>(scene, name).heights == std::vector<std::uint16_t>{1, 2, 3, 4});
+    for (const char* name : {"d1", "d2", "d3"})
+        CHECK(shape<Dsp>(scene, name).heights == std::vector<std::uint16_t>{1, 2, 3, 4});
     for (const char* name : {"1", "2", "3", "4", "5", "6"}) {
         INFO(name);
         CHECK(shape<Vol>(scene, std::string("v") + name).cells == std::vector<std::uint8_t>{'a', 'b', 'c', 'd'});
@@ -85,8 +92,8 @@ TEST_CASE("files: cells are in a file, a name or both, the last one holds", "[fi
     // The key=value form, of v4 and of binary databases.
     const std::string old_vol = " w=2 n=2 d=1", old_ebm = " w=2 n=2 d=3", old_dsp = " w=2 n=2";
     const Scene old = read_brlcad_asc(folder.write(
-        "old.asc", v4 + "s vol v1 name=\"c\"" + old_vol + "\ns vol v2 file=x name=c" + old_vol + "\ns ebm e1 name=x file=c" +
-                       old_ebm + "\ns dsp d1 name=h file=h" + old_dsp + "\n"));
+        "old.asc", v4 + "s vol v1 name=\"c\"" + old_vol + "\ns vol v2 file=x name=c" + old_vol +
+                       "\ns ebm e1 name=x file=c" + old_ebm + "\ns dsp d1 name=h file=h" + old_dsp + "\n"));
     for (const char* name : {"v1", "v2"}) CHECK(shape<Vol>(old, name).cells.front() == 'a');
     CHECK(shape<Ebm>(old, "e1").cells.front() == 'a');
     CHECK(shape<Dsp>(old, "d1").heights.size() == 4);
@@ -94,8 +101,8 @@ TEST_CASE("files: cells are in a file, a name or both, the last one holds", "[fi
         return WrittenObject{.minor = minor, .name = name, .body = body + g_test::zero}.bytes();
     };
     const Scene binary = read_brlcad_g(folder.write(
-        "m.g", g_test::header + object(13, "v1", "name=\"c\" src=f" + old_vol) + object(13, "v2", "file=c name=c src=f" + old_vol) +
-                   object(12, "e1", "file=c name=c" + old_ebm)));
+        "m.g", g_test::header + object(13, "v1", "name=\"c\" src=f" + old_vol) +
+                   object(13, "v2", "file=c name=c src=f" + old_vol) + object(12, "e1", "file=c name=c" + old_ebm)));
     for (const char* name : {"v1", "v2"}) CHECK(shape<Vol>(binary, name).cells.front() == 'a');
     CHECK(shape<Ebm>(binary, "e1").cells.front() == 'a');
     const auto findings = asc_test::findings_in(v5 + vol("v", ""));
@@ -120,12 +127,16 @@ TEST_CASE("files: noise of single precision in a matrix's last row is divided ou
         CHECK(compiled.warnings[0].reason.find("noise of single precision") != std::string::npos);
     };
     check(parse(v5 + ball + "put c comb region yes tree {u {l s {" + noise + "}} {l s {" + noise + "}}}\n"), 2);
-    check(parse(v4 + "S 19 s 0 0 0 0 1 0 0 0 1 0 0 0 1 0 0 0 0 0 0 0 0 0 0 0 0\nC Y c 1 0 1 0 1 100 0 0 0 0 0 0 0\nM u s " + noise + " 0\n"), 1);
+    check(parse(v4 +
+                "S 19 s 0 0 0 0 1 0 0 0 1 0 0 0 1 0 0 0 0 0 0 0 0 0 0 0 0\nC Y c 1 0 1 0 1 100 0 0 0 0 0 0 0\nM u s " +
+                noise + " 0\n"),
+          1);
     check(parse_g(g_test::sphere("s") + g_test::combination("c", {.leaves = {{"s", 0}}, .matrices = {numbers}})), 1);
 
     // What is at the limit, and what is beyond it.
     const auto faults_with = [](const std::string& last_row) {
-        const Scene scene = parse(v5 + ball + "put c comb region yes tree {l s {1 0 0 0 0 1 0 0 0 0 1 0 " + last_row + "}}\n");
+        const Scene scene =
+            parse(v5 + ball + "put c comb region yes tree {l s {1 0 0 0 0 1 0 0 0 0 1 0 " + last_row + "}}\n");
         return validate(scene).size();
     };
     CHECK(faults_with("1e-6 0 0 1") == 0);
@@ -152,14 +163,20 @@ TEST_CASE("files: a perspective matrix makes only what uses it unusable", "[fiel
             CHECK(findings[0].message.find("the matrix of 's'") == 0);
             CHECK(findings[0].message.find(message) != std::string::npos);
         };
-        check(parse(v5 + ball + "put bad comb region yes tree {l s {" + matrix + "}}\nput good comb region yes tree {l s}\n"), 4);
+        check(parse(v5 + ball + "put bad comb region yes tree {l s {" + matrix +
+                    "}}\nput good comb region yes tree {l s}\n"),
+              4);
         const std::string c = " 1 0 1 0 1 100 0 0 0 0 0 0 0\n";
         check(parse(v4 + "S 19 s 0 0 0 0 1 0 0 0 1 0 0 0 1 0 0 0 0 0 0 0 0 0 0 0 0\nC Y bad" + c + "M u s " + matrix +
-                    " 0\nC Y good" + c + "M u s 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0\n"), 5);
+                    " 0\nC Y good" + c + "M u s 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0\n"),
+              5);
         std::vector<double> numbers;
         for (std::istringstream in(matrix); !in.eof();) in >> numbers.emplace_back();
-        check(parse_g(g_test::sphere("s") + g_test::combination("bad", {.leaves = {{"s", 0}}, .matrices = {numbers}}, g_test::attributes({"region", "R"})) +
-                      g_test::combination("good", {.leaves = {{"s"}}})), 0);
+        check(parse_g(g_test::sphere("s") +
+                      g_test::combination("bad", {.leaves = {{"s", 0}}, .matrices = {numbers}},
+                                          g_test::attributes({"region", "R"})) +
+                      g_test::combination("good", {.leaves = {{"s"}}})),
+              0);
     }
     const Scene scene = parse(v5 + "put v ebm file none w 1 n 1 d 1 mat {1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1}\n" + ball);
     CHECK(validate(scene, {"s"}).empty());
@@ -167,11 +184,22 @@ TEST_CASE("files: a perspective matrix makes only what uses it unusable", "[fiel
 }
 
 TEST_CASE("files: BRL-CAD's units", "[field][asc]") {
-    const std::tuple<const char*, double, const char*> units[] = {
-        {"inches", 25.4, "in"}, {"IN", 25.4, "in"}, {"millimeters", 1, "mm"}, {"centimeter", 10, "cm"}, {"Feet", 304.8, "ft"},
-        {"micron", 1e-3, "um"}, {"cubits", 456.2, "cubit"}, {"rods", 5029.2, "rd"}, {"{nautical mile}", 1852000, "nmile"},
-        {"{light year}", 9.4605284e18, "lightyear"}, {"parsec", 3.08568025e19, "pc"}, {"angstroms", 1e-7, "angstrom"},
-        {"Mm", 1, "mm"}, {"megameter", 1e9, "megameter"}, {"league", 5556000, "league"}, {"hand", 101.6, "hand"}};
+    const std::tuple<const char*, double, const char*> units[] = {{"inches", 25.4, "in"},
+                                                                  {"IN", 25.4, "in"},
+                                                                  {"millimeters", 1, "mm"},
+                                                                  {"centimeter", 10, "cm"},
+                                                                  {"Feet", 304.8, "ft"},
+                                                                  {"micron", 1e-3, "um"},
+                                                                  {"cubits", 456.2, "cubit"},
+                                                                  {"rods", 5029.2, "rd"},
+                                                                  {"{nautical mile}", 1852000, "nmile"},
+                                                                  {"{light year}", 9.4605284e18, "lightyear"},
+                                                                  {"parsec", 3.08568025e19, "pc"},
+                                                                  {"angstroms", 1e-7, "angstrom"},
+                                                                  {"Mm", 1, "mm"},
+                                                                  {"megameter", 1e9, "megameter"},
+                                                                  {"league", 5556000, "league"},
+                                                                  {"hand", 101.6, "hand"}};
     for (const auto& [name, length, kept] : units) {
         INFO(name);
         const Scene scene = parse("title {}\nunits " + std::string(name) + "\n" + ball);
@@ -188,7 +216,8 @@ TEST_CASE("files: BRL-CAD's units", "[field][asc]") {
             CHECK(scene.warnings.size() == (good ? 0 : 1));
         };
         check(parse("title {}\nattr set {_GLOBAL} {units} {" + value + "}\n" + ball));
-        check(parse_g(WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = g_test::attributes({"units", value})}.bytes()));
+        check(parse_g(
+            WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = g_test::attributes({"units", value})}.bytes()));
     }
 }
 
@@ -228,12 +257,13 @@ TEST_CASE("files: the operators G, X and N of BRL-CAD's trees", "[field][asc]") 
 }
 
 TEST_CASE("files: an object named by a path has the place and the attributes that it has there", "[field]") {
-    const Scene scene = parse(
-        v5 + "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput t ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n"
-             "put r comb region yes id 7 tree {- {l t {1 0 0 0 0 1 0 0 0 0 1 5 0 0 0 1}} {l s}}\n"
-             "put g comb region no rgb {255 0 0} inherit yes tree {u {l r {1 0 0 10 0 1 0 0 0 0 1 0 0 0 0 1}} {l r}}\n"
-             "put top comb region no tree {u {l g {1 0 0 0 0 1 0 100 0 0 1 0 0 0 0 1}} {l gone}}\n"
-             "put air.r comb region yes air 1 tree {l s}\nput air.g comb region no tree {u {l air.r} {l r}}\n");
+    const Scene scene =
+        parse(v5 +
+              "put s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\nput t ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n"
+              "put r comb region yes id 7 tree {- {l t {1 0 0 0 0 1 0 0 0 0 1 5 0 0 0 1}} {l s}}\n"
+              "put g comb region no rgb {255 0 0} inherit yes tree {u {l r {1 0 0 10 0 1 0 0 0 0 1 0 0 0 0 1}} {l r}}\n"
+              "put top comb region no tree {u {l g {1 0 0 0 0 1 0 100 0 0 1 0 0 0 0 1}} {l gone}}\n"
+              "put air.r comb region yes air 1 tree {l s}\nput air.g comb region no tree {u {l air.r} {l r}}\n");
     const auto at = [](double x, double y, double z) { return Ray{{x - 50, y, z}, {1, 0, 0}}; };
     // Along a ray through where it must be: its ends, seen from the middle.
     const auto check = [&](const std::string& path, const Ray& ray, double radius, const std::string& name, int id) {
@@ -256,7 +286,8 @@ TEST_CASE("files: an object named by a path has the place and the attributes tha
     check("top/g/r/s", at(10, 100, 0), 1, "/top/g/r/s", 7);
     // Paths that csgrt prints are taken.
     const Renderer whole(scene, {"g"}, test::on_reference());
-    for (const RegionInfo& region : whole.regions()) CHECK(Renderer(scene, {region.path}, test::on_reference()).regions()[0].path == region.path);
+    for (const RegionInfo& region : whole.regions())
+        CHECK(Renderer(scene, {region.path}, test::on_reference()).regions()[0].path == region.path);
     CHECK(Renderer(scene, {"top/g/r"}, test::on_reference()).regions()[0].color == Vec3{1, 0, 0});
     CHECK(Renderer(scene, {"air.g/r"}, test::on_reference()).regions()[0].color != Vec3{1, 0, 0});
     CHECK_THROWS_AS(Renderer(scene, {"air.g/air.r/s"}, test::on_reference()), Error);  // air is left out
@@ -277,11 +308,14 @@ TEST_CASE("files: an object named by a path has the place and the attributes tha
     fault("g/elephant", "'g' has no member 'elephant' (in the path 'g/elephant')", "its members are r, r");
     fault("g/r/s/x", "'s' is a solid; it has no member 'x' (in the path 'g/r/s/x')", "");
     fault("/", "the scene has no object '/'", "");
-    CHECK(validate(scene, {"top/gone"}).at(0).message == "'top' uses 'gone', which does not exist (in the path 'top/gone')");
+    CHECK(validate(scene, {"top/gone"}).at(0).message ==
+          "'top' uses 'gone', which does not exist (in the path 'top/gone')");
     CHECK(object_at(scene, "top/g/r/t") == scene.find("t"));
 
     // A matrix on the way is checked, too; names may hold a '/'.
-    const Scene flat = parse(v5 + ball + "put r comb region yes tree {l s {0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}}\nput a/b comb region no tree {l r}\n");
+    const Scene flat = parse(
+        v5 + ball +
+        "put r comb region yes tree {l s {0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}}\nput a/b comb region no tree {l r}\n");
     CHECK(validate(flat, {"r/s"}).size() == 1);
     CHECK(object_at(flat, "a/b/r/s") == flat.find("s"));
 }
@@ -312,15 +346,20 @@ TEST_CASE("files: points with a scale are balls", "[field]") {
 
     using g_test::number;
     using g_test::reals;
-    const auto points = [](const std::string& name, double scale, unsigned type, std::uint32_t count, const std::vector<double>& numbers) {
-        return WrittenObject{.minor = 41, .name = name, .body = reals({scale}) + number(type, 1) + number(count, 2) + reals(numbers)}.bytes();
+    const auto points = [](const std::string& name, double scale, unsigned type, std::uint32_t count,
+                           const std::vector<double>& numbers) {
+        return WrittenObject{
+            .minor = 41, .name = name, .body = reals({scale}) + number(type, 1) + number(count, 2) + reals(numbers)}
+            .bytes();
     };
-    const Scene binary = parse_g(points("p", 2, 0, 3, {0, 0, 0, 3, 0, 0, 20, 0, 0}) + points("q", 5, 2, 2, {0, 0, 0, 1, 10, 0, 0, 2}) +
-                                 points("f", 0, 7, 1, {0, 0, 0, 1, .5, 0, 4, 0, 0, 1}));
+    const Scene binary =
+        parse_g(points("p", 2, 0, 3, {0, 0, 0, 3, 0, 0, 20, 0, 0}) + points("q", 5, 2, 2, {0, 0, 0, 1, 10, 0, 0, 2}) +
+                points("f", 0, 7, 1, {0, 0, 0, 1, .5, 0, 4, 0, 0, 1}));
     CHECK(ends(binary, "p") == ends(scene, "p"));
     CHECK(ends(binary, "q") == ends(scene, "q"));
     CHECK(ends(binary, "f") == ends(scene, "f"));
-    for (const std::string& wrong : {points("p", 2, 0, 4, {0, 0, 0}), points("p", 2, 8, 0, {}), points("p", 2, 0, 1, {0, 0, NAN})})
+    for (const std::string& wrong :
+         {points("p", 2, 0, 4, {0, 0, 0}), points("p", 2, 8, 0, {}), points("p", 2, 0, 1, {0, 0, NAN})})
         CHECK_THROWS_AS(parse_g(wrong), Error);
     CHECK(asc_test::findings_in(v5 + "put p pnts type 2 data {{1 2 3}}\n").size() == 1);
 }

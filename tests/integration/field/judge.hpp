@@ -26,8 +26,8 @@ struct FieldTally {
     std::string first;         ///< the first wrong ray
 };
 
-/// Has the truth a stretch, or a gap, that may be no longer than ends may be apart that are one? `fused`: by how much, along
-/// the ray. The oracle knows no such rule.
+/// Has the truth a stretch, or a gap, that may be no longer than ends may be apart that are one? `fused`: by how much,
+/// along the ray. The oracle knows no such rule.
 inline bool may_fuse(const Sequence& sequence, double fused) {
     return std::any_of(sequence.begin(), sequence.end(), [&](const Item& item) {
         return item.out - item.in <= fused + item.in_tolerance + item.out_tolerance;
@@ -35,8 +35,8 @@ inline bool may_fuse(const Sequence& sequence, double fused) {
 }
 
 /// Shoots the rays of a scene on the device and on the reference, requires the same bits, and adds what the oracle
-/// says to `tally`. `truth`: what the scene means, where the oracle is not to be asked of its own words; of the same rays.
-/// `tie(ray, answer)` is called where rounding decides.
+/// says to `tally`. `truth`: what the scene means, where the oracle is not to be asked of its own words; of the same
+/// rays. `tie(ray, answer)` is called where rounding decides.
 template <class Tie>
 void judge_field(const stress::StressScene& made, const stress::StressScene& truth, FieldTally& tally, const Tie& tie) {
     Settings settings = on_reference(), device_settings = on_device();
@@ -87,8 +87,8 @@ inline void require_all_right(const FieldTally& tally, std::size_t one_in = 2) {
 }
 
 /// Everything decided is right in the scenes make(seed, times) of `count` seeds, from `first` on.
-inline void judge_seeds(stress::StressScene (*make)(std::uint64_t, std::size_t), std::uint64_t first, std::uint64_t count,
-                        std::size_t times) {
+inline void judge_seeds(stress::StressScene (*make)(std::uint64_t, std::size_t), std::uint64_t first,
+                        std::uint64_t count, std::size_t times) {
     FieldTally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) judge_field(make(seed, times), tally);
     require_all_right(tally);

@@ -1,4 +1,5 @@
-// Legs of BRL-CAD's databases that are missing or broken: each is the empty set, as in BRL-CAD's own ray tracer, and is told.
+// Legs of BRL-CAD's databases that are missing or broken: each is the empty set, as in BRL-CAD's own ray tracer, and is
+// told.
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -33,21 +34,42 @@ Tree broken_leg(Scene& scene, int way, const std::string& name) {
         combination.tree = std::move(tree);
         scene.objects.emplace_back(std::move(combination));
     };
-    const Matrix flat{1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1}, far{1, 0, 0, 9e15, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+    const Matrix flat{1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1},
+        far{1, 0, 0, 9e15, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
         not_finite{nan, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     switch (way) {
-        case 0: break;  // missing
-        case 1: add(Ell{{}, {1, 0, 0}, {}, {0, 0, 1}}); break;
-        case 2: add(Tgc{{}, {0, 0, 10}, {5, 0, 0}, {0, 5, 0}, {-5, 0, 0}, {0, -5, 0}}); break;
-        case 3: add(Ell{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); break;
-        case 4: add(Unsupported{"brep"}); break;
-        case 5: add(Unsupported{"ell", "the object ends early"}); break;
-        case 6: add_combination({}); break;
-        case 7: add_combination(stress::leaf(name)); break;  // contains itself
-        case 8: return stress::leaf("s0", flat);
-        case 9: return stress::leaf("s0", far);
-        case 10: return stress::leaf("s0", not_finite);
-        default: add_combination({{{Operator::union_, 2, {}, identity, {}}}}); break;  // an operator without operands
+        case 0:
+            break;  // missing
+        case 1:
+            add(Ell{{}, {1, 0, 0}, {}, {0, 0, 1}});
+            break;
+        case 2:
+            add(Tgc{{}, {0, 0, 10}, {5, 0, 0}, {0, 5, 0}, {-5, 0, 0}, {0, -5, 0}});
+            break;
+        case 3:
+            add(Ell{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+            break;
+        case 4:
+            add(Unsupported{"brep"});
+            break;
+        case 5:
+            add(Unsupported{"ell", "the object ends early"});
+            break;
+        case 6:
+            add_combination({});
+            break;
+        case 7:
+            add_combination(stress::leaf(name));
+            break;  // contains itself
+        case 8:
+            return stress::leaf("s0", flat);
+        case 9:
+            return stress::leaf("s0", far);
+        case 10:
+            return stress::leaf("s0", not_finite);
+        default:
+            add_combination({{{Operator::union_, 2, {}, identity, {}}}});
+            break;  // an operator without operands
     }
     return stress::leaf(name);
 }
@@ -57,18 +79,21 @@ struct Twins {
     stress::StressScene made, truth;
 };
 
-/// Some solids and some legs that are broken, under operators at random; in the truth the broken ones are empty combinations.
+/// Some solids and some legs that are broken, under operators at random; in the truth the broken ones are empty
+/// combinations.
 Twins broken_trees(std::uint64_t seed, std::size_t times) {
     stress::Builder to("broken trees", seed, times);
     stress::Random& random = to.random();
     std::vector<std::string> solids;
     for (int i = 0; i < 6; ++i)
-        solids.push_back(to.solid(stress::ball({random.between(-6, 6), random.between(-6, 6), random.between(-6, 6)}, random.between(3, 8))));
+        solids.push_back(to.solid(
+            stress::ball({random.between(-6, 6), random.between(-6, 6), random.between(-6, 6)}, random.between(3, 8))));
     const std::string hole = to.combination({});
     const int regions = 4;
     for (int r = 0; r < regions; ++r) {
         std::vector<std::string> legs = solids;
-        for (int i = 0; i < 3; ++i) legs[static_cast<std::size_t>(random.below(static_cast<std::uint32_t>(legs.size())))] = hole;
+        for (int i = 0; i < 3; ++i)
+            legs[static_cast<std::size_t>(random.below(static_cast<std::uint32_t>(legs.size())))] = hole;
         to.region(stress::some_tree(legs, random));
     }
     to.region(stress::leaf(solids[0]));
@@ -115,15 +140,20 @@ struct Broken {
 };
 
 using Parse = Scene (*)(const std::string& bytes, bool lenient);
-Scene parse_asc(const std::string& text, bool lenient) { return parse_brlcad_asc(TextSource("model.asc", text), lenient); }
+Scene parse_asc(const std::string& text, bool lenient) {
+    return parse_brlcad_asc(TextSource("model.asc", text), lenient);
+}
 Scene parse_g(const std::string& bytes, bool lenient) { return parse_brlcad_g(ByteSource("model.g", bytes), lenient); }
 
 /// "a u b", "a - b", ... as a file's record of a region.
 using Region = std::string (*)(const std::string& name, const std::string& a, char op, const std::string& b);
 
-const std::vector<Ray> rays = {{{-50, 0.25, 0.5}, {1, 0, 0}}, {{0.5, -50, 0.125}, {0, 1, 0}}, {{0.5, 0.25, 80}, {0, 0.001, -1}}};
+const std::vector<Ray> rays = {
+    {{-50, 0.25, 0.5}, {1, 0, 0}}, {{0.5, -50, 0.125}, {0, 1, 0}}, {{0.5, 0.25, 80}, {0, 0.001, -1}}};
 
-std::vector<RayPartitions> shoot(const Scene& scene) { return Renderer(scene, {"part.r", "other.r"}, test::on_reference()).shoot(rays); }
+std::vector<RayPartitions> shoot(const Scene& scene) {
+    return Renderer(scene, {"part.r", "other.r"}, test::on_reference()).shoot(rays);
+}
 
 bool is_refused(const std::string& bytes, Parse parse) {
     try {
@@ -156,14 +186,16 @@ Scene as_json(const Scene& scene) {
 /// Under each operator, on either side, the leg is the empty set. `sound`: records of ball.s and other.r.
 void check_broken(const Broken& broken, const std::string& sound, Region region, Parse parse) {
     const std::vector<RayPartitions> both = shoot(parse(sound + region("part.r", "ball.s", 'u', "ball.s"), false)),
-                                     other = Renderer(parse(sound, false), {"other.r"}, test::on_reference()).shoot(rays);
+                                     other =
+                                         Renderer(parse(sound, false), {"other.r"}, test::on_reference()).shoot(rays);
     REQUIRE(both[0].partitions.size() == 2);
     REQUIRE(other[0].partitions.size() == 1);
     for (const char op : {'u', '-', '+', '^'}) {
         for (const bool first : {false, true}) {
             INFO(broken.what << ", " << op << (first ? ", first" : ""));
-            const std::string bytes = sound + broken.records +
-                                      (first ? region("part.r", broken.leg, op, "ball.s") : region("part.r", "ball.s", op, broken.leg));
+            const std::string bytes =
+                sound + broken.records +
+                (first ? region("part.r", broken.leg, op, "ball.s") : region("part.r", "ball.s", op, broken.leg));
             const Scene scene = parse(bytes, true);
             REQUIRE(scene.lenient);
             const bool nothing = op == '+' || (op == '-' && first);
@@ -179,7 +211,8 @@ void check_broken(const Broken& broken, const std::string& sound, Region region,
                 }
             CHECK(told == 1);
             // An object that has no inside is no mistake.
-            const bool is_mistake = broken.reason != "nothing in it" && broken.reason.find("has no inside") == std::string::npos;
+            const bool is_mistake =
+                broken.reason != "nothing in it" && broken.reason.find("has no inside") == std::string::npos;
             CHECK(is_refused(bytes, parse) == is_mistake);
             // As JSON, which is strict, it means the same; but for what is too far only where it stands.
             if (!is_of_unknown_type(scene, broken.leg) && broken.reason.find("it reaches to") != 0)
@@ -249,8 +282,9 @@ TEST_CASE("a database in text is drawn without its broken legs", "[field]") {
          "put d.c comb region no tree {l far.s {1 0 0 9e14 0 1 0 0 0 0 1 0 0 0 0 1}}\n",
          "bad.c", "it reaches to 1.8e+15 mm"},
         {"operator", "put bad.c comb region no tree {q {l ball.s} {l ball.s}}\n", "bad.c", "'q' is no operator"},
-        {"cells", "put bad.s vol file none w 2 n 2 d 2 lo 1 hi 255 size {1 1 1} mat {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n", "bad.s",
-         "the file 'none', which cannot be read"},
+        {"cells",
+         "put bad.s vol file none w 2 n 2 d 2 lo 1 hi 255 size {1 1 1} mat {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n",
+         "bad.s", "the file 'none', which cannot be read"},
     };
     for (const Broken& broken : kinds) check_broken(broken, sound_v5, region_v5, parse_asc);
 }
@@ -281,27 +315,33 @@ TEST_CASE("a binary database is drawn without its broken legs", "[field]") {
         {"too short", solid_g(3, "bad.s", {0, 0, 0, 10}), "bad.s", "bytes are needed"},
         {"too long", solid_g(3, "bad.s", {0, 0, 0, 10, 0, 0, 0, 10, 0, 0, 0, 10, 7}), "bad.s", "8 bytes more"},
         {"compressed",
-         g_test::WrittenObject{.minor = 3, .name = "bad.s", .body = g_test::counted_reals(1, 12), .compression = 1}.bytes(), "bad.s",
-         "g2asc"},
+         g_test::WrittenObject{.minor = 3, .name = "bad.s", .body = g_test::counted_reals(1, 12), .compression = 1}
+             .bytes(),
+         "bad.s", "g2asc"},
         {"unknown", solid_g(37, "bad.s", {1, 2, 3}), "bad.s", "NURB"},
         {"submodel", solid_g(28, "bad.s", {1, 2, 3}), "bad.s", "dbconcat"},
         {"no such type", solid_g(99, "bad.s", {1, 2, 3}), "bad.s", "'type 99'"},
         {"empty", g_test::combination("bad.c", {}), "bad.c", "nothing in it"},
         {"joint", solid_g(23, "bad.s", {1, 2, 3}), "bad.s", "a joint has no inside"},
         {"itself", g_test::combination("bad.c", {.leaves = {{"bad.c"}}}), "bad.c", "contains itself"},
-        {"singular", g_test::combination("bad.c", {.leaves = {{"ball.s", 0}}, .matrices = {{1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1}}}),
+        {"singular",
+         g_test::combination(
+             "bad.c", {.leaves = {{"ball.s", 0}}, .matrices = {{1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1}}}),
          "bad.c", "is singular"},
-        {"token", g_test::combination("bad.c", {.leaves = {{"ball.s"}}, .expression = bad_token}), "bad.c", "is no token"},
+        {"token", g_test::combination("bad.c", {.leaves = {{"ball.s"}}, .expression = bad_token}), "bad.c",
+         "is no token"},
         {"matrix", g_test::combination("bad.c", {.leaves = {{"ball.s", 3}}}), "bad.c", "the leaf has matrix 3"},
     };
     for (const Broken& broken : kinds) check_broken(broken, sound_g, region_g, parse_g);
 }
 
 TEST_CASE("what is wrong beside the geometry is passed over, and told", "[field]") {
-    const Scene scene = parse_asc(sound_v5 + "put r.r comb region yes rgb {1 2 300} id 7 tree {l ball.s}\n"
-                                             "attr set r.r los many aircode 0 material_id 5\n"
-                                             "attr set gone.r los 5\ncolor 1 2 x 4 5\n"
-                                             "put ball.s ell V {5 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n", true);
+    const Scene scene = parse_asc(sound_v5 +
+                                      "put r.r comb region yes rgb {1 2 300} id 7 tree {l ball.s}\n"
+                                      "attr set r.r los many aircode 0 material_id 5\n"
+                                      "attr set gone.r los 5\ncolor 1 2 x 4 5\n"
+                                      "put ball.s ell V {5 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n",
+                                  true);
     REQUIRE(scene.warnings.size() == 5);
     for (const Warning& warning : scene.warnings) CHECK(warning.place.line > 5);
     const auto& region = std::get<Combination>(*scene.find("r.r"));
@@ -311,8 +351,10 @@ TEST_CASE("what is wrong beside the geometry is passed over, and told", "[field]
     CHECK(std::get<Ell>(std::get<Solid>(*scene.find("ball.s")).shape).v == Vec3{0, 0, 0});
     CHECK(scene.warnings.back().reason.find("this name is taken") == 0);
 
-    const Scene binary = parse_g(sound_g + g_test::combination("r.r", {.leaves = {{"ball.s"}}},
-                                                               g_test::attributes({"region", "R", "los", "many", "material_id", "5"})), true);
+    const Scene binary =
+        parse_g(sound_g + g_test::combination("r.r", {.leaves = {{"ball.s"}}},
+                                              g_test::attributes({"region", "R", "los", "many", "material_id", "5"})),
+                true);
     REQUIRE(binary.warnings.size() == 1);
     CHECK(binary.warnings[0].object == "r.r");
     CHECK(std::get<Combination>(*binary.find("r.r")).region);
@@ -325,7 +367,8 @@ TEST_CASE("a file that cannot be read as a whole is refused with its place", "[f
             parse(bytes, true);
             return false;
         } catch (const Error& error) {
-            return error.status() == Status::scene && (error.diagnostics()[0].place.line > 0 || error.diagnostics()[0].place.offset >= 0);
+            return error.status() == Status::scene &&
+                   (error.diagnostics()[0].place.line > 0 || error.diagnostics()[0].place.offset >= 0);
         }
     };
     CHECK(refused(sound_v5 + "put open.s ell V {0 0 0", parse_asc));
@@ -338,9 +381,11 @@ TEST_CASE("a file that cannot be read as a whole is refused with its place", "[f
 }
 
 TEST_CASE("a missing object is told once, with its legs counted; so is one that all use", "[field]") {
-    const Scene scene = parse_asc(sound_v5 + "put bad.s ell V {0 0 0} A {10 0 0} B {0 0 0} C {0 0 10}\n" +
-                                      region_v5("a.r", "ball.s", 'u', "gone.s") + region_v5("b.r", "bad.s", 'u', "gone.s") +
-                                      region_v5("c.r", "ball.s", '-', "bad.s"), true);
+    const Scene scene =
+        parse_asc(sound_v5 + "put bad.s ell V {0 0 0} A {10 0 0} B {0 0 0} C {0 0 10}\n" +
+                      region_v5("a.r", "ball.s", 'u', "gone.s") + region_v5("b.r", "bad.s", 'u', "gone.s") +
+                      region_v5("c.r", "ball.s", '-', "bad.s"),
+                  true);
     const std::vector<Warning> warnings = Renderer(scene, {"a.r", "b.r", "c.r"}, test::on_reference()).warnings();
     REQUIRE(warnings.size() == 3);
     CHECK(warnings[0].object == "bad.s");
@@ -353,12 +398,15 @@ TEST_CASE("a missing object is told once, with its legs counted; so is one that 
 }
 
 TEST_CASE("a database with some bytes changed is drawn or refused", "[field]") {
-    const std::string v5 = sound_v5 + "put t.s tor V {0 0 0} H {0 0 1} r_a 10 r_h 2\n" + region_v5("a.r", "ball.s", '-', "t.s") +
-                           region_v5("b.r", "other.s", 'u', "gone.s") + "put all.g comb region no tree {u {l a.r} {l b.r}}\n",
-                      v4 = sound_v4 + solid_v4(16, "t.s", "0 0 0 0 0 2 10 0 0 0 10 0", 12) + region_v4("a.r", "ball.s", '-', "t.s") +
-                           region_v4("b.r", "other.s", 'u', "gone.s") + region_v4("all.g", "a.r", 'u', "b.r"),
-                      g = sound_g + solid_g(1, "t.s", {0, 0, 0, 0, 0, 1, 10, 2}) + region_g("a.r", "ball.s", '-', "t.s") +
-                          region_g("b.r", "other.s", 'u', "gone.s") + region_g("all.g", "a.r", 'u', "b.r");
+    const std::string v5 = sound_v5 + "put t.s tor V {0 0 0} H {0 0 1} r_a 10 r_h 2\n" +
+                           region_v5("a.r", "ball.s", '-', "t.s") + region_v5("b.r", "other.s", 'u', "gone.s") +
+                           "put all.g comb region no tree {u {l a.r} {l b.r}}\n",
+                      v4 = sound_v4 + solid_v4(16, "t.s", "0 0 0 0 0 2 10 0 0 0 10 0", 12) +
+                           region_v4("a.r", "ball.s", '-', "t.s") + region_v4("b.r", "other.s", 'u', "gone.s") +
+                           region_v4("all.g", "a.r", 'u', "b.r"),
+                      g = sound_g + solid_g(1, "t.s", {0, 0, 0, 0, 0, 1, 10, 2}) +
+                          region_g("a.r", "ball.s", '-', "t.s") + region_g("b.r", "other.s", 'u', "gone.s") +
+                          region_g("all.g", "a.r", 'u', "b.r");
     stress::Random random(7);
     int drawn = 0, refused = 0, told = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -366,7 +414,8 @@ TEST_CASE("a database with some bytes changed is drawn or refused", "[field]") {
         std::string bytes = i % 3 == 0 ? v5 : i % 3 == 1 ? v4 : g;
         for (int k = random.whole(1, 3); k > 0; --k) {
             const auto at = static_cast<std::size_t>(random.below(static_cast<std::uint32_t>(bytes.size())));
-            const char other = i % 3 == 2 ? static_cast<char>(random.whole(0, 255)) : "0123456789 .-e{}xu\n"[random.whole(0, 19)];
+            const char other =
+                i % 3 == 2 ? static_cast<char>(random.whole(0, 255)) : "0123456789 .-e{}xu\n"[random.whole(0, 19)];
             bytes[at] = random.coin() ? other : static_cast<char>(bytes[at] ^ 1 << random.whole(0, 7));
         }
         INFO(i);
@@ -404,7 +453,8 @@ TEST_CASE("every model of BRL-CAD draws, with nothing left out but what is empty
         std::string told;
         for (const Warning& warning : renderer.warnings()) told += "\n" + format(warning);
         INFO(told);
-        for (std::size_t at = told.find(": left out: "); at != std::string::npos; at = told.find(": left out: ", at + 1))
+        for (std::size_t at = told.find(": left out: "); at != std::string::npos;
+             at = told.find(": left out: ", at + 1))
             CHECK(told.find("there is nothing in it", at) == at + 12);
         CHECK(validate(load_scene(entry.path().string(), true)).empty());
     }

@@ -1,5 +1,5 @@
-// Closed meshes as programs write them: faces given twice, faces without area, vertices in the middle of other faces' edges,
-// any winding, vertices of each face its own. The oracle is asked of the mesh before all that was done to it.
+// Closed meshes as programs write them: faces given twice, faces without area, vertices in the middle of other faces'
+// edges, any winding, vertices of each face its own. The oracle is asked of the mesh before all that was done to it.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -68,7 +68,8 @@ void add_ball(Bot& bot, const Vec3& center, double radius, int rings, int around
         ring.clear();
         for (int j = 0; j < around; ++j) {
             const double turn = 2 * pi * j / around;
-            ring.push_back(at(std::cos(latitude) * std::cos(turn), std::cos(latitude) * std::sin(turn), std::sin(latitude)));
+            ring.push_back(
+                at(std::cos(latitude) * std::cos(turn), std::cos(latitude) * std::sin(turn), std::sin(latitude)));
         }
         for (std::size_t j = 0; j < ring.size(); ++j) {
             const std::size_t k = (j + 1) % ring.size();
@@ -131,7 +132,8 @@ void make_t_junction(Bot& bot, Random& random, std::vector<Vec3>& places) {
     bool first = true;
     for (int i = 1; i <= parts; ++i) {
         const double s = static_cast<double>(i) / parts;
-        const std::uint32_t next = i == parts ? b : add_vertex(bot, bot.vertices[a] + s * (bot.vertices[b] - bot.vertices[a]));
+        const std::uint32_t next =
+            i == parts ? b : add_vertex(bot, bot.vertices[a] + s * (bot.vertices[b] - bot.vertices[a]));
         if (i < parts) places.push_back(bot.vertices[next]);
         if (first)
             bot.faces[f] = {last, next, tip};
@@ -226,10 +228,10 @@ Made make_meshes(std::uint64_t seed, std::size_t times) {
         const Vec3 &p = clean.vertices[face[0]], &q = clean.vertices[face[1]];
         const Vec3 d = random.below(4) == 0 ? random.axis() : random.direction();
         Vec3 through = a + random.unit() * (b - a) + 0.1 * random.in_cube(), way = d;
-        if (i % 8 == 3) through = a;                                  // through a vertex
-        if (i % 8 == 4) through = p + random.unit() * (q - p);        // through an edge
-        if (i % 8 == 5) through = p, way = unit(q - p);               // along an edge
-        if (i % 8 == 6 && !places.empty())                            // through a T-junction
+        if (i % 8 == 3) through = a;                            // through a vertex
+        if (i % 8 == 4) through = p + random.unit() * (q - p);  // through an edge
+        if (i % 8 == 5) through = p, way = unit(q - p);         // along an edge
+        if (i % 8 == 6 && !places.empty())                      // through a T-junction
             through = places[random.below(static_cast<std::uint32_t>(places.size()))];
         if (i % 8 == 7) through = p + random.unit() * (q - p) + random.power_of_ten(-9, -2) * random.direction();
         const Vec3 origin = through - random.between(20, 40) * way;

@@ -1,5 +1,6 @@
-// Turns that close, or all but close: revolves by angles at and near a full turn, half a turn and none, and pipes whose bends
-// all but run straight on or turn back. Rays in the planes where the turn begins and ends, across them, through the axis and along it.
+// Turns that close, or all but close: revolves by angles at and near a full turn, half a turn and none, and pipes whose
+// bends all but run straight on or turn back. Rays in the planes where the turn begins and ends, across them, through
+// the axis and along it.
 #include "integration/field/judge.hpp"
 #include "formats/json/parse_text.hpp"
 #include "oracle/scene_solid.hpp"
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-// Between two distances from the axis and two heights; or down to the axis; or round. The inside reaches from 1 to 2 from the axis.
+// Between two distances from the axis and two heights; or down to the axis; or round. The inside reaches from 1 to 2
+// from the axis.
 Sketch some_profile(Random& random) {
     Sketch sketch;
     const auto lines = [&](std::uint32_t first, std::uint32_t last) {
@@ -42,7 +44,8 @@ Sketch some_profile(Random& random) {
     return sketch;
 }
 
-// At none, half or all of a turn, or off by as little as a bit and as much as 1e-8. In between, off the limit of what is one: 1e-10.
+// At none, half or all of a turn, or off by as little as a bit and as much as 1e-8. In between, off the limit of what
+// is one: 1e-10.
 double some_angle(Random& random) {
     static constexpr double offs[] = {0, 0, 4e-16, 9e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 5e-11, 2e-9, 1e-8};
     const double at = pi * random.whole(0, 2), off = offs[random.below(std::size(offs))] * random.sign();
@@ -66,25 +69,47 @@ StressScene seams(std::uint64_t seed, std::size_t times) {
         // Where the turn begins or ends, the far side of that, half-way through the gap, or anywhere.
         double turn = 0;
         switch (random.below(5)) {
-            case 0: break;
-            case 1: turn = angle; break;
-            case 2: turn = angle / 2; break;
-            case 3: turn = angle / 2 + pi; break;
-            default: turn = random.between(0, 2 * pi); break;
+            case 0:
+                break;
+            case 1:
+                turn = angle;
+                break;
+            case 2:
+                turn = angle / 2;
+                break;
+            case 3:
+                turn = angle / 2 + pi;
+                break;
+            default:
+                turn = random.between(0, 2 * pi);
+                break;
         }
         Vec3 out{std::cos(turn), std::sin(turn), 0};
         if (turn == 0) out = {1, 0, 0};
         const Vec3 aside{-out.y, out.x, 0}, up{0, 0, 1};
-        const double far = random.sign() * random.between(0.1, 1.9), height = random.coin() ? 0 : random.between(-0.9, 1.4);
+        const double far = random.sign() * random.between(0.1, 1.9),
+                     height = random.coin() ? 0 : random.between(-0.9, 1.4);
         const Vec3 at = far * out + height * up;
         Vec3 direction;
         switch (random.below(6)) {
-            case 0: direction = random.sign() * out; break;                                        // through the axis
-            case 1: direction = random.sign() * up; break;                                         // along it
-            case 2: direction = random.between(-1, 1) * out + random.between(-1, 1) * up; break;   // in the plane
-            case 3: direction = random.sign() * aside; break;                                      // straight across it
-            case 4: direction = random.sign() * aside + random.between(-1, 1) * out + random.between(-1, 1) * up; break;
-            default: direction = random.direction(); break;
+            case 0:
+                direction = random.sign() * out;
+                break;  // through the axis
+            case 1:
+                direction = random.sign() * up;
+                break;  // along it
+            case 2:
+                direction = random.between(-1, 1) * out + random.between(-1, 1) * up;
+                break;  // in the plane
+            case 3:
+                direction = random.sign() * aside;
+                break;  // straight across it
+            case 4:
+                direction = random.sign() * aside + random.between(-1, 1) * out + random.between(-1, 1) * up;
+                break;
+            default:
+                direction = random.direction();
+                break;
         }
         const Vec3 start = random.below(8) == 0 ? at - at.z * up - far * out : at;  // some from the axis on
         to.ray_through(moved_point(place, start), moved_direction(place, direction), random.below(4) == 0 ? 0 : 5);
@@ -96,8 +121,10 @@ StressScene seams(std::uint64_t seed, std::size_t times) {
 StressScene bends(std::uint64_t seed, std::size_t times) {
     Builder to("bends", seed, times);
     Random& random = to.random();
-    // Ends of straight parts that lean by less than 1e-9 are one plane, and no bend: not by numbers in between, on which rules differ.
-    const double lean = (random.below(4) ? random.power_of_ten(-9, -2) : random.power_of_ten(-16, -13)) * random.between(2, 9);
+    // Ends of straight parts that lean by less than 1e-9 are one plane, and no bend: not by numbers in between, on
+    // which rules differ.
+    const double lean =
+        (random.below(4) ? random.power_of_ten(-9, -2) : random.power_of_ten(-16, -13)) * random.between(2, 9);
     const bool back = random.coin() && lean > 1e-5;
     const double bend = 1, reach = 8 + (back ? 4 / lean : 0);
     const Vec3 corner{0, 0, 0}, before{-reach, 0, 0};
@@ -113,17 +140,26 @@ StressScene bends(std::uint64_t seed, std::size_t times) {
         at.z = random.below(3) ? 0 : random.between(-0.5, 0.5);
         Vec3 direction = random.direction();
         switch (random.below(4)) {
-            case 0: direction = {0, random.sign(), 0}; break;
-            case 1: direction = {0, random.between(-1, 1), random.between(-1, 1)}; break;
-            case 2: direction = {random.sign(), back ? 0 : random.between(-1, 1), random.below(2) ? 0 : random.between(-1, 1)}; break;
-            default: break;
+            case 0:
+                direction = {0, random.sign(), 0};
+                break;
+            case 1:
+                direction = {0, random.between(-1, 1), random.between(-1, 1)};
+                break;
+            case 2:
+                direction = {random.sign(), back ? 0 : random.between(-1, 1),
+                             random.below(2) ? 0 : random.between(-1, 1)};
+                break;
+            default:
+                break;
         }
         to.ray_through(at, direction, 10);
     }
     return to.take();
 }
 
-test::FieldTally judged(StressScene (*make)(std::uint64_t, std::size_t), std::uint64_t first, std::uint64_t count, std::size_t times) {
+test::FieldTally judged(StressScene (*make)(std::uint64_t, std::size_t), std::uint64_t first, std::uint64_t count,
+                        std::size_t times) {
     test::FieldTally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) test::judge_field(make(seed, times), tally);
     return tally;
@@ -131,13 +167,17 @@ test::FieldTally judged(StressScene (*make)(std::uint64_t, std::size_t), std::ui
 
 }  // namespace
 
-TEST_CASE("turns that close, or all but close, are right", "[field]") { test::require_all_right(judged(seams, 1, 24, 1)); }
-TEST_CASE("pipes that all but run straight on, or turn back, are right", "[field]") { test::require_all_right(judged(bends, 1, 8, 1)); }
+TEST_CASE("turns that close, or all but close, are right", "[field]") {
+    test::require_all_right(judged(seams, 1, 24, 1));
+}
+TEST_CASE("pipes that all but run straight on, or turn back, are right", "[field]") {
+    test::require_all_right(judged(bends, 1, 8, 1));
+}
 
 TEST_CASE("10^5 rays at seams", "[.long]") {
     const auto tell = [](const char* what, const test::FieldTally& tally) {
-        std::printf("%s: %zu scenes, %zu rays, %zu ties, %zu wrong, worst end %.2f\n", what, tally.scenes, tally.rays, tally.ties,
-                    tally.wrong, tally.worst);
+        std::printf("%s: %zu scenes, %zu rays, %zu ties, %zu wrong, worst end %.2f\n", what, tally.scenes, tally.rays,
+                    tally.ties, tally.wrong, tally.worst);
         test::require_all_right(tally);
     };
     tell("seams", judged(seams, 1000, 1000, 4));
@@ -166,7 +206,8 @@ TEST_CASE("the oracle knows that a seam closes", "[field]") {
 TEST_CASE("a ray in the plane of a seam that closes meets both sides", "[field]") {
     const auto scene = [](const std::string& angle) {
         return scene_of(R"({"csgrt": 1, "solids": {"tube": {"type": "revolve", "base": [0, 0, 0], "axis": [0, 0, 1],
-            "r": [1, 0, 0], "angle": )" + angle + R"(, "sketch": {"vertices": [[20, -40], [30, -40], [30, 40], [20, 40]],
+            "r": [1, 0, 0], "angle": )" +
+                        angle + R"(, "sketch": {"vertices": [[20, -40], [30, -40], [30, 40], [20, 40]],
             "curves": [{"line": [0, 1]}, {"line": [1, 2]}, {"line": [2, 3]}, {"line": [3, 0]}]}}}})");
     };
     const std::vector<Ray> rays = {{{-100, 0, 0}, {1, 0, 0}}, {{-25, 0, -100}, {0, 0, 1}}, {{25, -100, 0}, {0, 1, 0}}};

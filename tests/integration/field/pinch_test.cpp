@@ -13,8 +13,9 @@ using namespace csgrt::test;
 
 namespace {
 
-constexpr const char* kinds[] = {"horn torus", "near horn", "eto",      "cone",     "on its apex", "edge top", "near an edge",
-                                 "part",       "ehy",       "hyp",      "superell", "hrt",         "revolve"};
+constexpr const char* kinds[] = {"horn torus", "near horn",    "eto",    "cone", "on its apex",
+                                 "edge top",   "near an edge", "part",   "ehy",  "hyp",
+                                 "superell",   "hrt",          "revolve"};
 static_assert(std::size(kinds) == stress::pinch_kinds);
 
 stress::StressScene scene_of(std::size_t kind, std::uint64_t round, std::size_t times = 1) {
@@ -63,7 +64,8 @@ TEST_CASE("pinches, tips and poles are met as the oracle meets them", "[field]")
     for (std::size_t kind = 0; kind < stress::pinch_kinds; ++kind) {
         INFO(kinds[kind]);
         FieldTally tally;
-        for (std::uint64_t round = 0; round < 3; ++round) judge_on_reference(scene_of(kind, round), on_reference(), tally);
+        for (std::uint64_t round = 0; round < 3; ++round)
+            judge_on_reference(scene_of(kind, round), on_reference(), tally);
         require_all_right(tally);
     }
 }
@@ -149,8 +151,8 @@ TEST_CASE("pinches, every way to solve a quartic", "[.long]") {
             FieldTally tally;
             for (std::uint64_t round = 0; round < 12; ++round)
                 judge_on_reference(scene_of(kind, round, 10), settings, tally);
-            std::printf("%s, %s: %zu of %zu decided rays wrong, worst end %.3g\n", std::string(name).c_str(), kinds[kind],
-                        tally.wrong, tally.rays - tally.ties, tally.worst);
+            std::printf("%s, %s: %zu of %zu decided rays wrong, worst end %.3g\n", std::string(name).c_str(),
+                        kinds[kind], tally.wrong, tally.rays - tally.ties, tally.worst);
             std::fflush(stdout);
             if (quartic == Quartic::bracketed) require_all_right(tally);
         }
@@ -162,16 +164,17 @@ TEST_CASE("pinches, tips and poles, a million rays", "[.long]") {
     std::size_t share = 1;
     if (const char* less = std::getenv("CSGRT_RAYS_SHARE")) share = std::strtoull(less, nullptr, 10);
     constexpr std::size_t rounds = 36;
-    const std::array<std::size_t, stress::pinch_kinds> rays{500'000, 500'000, 100'000, 250'000, 250'000, 250'000, 250'000,
-                                                            100'000, 100'000, 100'000, 100'000, 100'000, 100'000};
+    const std::array<std::size_t, stress::pinch_kinds> rays{500'000, 500'000, 100'000, 250'000, 250'000,
+                                                            250'000, 250'000, 100'000, 100'000, 100'000,
+                                                            100'000, 100'000, 100'000};
     for (std::size_t kind = 0; kind < stress::pinch_kinds; ++kind) {
         INFO(kinds[kind]);
         FieldTally tally;
         const std::size_t times = std::max<std::size_t>(1, rays[kind] / share / rounds / 60 + 1);
         for (std::uint64_t round = 0; round < rounds; ++round)
             judge_on_reference(scene_of(kind, round, times), on_reference(), tally);
-        std::printf("%s: %zu rays, %zu ties, %zu wrong, worst end %.3g of what is documented %s\n", kinds[kind], tally.rays,
-                    tally.ties, tally.wrong, tally.worst, tally.first.c_str());
+        std::printf("%s: %zu rays, %zu ties, %zu wrong, worst end %.3g of what is documented %s\n", kinds[kind],
+                    tally.rays, tally.ties, tally.wrong, tally.worst, tally.first.c_str());
         std::fflush(stdout);
         require_all_right(tally);
     }

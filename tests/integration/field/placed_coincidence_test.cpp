@@ -1,5 +1,5 @@
-// Solids that share surfaces in a frame of their own, placed far away and turned: what coincides there coincides wherever the frame
-// is put. Judged by the oracle, for which a skin that only rounding has made is none.
+// Solids that share surfaces in a frame of their own, placed far away and turned: what coincides there coincides
+// wherever the frame is put. Judged by the oracle, for which a skin that only rounding has made is none.
 #include "integration/field/judge.hpp"
 #include "bench/stress/build.hpp"
 
@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kinds = 6;
 
-/// A - B, A and B, and B alone of one kind, where faces of the two coincide: 10^6 to 10^10 mm away. `turned`: about some axis.
+/// A - B, A and B, and B alone of one kind, where faces of the two coincide: 10^6 to 10^10 mm away. `turned`: about
+/// some axis.
 StressScene placed(std::uint64_t seed, int rays) {
     Builder to("placed", seed, 1);
     Random& random = to.random();
@@ -53,10 +54,12 @@ StressScene placed(std::uint64_t seed, int rays) {
     to.region(leaf(other, place));
     for (int i = 0; i < rays; ++i) {
         // Through what is shared and what is left, from outside and along the faces' normals.
-        Vec3 through{random.between(-a, a), random.between(-a, a), i % 3 == 0 ? (random.coin() ? h : 0) : random.between(0, h)};
+        Vec3 through{random.between(-a, a), random.between(-a, a),
+                     i % 3 == 0 ? (random.coin() ? h : 0) : random.between(0, h)};
         if (i % 3 == 1 && kind == 0) through = {a, random.between(0, b), random.between(0, h)};
         if (i % 3 == 1 && kind == 5) through = {random.between(-b, b), random.sign() * a, random.between(0.5 * h, h)};
-        if (i % 3 == 1 && (kind == 1 || kind == 2)) through = {random.between(-0.5, 0.5) * b, random.between(-0.5, 0.5) * b, 0};
+        if (i % 3 == 1 && (kind == 1 || kind == 2))
+            through = {random.between(-0.5, 0.5) * b, random.between(-0.5, 0.5) * b, 0};
         const Vec3 d = i % 4 == 0 ? Vec3{0, 0, random.sign()} : random.slanted();
         to.ray_through(moved_point(place, through), moved_direction(place, d), 3 * a);
     }
@@ -72,4 +75,6 @@ void require_placed(std::uint64_t seeds, int rays) {
 }  // namespace
 
 TEST_CASE("what coincides coincides wherever its frame is placed", "[field]") { require_placed(4 * kinds, 20); }
-TEST_CASE("what coincides coincides wherever its frame is placed, many rays", "[.long]") { require_placed(100 * kinds, 170); }
+TEST_CASE("what coincides coincides wherever its frame is placed, many rays", "[.long]") {
+    require_placed(100 * kinds, 170);
+}

@@ -1,6 +1,6 @@
-// The signs of zeros: rays along the axes of a solid of every type, in its planes of symmetry and through its centre, where
-// normals have zeros; rays that begin on its surface, where distances are zero; and zeros of both signs in the rays' own
-// numbers. Device and reference give the same bits.
+// The signs of zeros: rays along the axes of a solid of every type, in its planes of symmetry and through its centre,
+// where normals have zeros; rays that begin on its surface, where distances are zero; and zeros of both signs in the
+// rays' own numbers. Device and reference give the same bits.
 #include <cmath>
 #include <cstdio>
 
@@ -169,7 +169,8 @@ Scene scene_of_samples() {
     std::string solids;
     for (const Sample& sample : samples) solids += '"' + std::string(sample.name) + "\": " + sample.solid + ",\n";
     return scene_of(R"({"csgrt": 1,
-        "solids": {)" + solids + R"("limits": {"type": "box", "low": [-2, -2, -2], "high": [2, 2, 2]}}})");
+        "solids": {)" +
+                    solids + R"("limits": {"type": "box", "low": [-2, -2, -2], "high": [2, 2, 2]}}})");
 }
 
 void add_region(Scene& scene, const std::string& solid, const Matrix& matrix, bool bounded) {
@@ -226,8 +227,8 @@ struct Tally {
     std::size_t rays = 0, met = 0, different = 0;
     std::string where;  ///< the first rays that differ, one a call
 
-    void add(const std::vector<Ray>& list, const std::vector<RayPartitions>& found, const std::vector<RayPartitions>& expected,
-             const Renderer& renderer) {
+    void add(const std::vector<Ray>& list, const std::vector<RayPartitions>& found,
+             const std::vector<RayPartitions>& expected, const Renderer& renderer) {
         bool told = false;
         for (std::size_t i = 0; i < list.size(); ++i) {
             ++rays;
@@ -238,7 +239,8 @@ struct Tally {
             const Vec3 &o = list[i].origin, &d = list[i].direction;
             char text[200];
             std::snprintf(text, sizeof text, "%.17g %.17g %.17g  %.17g %.17g %.17g", o.x, o.y, o.z, d.x, d.y, d.z);
-            where += (expected[i].partitions.empty() ? std::string("?") : renderer.solids()[expected[i].partitions[0].in_solid].name) +
+            where += (expected[i].partitions.empty() ? std::string("?")
+                                                     : renderer.solids()[expected[i].partitions[0].in_solid].name) +
                      ": " + text + "\n";
         }
     }
@@ -258,7 +260,8 @@ void shoot_both(const Scene& scene, std::vector<Ray> rays, stress::Random& rando
     std::vector<Ray> from_surfaces;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (expected[i].partitions.empty()) continue;
-        const Partition& one = expected[i].partitions[random.below(static_cast<std::uint32_t>(expected[i].partitions.size()))];
+        const Partition& one =
+            expected[i].partitions[random.below(static_cast<std::uint32_t>(expected[i].partitions.size()))];
         const double t = random.below(2) ? one.in : one.out, way = random.below(2) ? 1 : -1;
         if (!std::isfinite(t)) continue;
         const Vec3 &o = rays[i].origin, &d = rays[i].direction;
@@ -325,7 +328,8 @@ TEST_CASE("pictures along the axes: the same zeros", "[agreement][field]") {
             view.camera.elevation = axis == 2 ? (from_behind ? -90 : 90) : 0;
             for (const double perspective : {0.0, 60.0})
                 for (const bool every : {false, true}) {
-                    INFO("axis " << axis << ", behind " << from_behind << ", perspective " << perspective << ", every partition " << every);
+                    INFO("axis " << axis << ", behind " << from_behind << ", perspective " << perspective
+                                 << ", every partition " << every);
                     view.camera.perspective = perspective;
                     view.every_partition = every;
                     test::require_same(device.render(view), reference.render(view));

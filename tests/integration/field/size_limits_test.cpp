@@ -72,7 +72,9 @@ Scene one(Shape shape, const Matrix& matrix = identity) {
 
 }  // namespace
 
-TEST_CASE("answers are right up to the limits of sizes and of directions", "[field]") { test::judge_seeds(scaled, 1, 14, 1); }
+TEST_CASE("answers are right up to the limits of sizes and of directions", "[field]") {
+    test::judge_seeds(scaled, 1, 14, 1);
+}
 TEST_CASE("answers are right up to the limits on many rays", "[.long]") { test::judge_seeds(scaled, 101, 500, 10); }
 
 TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as large or small", "[field]") {
@@ -81,7 +83,8 @@ TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as lar
         WARN("no scenes: CSGRT_SCENES is not set");
         return;
     }
-    for (const char* name : {"solids", "cylinders", "polyhedra", "quadrics", "pipes", "blobs", "meshes", "sketches", "cells"}) {
+    for (const char* name :
+         {"solids", "cylinders", "polyhedra", "quadrics", "pipes", "blobs", "meshes", "sketches", "cells"}) {
         const Scene scene = load_scene(folder + "/" + name + ".json");
         const std::vector<std::string> tops = top_objects(scene);
         Settings settings = test::on_reference();
@@ -125,7 +128,8 @@ TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as lar
 
             // Pictures, too: the same regions, counts and normals. Not the colours: lights stay where they are.
             std::optional<Renderer> device;
-            if (name == std::string("solids")) device.emplace(moved(scene, tops, scaling(by)), std::vector<std::string>{"moved"}, device_settings);
+            if (name == std::string("solids"))
+                device.emplace(moved(scene, tops, scaling(by)), std::vector<std::string>{"moved"}, device_settings);
             for (const double perspective : {0.0, 40.0}) {
                 View view;
                 view.width = view.height = 40;
@@ -139,7 +143,8 @@ TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as lar
                 const Image far = other.render(view);
                 if (device) test::require_same(device->render(view), far);
                 for (std::size_t c = 0; c < near.names.size(); ++c)
-                    if (std::string("ZRGB").find(near.names[c]) == std::string::npos) CHECK(std::ranges::equal(near.channels[c], far.channels[c]));
+                    if (std::string("ZRGB").find(near.names[c]) == std::string::npos)
+                        CHECK(std::ranges::equal(near.channels[c], far.channels[c]));
             }
         }
     }
@@ -150,8 +155,10 @@ TEST_CASE("what is beyond the limits is refused with the object, the value and t
     CHECK(refusal(one(ball({0, 0, 0}, large))).empty());
     CHECK(refusal(one(ball({0, 0, 0}, small))).empty());
     const std::string far = refusal(one(ball({1e50, 0, 0}, 1)));
-    CHECK(says(far, "solid 'thing': it has the number 1e+50; the largest size and distance from the origin is 1e+15 mm"));
-    CHECK(says(refusal(one(ball({0, 0, 0}, 1), scaling(1e50))), "the matrix of 'thing' has the number 1e+50; the largest"));
+    CHECK(
+        says(far, "solid 'thing': it has the number 1e+50; the largest size and distance from the origin is 1e+15 mm"));
+    CHECK(says(refusal(one(ball({0, 0, 0}, 1), scaling(1e50))),
+               "the matrix of 'thing' has the number 1e+50; the largest"));
     CHECK(says(refusal(one(ball({0, 0, 0}, 1e10), scaling(1e10))), "solid 'thing' reaches to 1e+20 mm"));
     CHECK(says(refusal(one(ball({1, 0, 0}, 1), scaling(1e-17))), "solid 'thing' is 3.46"));
     CHECK(says(refusal(one(ball({1, 0, 0}, 1), scaling(1e-17))), "the least size is 1e-15 mm"));
@@ -182,7 +189,8 @@ TEST_CASE("rays beyond the limits are refused with their number, the value and t
     CHECK(refused({{Limits::ray_origin, 0, 0}, {1, 0, 0}}).empty());
     CHECK(says(refused({{0, 0, 0}, {0, 1e260, 0}}), "ray 1: the largest component of its direction is 1e+260"));
     CHECK(says(refused({{0, 0, 0}, {0, 1e-260, 0}}), "must be from 1e-250 to 1e+250"));
-    CHECK(says(refused({{0, 2e18, 0}, {0, 1, 0}}), "ray 1: its origin has the coordinate 2e+18, and 1e+18 mm is the farthest"));
+    CHECK(says(refused({{0, 2e18, 0}, {0, 1, 0}}),
+               "ray 1: its origin has the coordinate 2e+18, and 1e+18 mm is the farthest"));
     CHECK(says(refused({{0, 2e18, 0}, {0, 0, 0}}), "ray 1: needs a direction other than 0"));
     CHECK(says(refused({{0, HUGE_VAL, 0}, {0, 1, 0}}), "ray 1: needs six finite numbers"));
 }

@@ -31,7 +31,8 @@ Arb film(double thickness) { return box({0, 0, 0}, {100, 100, thickness}); }
 }  // namespace
 
 TEST_CASE("a film whose two faces are one surface is named", "[field]") {
-    CHECK(says(notes_of(film(1e-8)), "s0: nothing is left of it: two of its faces are 1e-08 mm apart, and faces within 1.4142"));
+    CHECK(says(notes_of(film(1e-8)),
+               "s0: nothing is left of it: two of its faces are 1e-08 mm apart, and faces within 1.4142"));
     CHECK(says(notes_of(film(1e-8)), "e-08 mm, 1e-10 of its size, are one surface"));
     CHECK(says(notes_of(film(1), scaling(1e-9)), "s0: nothing is left of it") == false);  // small, and not thin
     CHECK(says(notes_of(cylinder({3, 4, 0}, {0, 0, 1e-9}, 50)), "two of its faces are 1e-09 mm apart"));
@@ -71,7 +72,8 @@ TEST_CASE("of many films the first few are named, and the others counted", "[fie
     Builder to("films", 1, 1);
     for (int i = 0; i < 9; ++i) to.region(leaf(to.solid(film(1e-9)), translation({0, 0, 3.0 * i})));
     const StressScene made = to.take();
-    const std::vector<std::string> notes = test::texts(Renderer(made.scene, made.objects, test::on_reference()).warnings());
+    const std::vector<std::string> notes =
+        test::texts(Renderer(made.scene, made.objects, test::on_reference()).warnings());
     REQUIRE(notes.size() == 6);
     CHECK(notes.back() == "nothing is left of 4 more such solids");
 }

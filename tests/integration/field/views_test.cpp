@@ -1,5 +1,5 @@
-// What a picture shows: lights of regions, judged by the terms of the plastic computed here in double; parallel views that zoom;
-// the eye, the point that it looks at, and what is up.
+// What a picture shows: lights of regions, judged by the terms of the plastic computed here in double; parallel views
+// that zoom; the eye, the point that it looks at, and what is up.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
 
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/json/reader.hpp"
@@ -42,7 +41,8 @@ struct Lamp {
         if (fraction > 0) text += " f " + std::to_string(fraction);
         if (angle < 180) text += " a " + std::to_string(angle);
         if (target)
-            text += " t {" + std::to_string(target->x) + " " + std::to_string(target->y) + " " + std::to_string(target->z) + "}";
+            text += " t {" + std::to_string(target->x) + " " + std::to_string(target->y) + " " +
+                    std::to_string(target->z) + "}";
         if (infinite) text += " i 1";
         return text + "}";
     }
@@ -50,16 +50,17 @@ struct Lamp {
 
 /// A block whose face x = 100 a view from +x looks at, and lamps of radius 3, as text of BRL-CAD's v5.
 std::string lit_block(const std::vector<Lamp>& lamps) {
-    std::string text = "title {lit}\nunits mm\n"
-                       "put {block.s} arb8 V1 {-100 -100 -100} V2 {100 -100 -100} V3 {100 100 -100} V4 {-100 100 -100} "
-                       "V5 {-100 -100 100} V6 {100 -100 100} V7 {100 100 100} V8 {-100 100 100}\n"
-                       "put {block.r} comb region yes tree {l block.s}\n"
-                       "attr set {block.r} {region} {R} {rgb} {255/128/64}\n";
+    std::string text =
+        "title {lit}\nunits mm\n"
+        "put {block.s} arb8 V1 {-100 -100 -100} V2 {100 -100 -100} V3 {100 100 -100} V4 {-100 100 -100} "
+        "V5 {-100 -100 100} V6 {100 -100 100} V7 {100 100 100} V8 {-100 100 100}\n"
+        "put {block.r} comb region yes tree {l block.s}\n"
+        "attr set {block.r} {region} {R} {rgb} {255/128/64}\n";
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         const std::string name = "lamp" + std::to_string(i);
         const Vec3& c = lamps[i].center;
-        text += "put {" + name + ".s} ell V {" + std::to_string(c.x) + " " + std::to_string(c.y) + " " + std::to_string(c.z) +
-                "} A {3 0 0} B {0 3 0} C {0 0 3}\n";
+        text += "put {" + name + ".s} ell V {" + std::to_string(c.x) + " " + std::to_string(c.y) + " " +
+                std::to_string(c.z) + "} A {3 0 0} B {0 3 0} C {0 0 3}\n";
         text += "put {" + name + ".r} comb region yes tree {l " + name + ".s}\n";
         text += "attr set {" + name + ".r} {region} {R} {rgb} {" + std::to_string(int(255 * lamps[i].red + 0.5)) +
                 "/255/255} {oshader} {" + lamps[i].shader() + "}\n";
@@ -67,8 +68,8 @@ std::string lit_block(const std::vector<Lamp>& lamps) {
     return text;
 }
 
-/// The red and green of the face at `p`, by the textbook: ambient, Lambert and Phong terms. Nothing where the edge of a beam is
-/// so near that rounding decides.
+/// The red and green of the face at `p`, by the textbook: ambient, Lambert and Phong terms. Nothing where the edge of a
+/// beam is so near that rounding decides.
 std::optional<std::pair<double, double>> shade(const std::vector<Lamp>& lamps, const Vec3& p) {
     const Vec3 n{1, 0, 0}, to_eye{1, 0, 0};
     const double color[2] = {1, 128.0 / 255};
@@ -83,11 +84,13 @@ std::optional<std::pair<double, double>> shade(const std::vector<Lamp>& lamps, c
         if (cosine <= 0) continue;
         if (lamp.angle < 180) {
             const Vec3 axis = lamp.target ? *lamp.target - lamp.center : Vec3{0, 0, -1};
-            const double within = -dot(l, axis) / size_of(axis), edge = std::cos(lamp.angle * 3.14159265358979323846 / 180);
+            const double within = -dot(l, axis) / size_of(axis),
+                         edge = std::cos(lamp.angle * 3.14159265358979323846 / 180);
             if (std::abs(within - edge) < 1e-6) return std::nullopt;
             if (within < edge) continue;
         }
-        const double mirrored = dot(2 * cosine * n - l, to_eye), gloss = mirrored > 0 ? 0.7 * std::pow(mirrored, 10) : 0;
+        const double mirrored = dot(2 * cosine * n - l, to_eye),
+                     gloss = mirrored > 0 ? 0.7 * std::pow(mirrored, 10) : 0;
         const double red = int(255 * lamp.red + 0.5) / 255.0;
         seen[0] += share * red * (0.3 * cosine * color[0] + gloss);
         seen[1] += share * (0.3 * cosine * color[1] + gloss);
@@ -109,7 +112,9 @@ std::vector<Lamp> some_lamps(std::uint64_t seed) {
     for (int i = random.whole(1, 3); i > 0; --i) {
         Lamp lamp;
         // The numbers of the text have six digits behind the point.
-        const auto coordinate = [&](double from, double to) { return std::round(random.between(from, to) * 100) / 100; };
+        const auto coordinate = [&](double from, double to) {
+            return std::round(random.between(from, to) * 100) / 100;
+        };
         lamp.center = {coordinate(-50, 400), coordinate(-300, 300), coordinate(-300, 300)};
         lamp.red = random.whole(0, 4) / 4.0;
         lamp.intensity = random.whole(1, 8) / 4.0;
@@ -172,7 +177,8 @@ Scene some_scene(std::uint64_t seed) {
     return to.take().scene;
 }
 
-/// The pixels of a view along an axis that zooms, and those of the whole view on the same lines. Returns how many differ.
+/// The pixels of a view along an axis that zooms, and those of the whole view on the same lines. Returns how many
+/// differ.
 std::size_t differing(const Scene& scene, std::uint64_t seed, std::size_t& compared) {
     constexpr double angles[][2] = {{0, 0}, {90, 0}, {180, 0}, {270, 0}, {0, 90}, {0, -90}};
     constexpr int whole_size = 64, part_size = 16;
@@ -289,7 +295,8 @@ TEST_CASE("views: a light that is not visible is not drawn, yields to what stand
         const double y = (double(i % 16) - 7.5), z = (7.5 - double(i / 16)), inside = 9 - y * y - z * z;
         if (inside <= 0) continue;
         CHECK(channel_of(bright, "region")[i] == 2);
-        CHECK_THAT(channel_of(bright, "G")[i], Catch::Matchers::WithinAbs((0.5 + 0.5 * std::sqrt(inside) / 3) / 1.2, 1e-6));
+        CHECK_THAT(channel_of(bright, "G")[i],
+                   Catch::Matchers::WithinAbs((0.5 + 0.5 * std::sqrt(inside) / 3) / 1.2, 1e-6));
     }
 }
 
@@ -373,7 +380,8 @@ TEST_CASE("views: an eye gives what azimuth and elevation give") {
         for (const char* name : {"region", "solid"})
             CHECK(std::equal(channel_of(a, name).begin(), channel_of(a, name).end(), channel_of(b, name).begin()));
     }
-    // In between, the axes are those of the textbook: the picture's middle looks from the eye at the point, and right is level.
+    // In between, the axes are those of the textbook: the picture's middle looks from the eye at the point, and right
+    // is level.
     View view{33, 33, {}};
     view.camera.eye = Vec3{30, -40, 50};
     view.camera.look_at = Vec3{1, 2, 3};
@@ -383,9 +391,17 @@ TEST_CASE("views: an eye gives what azimuth and elevation give") {
     const Vec3 level{-back.y, back.x, 0}, right = (1 / size_of(level)) * level, up = cross(back, right);
     const std::vector<float>& matrix = image.matrices.at("worldToCamera");
     for (std::size_t k = 0; k < 3; ++k) {
-        const double expected[3] = {k == 0 ? right.x : k == 1 ? right.y : right.z, k == 0 ? up.x : k == 1 ? up.y : up.z,
-                                    k == 0 ? back.x : k == 1 ? back.y : back.z};
-        for (std::size_t row = 0; row < 3; ++row) CHECK_THAT(matrix[4 * row + k], Catch::Matchers::WithinAbs(expected[row], 1e-6));
+        const double expected[3] = {k == 0   ? right.x
+                                    : k == 1 ? right.y
+                                             : right.z,
+                                    k == 0   ? up.x
+                                    : k == 1 ? up.y
+                                             : up.z,
+                                    k == 0   ? back.x
+                                    : k == 1 ? back.y
+                                             : back.z};
+        for (std::size_t row = 0; row < 3; ++row)
+            CHECK_THAT(matrix[4 * row + k], Catch::Matchers::WithinAbs(expected[row], 1e-6));
     }
 }
 
@@ -415,14 +431,33 @@ TEST_CASE("views: what makes no sense is refused in words") {
         const char* says;
     } const cases[] = {
         {[](Camera& c) { c.eye = Vec3{}; }, "the eye stands at the point that it looks at"},
-        {[&](Camera& c) { c.eye = Vec3{nan, 0, 0}; }, "the place of the eye must be a finite number"},
-        {[](Camera& c) { c.eye = Vec3{1e19, 0, 0}; }, "the place of the eye is 1e+19"},
-        {[](Camera& c) { c.center = c.look_at = Vec3{}; }, "the centre of the view and the point that it looks at are one"},
-        {[](Camera& c) { c.perspective = 30, c.view_size = 5, c.eye = Vec3{500, 0, 0}; }, "leave one of the three out"},
-        {[](Camera& c) { c.eye = Vec3{0, 0, 500}, c.up = Vec3{0, 0, -2}; }, "the direction upward runs along the line of sight"},
-        {[](Camera& c) { c.elevation = 90, c.up = Vec3{0, 0, 1}; }, "the direction upward runs along the line of sight"},
+        {[&](Camera& c) {
+             c.eye = Vec3{nan, 0, 0};
+         },
+         "the place of the eye must be a finite number"},
+        {[](Camera& c) {
+             c.eye = Vec3{1e19, 0, 0};
+         },
+         "the place of the eye is 1e+19"},
+        {[](Camera& c) { c.center = c.look_at = Vec3{}; },
+         "the centre of the view and the point that it looks at are one"},
+        {[](Camera& c) {
+             c.perspective = 30, c.view_size = 5, c.eye = Vec3{500, 0, 0};
+         },
+         "leave one of the three out"},
+        {[](Camera& c) {
+             c.eye = Vec3{0, 0, 500}, c.up = Vec3{0, 0, -2};
+         },
+         "the direction upward runs along the line of sight"},
+        {[](Camera& c) {
+             c.elevation = 90, c.up = Vec3{0, 0, 1};
+         },
+         "the direction upward runs along the line of sight"},
         {[](Camera& c) { c.up = Vec3{}; }, "the direction upward has no length"},
-        {[&](Camera& c) { c.up = Vec3{0, nan, 0}; }, "the direction upward must be a finite number"},
+        {[&](Camera& c) {
+             c.up = Vec3{0, nan, 0};
+         },
+         "the direction upward must be a finite number"},
         {[&](Camera& c) { c.view_size = nan; }, "the size of the view must be positive"},
         {[](Camera& c) { c.view_size = -1; }, "the size of the view must be positive"},
         {[](Camera& c) { c.view_size = 1e-16; }, "the size of the view is 1e-16"},

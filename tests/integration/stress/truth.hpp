@@ -194,7 +194,7 @@ private:
 
     oracle::SceneOracle oracle_;
     bool filtered_;
-    std::vector<int> ranks_;  ///< by place in `objects`
+    std::vector<int> ranks_;             ///< by place in `objects`
     std::vector<std::uint32_t> number_;  ///< of the oracle's regions
 };
 

@@ -50,8 +50,8 @@ struct Demand {
 Demand demand_of(const std::string& set) {
     Demand demand;
     // This BRL-CAD (7.32.6) takes concave arbs for the intersection of their faces' half-spaces, one of them a thousand
-    // millimetres outside the model. Here they are what their faces enclose, as in BRL-CAD since 7.42, or, where faces are
-    // not flat, end at their corners' box.
+    // millimetres outside the model. Here they are what their faces enclose, as in BRL-CAD since 7.42, or, where faces
+    // are not flat, end at their corners' box.
     if (set == "arb8_showcase") demand.same = 0.877, demand.near = 0.98;
     // BRL-CAD's elliptical tori and pipes' bends are solved by iteration.
     if (set == "bicycle_wheel") demand.distance = 1e-4, demand.same = 0.997;

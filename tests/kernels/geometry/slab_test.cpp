@@ -1,5 +1,5 @@
-// A ray against a box of the hierarchy: no box is missed that a ray meets, not by rays along its sides, nor by directions whose
-// components are nothing, next to nothing or below what a float holds.
+// A ray against a box of the hierarchy: no box is missed that a ray meets, not by rays along its sides, nor by
+// directions whose components are nothing, next to nothing or below what a float holds.
 #include "catch.hpp"
 
 #include <array>
@@ -31,7 +31,8 @@ struct Case {
     kernel::slab_ray ray() const {
         const kernel::wide3 o = kernel::make_wide3(origin[0], origin[1], origin[2]);
         return kernel::make_slab_ray(kernel::offset_from(kernel::make_wide3(0, 0, 0), o),
-                                     kernel::make_vec3(direction[0], direction[1], direction[2]), radius, -kernel::REAL_INFINITY);
+                                     kernel::make_vec3(direction[0], direction[1], direction[2]), radius,
+                                     -kernel::REAL_INFINITY);
     }
 };
 
@@ -47,7 +48,8 @@ Case random_case(oracle::Random& random) {
     }
     const std::size_t small = random.below(3), kept = random.below(3);
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (axis == small || (axis != kept && random.coin())) c.direction[axis] = small_parts[random.below(std::size(small_parts))];
+        if (axis == small || (axis != kept && random.coin()))
+            c.direction[axis] = small_parts[random.below(std::size(small_parts))];
     if (small == kept) c.direction[(small + 1) % 3] = random.sign();
     return c;
 }
@@ -71,7 +73,8 @@ TEST_CASE("geometry: a ray through a point of a box meets it, whatever its direc
         }
         start_before(c, target, random.between(-2, 2));
         const kernel::slab_ray ray = c.ray();
-        INFO("radius " << c.radius << ", direction " << c.direction[0] << ' ' << c.direction[1] << ' ' << c.direction[2]);
+        INFO("radius " << c.radius << ", direction " << c.direction[0] << ' ' << c.direction[1] << ' '
+                       << c.direction[2]);
         REQUIRE(ray.hits_sphere);
         for (const float inverse : {ray.ix, ray.iy, ray.iz}) REQUIRE(std::isfinite(inverse));
         const kernel::BvhNode node = c.node();

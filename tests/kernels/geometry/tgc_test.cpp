@@ -8,7 +8,8 @@ TEST_CASE("geometry: tgc agrees with the oracle on a million rays", "[.long]") {
     check_kernels(oracle::Kind::tgc, long_run, 2);
 }
 
-// The two vectors of an axis are parallel to 1e-7 in BRL-CAD's models: csgrt, the oracle and BRL-CAD take the base's direction.
+// The two vectors of an axis are parallel to 1e-7 in BRL-CAD's models: csgrt, the oracle and BRL-CAD take the base's
+// direction.
 TEST_CASE("geometry: a tgc whose longer semi-axis leans a little lies along that of its base", "[geometry]") {
     const double lean = 1e-7;
     const Tgc tgc{{0, 0, 0}, {0, 0, 4}, {2, 0, 0}, {0, 1, 0}, {2.5, 2.5 * lean, 0}, {0, 0.5, 0}};

@@ -15,16 +15,20 @@ using namespace csgrt;
 #define CSGRT_LAYOUT(RECORD, FIELD) \
     RECORD(SolidRecord) FIELD(SolidRecord, type) FIELD(SolidRecord, first_real) FIELD(SolidRecord, first_word) \
     FIELD(SolidRecord, first_plane) FIELD(SolidRecord, plane_count) FIELD(SolidRecord, first_start) \
-    FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) FIELD(SolidRecord, begins) FIELD(SolidRecord, alone) \
+    FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) \
+    FIELD(SolidRecord, begins) FIELD(SolidRecord, alone) \
     RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(PlaneRecord, nz) FIELD(PlaneRecord, d) \
     RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
-    FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) FIELD(MaterialRecord, r) \
+    FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) \
+    FIELD(MaterialRecord, r) \
     FIELD(MaterialRecord, g) FIELD(MaterialRecord, b) FIELD(MaterialRecord, specular) FIELD(MaterialRecord, diffuse) \
     FIELD(MaterialRecord, ambient) FIELD(MaterialRecord, shine) FIELD(MaterialRecord, glow) RECORD(LightRecord) \
-    FIELD(LightRecord, x) FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, w) FIELD(LightRecord, bx) FIELD(LightRecord, by) \
-    FIELD(LightRecord, bz) FIELD(LightRecord, cosine) FIELD(LightRecord, beam) FIELD(LightRecord, r) FIELD(LightRecord, g) FIELD(LightRecord, b) \
+    FIELD(LightRecord, x) FIELD(LightRecord, y) FIELD(LightRecord, z) FIELD(LightRecord, w) FIELD(LightRecord, bx) \
+    FIELD(LightRecord, by) \
+    FIELD(LightRecord, bz) FIELD(LightRecord, cosine) FIELD(LightRecord, beam) FIELD(LightRecord, r) \
+    FIELD(LightRecord, g) FIELD(LightRecord, b) \
     RECORD(BvhNode) FIELD(BvhNode, low) FIELD(BvhNode, skip) FIELD(BvhNode, high) FIELD(BvhNode, leaf) RECORD(Frame) \
     FIELD(Frame, eye) FIELD(Frame, u) FIELD(Frame, v) FIELD(Frame, w) FIELD(Frame, center) FIELD(Frame, radius) \
     FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient) FIELD(Frame, background) FIELD(Frame, width) \
@@ -32,12 +36,15 @@ using namespace csgrt;
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
-    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(ScreenBounds) FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
+    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(ScreenBounds) \
+    FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
     FIELD(RayRecord, dz) RECORD(TileNode) FIELD(TileNode, node) FIELD(TileNode, entry) \
-    RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) FIELD(BatchReport, listed) \
-    FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) FIELD(RayCount, words) RECORD(Candidate) \
+    RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) \
+    FIELD(BatchReport, listed) \
+    FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) \
+    FIELD(RayCount, words) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \

@@ -18,7 +18,8 @@ struct EtoFunction {
     /// fades where the ellipse touches the axis.
     template <class T>
     T terms_at(const T& x, const T& y, const T& z) const {
-        const T a = T(alpha), b = T(beta), c = T(gamma), rho = root_of(x * x + y * y), in = rho - 1, mirrored = -rho - 1;
+        const T a = T(alpha), b = T(beta), c = T(gamma), rho = root_of(x * x + y * y), in = rho - 1,
+                mirrored = -rho - 1;
         const T rest = c * z * z - T(one), cross = 2 * b * in * z;
         const T sum = a * in * in + (cross < 0 ? -cross : cross) + c * z * z + T(one);
         const T here = a * in * in + cross + rest, there = mirrored * (a * mirrored + 2 * b * z) + rest;

@@ -4,9 +4,9 @@
 // its first three vertices that differ and are not in line; a face with fewer is none. Outward is away from the mean of
 // the eight vertices. A fourth vertex is only said to lie in that plane (BRL-CAD checks it, within a tolerance); if it
 // does not, the half-spaces may meet far away, and what lies outside the box of the vertices is no part of the arb. The
-// planes of that box come after the faces: to a convex arb they change nothing. An arb with flat faces that is not convex
-// is no intersection of half-spaces: see concave_arb.hpp. condition: a plane through three points
-// that are rounded by e tilts by e / (height of their triangle), and over the whole solid moves by e x radius / height.
+// planes of that box come after the faces: to a convex arb they change nothing. An arb with flat faces that is not
+// convex is no intersection of half-spaces: see concave_arb.hpp. condition: a plane through three points that are
+// rounded by e tilts by e / (height of their triangle), and over the whole solid moves by e x radius / height.
 //
 // arbn: the half-spaces as given. Vertices are needed only for the bounding sphere.
 #pragma once

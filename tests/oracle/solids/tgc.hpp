@@ -1,6 +1,7 @@
 // Truncated general cone: p = v + z h + x A + y B with 0 <= z <= 1 and (x / alpha)^2 + (y / beta)^2 <= 1, where the
-// semi-axes run linearly from the base to the top: alpha from |a| to |c| along the direction of a, or of c if a is 0, beta
-// from |b| to |d|. (BRL-CAD's models have a and c that are parallel to 1e-7 only; it, too, takes the base's.) In units of the larger of the two (A, B), so that one end of each may have length 0:
+// semi-axes run linearly from the base to the top: alpha from |a| to |c| along the direction of a, or of c if a is 0,
+// beta from |b| to |d|. (BRL-CAD's models have a and c that are parallel to 1e-7 only; it, too, takes the base's.) In
+// units of the larger of the two (A, B), so that one end of each may have length 0:
 //   x^2 beta^2 + y^2 alpha^2 <= alpha^2 beta^2     in general, a quartic;
 //   x^2 + y^2 <= s^2                               if alpha = beta = s, a quadric.
 // The ratios count as equal within 4 units in the last place: the vectors are rounded, and taking the mean of the two
@@ -47,7 +48,8 @@ inline ImplicitSolid implicit(const Tgc& tgc, const QAffine& place) {
     ImplicitSolid solid;
     const quad a = length(tgc.a), b = length(tgc.b), c = length(tgc.c), d = length(tgc.d);
     const quad wide = larger(a, c), deep = larger(b, d);
-    const QVec x = wide / (a > 0 ? a : c) * QVec(a > 0 ? tgc.a : tgc.c), y = deep / (b > 0 ? b : d) * QVec(b > 0 ? tgc.b : tgc.d);
+    const QVec x = wide / (a > 0 ? a : c) * QVec(a > 0 ? tgc.a : tgc.c),
+               y = deep / (b > 0 ? b : d) * QVec(b > 0 ? tgc.b : tgc.d);
     add_frame(solid, place, {x, y, tgc.h, tgc.v});
     const quad same = 4 * 2 * quad(double_epsilon);
     if (absolute(a / wide - b / deep) <= same && absolute(c / wide - d / deep) <= same)

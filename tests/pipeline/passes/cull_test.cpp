@@ -28,7 +28,8 @@ Culled lists_of(std::vector<unsigned char> costs, std::span<const kernel::TileNo
     Culled culled{std::move(costs), {}};
     for (std::size_t tile = 0; tile < culled.costs.size(); ++tile) {
         const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(tile * LISTED_NODES);
-        const auto end = std::find_if(begin, begin + LISTED_NODES, [](const kernel::TileNode& e) { return e.node == NONE; });
+        const auto end =
+            std::find_if(begin, begin + LISTED_NODES, [](const kernel::TileNode& e) { return e.node == NONE; });
         culled.lists.emplace_back(begin, end);
     }
     return culled;
@@ -46,8 +47,10 @@ Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame)
     wait_for(kernel_0.launch(scene, batch, frame));
     const std::uint32_t tiles = frame.ray_count / tile_rays;
     const auto tally = batch.report.read<std::uint8_t>(BatchBuffers::report_bytes({0, frame.ray_count}));
-    CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::BatchReport) + tiles, [](std::uint8_t byte) { return byte == 0; }));
-    return lists_of(batch.costs.read<unsigned char>(tiles), batch.tile_nodes.read<kernel::TileNode>(tiles * LISTED_NODES));
+    CHECK(std::all_of(tally.begin(), tally.begin() + sizeof(kernel::BatchReport) + tiles,
+                      [](std::uint8_t byte) { return byte == 0; }));
+    return lists_of(batch.costs.read<unsigned char>(tiles),
+                    batch.tile_nodes.read<kernel::TileNode>(tiles * LISTED_NODES));
 }
 
 Culled cull_on_host(const CompiledScene& compiled, kernel::Frame frame) {
@@ -67,7 +70,9 @@ std::size_t require_same(const CompiledScene& compiled, const View& view) {
     CHECK(on_host.costs == on_device.costs);
     std::size_t differing = 0, most = 0;
     for (std::size_t tile = 0; tile < on_host.lists.size(); ++tile) {
-        const auto same = [](const kernel::TileNode& a, const kernel::TileNode& b) { return a.node == b.node && a.entry == b.entry; };
+        const auto same = [](const kernel::TileNode& a, const kernel::TileNode& b) {
+            return a.node == b.node && a.entry == b.entry;
+        };
         differing += !std::ranges::equal(on_host.lists[tile], on_device.lists[tile], same);
         most = std::max(most, on_host.lists[tile].size());
     }

@@ -1,5 +1,5 @@
-// Every partition of work lists that were made by hand: pixels, and rays as they come, against the reference; and what is
-// written if the buffers at hand hold too little.
+// Every partition of work lists that were made by hand: pixels, and rays as they come, against the reference; and what
+// is written if the buffers at hand hold too little.
 #include "pipeline/passes/partitions.hpp"
 
 #include <algorithm>
@@ -55,7 +55,8 @@ TEST_CASE("the partition pass answers rays as they come") {
     const TracedPartitions traced = pass.read(200);
     std::vector<RayPartitions> answers;
     for (std::size_t i = 0; i < rays.size(); ++i)
-        answers.push_back(to_partitions(*on.kernels, prepared.frame, rays[i], claimed_partitions(on.compiled, traced, i)));
+        answers.push_back(
+            to_partitions(*on.kernels, prepared.frame, rays[i], claimed_partitions(on.compiled, traced, i)));
     const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
     ReferenceCounts counts;
     test::require_same(answers, Reference(on.compiled, *to_run, 0).shoot(prepared, rays, nullptr, counts));
@@ -65,7 +66,8 @@ TEST_CASE("the partition pass answers rays as they come") {
 TEST_CASE("kernels that are queued into too little memory write nothing, and report what the rays need") {
     test::OnDevice on(bench::scene_of_parts(200), test::small_view(true));
     PartitionPass pass(on.device, on.compiled, *on.kernels, on.settings);
-    const std::uint32_t across = kernel::tiles_across(on.frame.screen), tiles = across * kernel::tiles_down(on.frame.screen);
+    const std::uint32_t across = kernel::tiles_across(on.frame.screen),
+                        tiles = across * kernel::tiles_down(on.frame.screen);
     on.frame.ray_count = tiles * tile_rays;
     on.frame.rows = on.frame.screen.bottom - on.frame.screen.top;
     on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(on.frame));

@@ -22,9 +22,16 @@ TEST_CASE("a batch's tiles are listed once each, those that cost most first, the
         std::uint32_t tiles, dearest, most_in_parts;  // dearest: one in so many; 0: none
         bool is_parted;
     };
-    for (const auto& [tiles, dearest, most_in_parts, is_parted] :
-         {Listed{1, 0, 0, false}, {5, 0, 9, false}, {64, 0, 9, false}, {65, 1, 99, false}, {1000, 20, 49, false}, {1000, 20, 50, true},
-          {5000, 50, 100, true}, {5000, 50, 99, false}, {5000, 50, 0, false}, {5000, 2, 5000, false}}) {
+    for (const auto& [tiles, dearest, most_in_parts, is_parted] : {Listed{1, 0, 0, false},
+                                                                   {5, 0, 9, false},
+                                                                   {64, 0, 9, false},
+                                                                   {65, 1, 99, false},
+                                                                   {1000, 20, 49, false},
+                                                                   {1000, 20, 50, true},
+                                                                   {5000, 50, 100, true},
+                                                                   {5000, 50, 99, false},
+                                                                   {5000, 50, 0, false},
+                                                                   {5000, 2, 5000, false}}) {
         INFO(tiles << " tiles, one in " << dearest << " dear, at most " << most_in_parts << " in parts");
         std::vector<unsigned char> costs(tiles);
         for (std::uint32_t i = 0; i < tiles; ++i) {
@@ -54,7 +61,8 @@ TEST_CASE("a batch's tiles are listed once each, those that cost most first, the
             listed[tile] |= quarters;
             any_parts |= part > 0;
             CHECK((part == 0 || (cost >= 192 && part >= PARTS && part < 2 * PARTS)));
-            ordered &= cost > 0 && (cost <= before || (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
+            ordered &= cost > 0 && (cost <= before ||
+                                    (before >= 16 && cost - before <= before / 8));  // of one class, or a lower one
             before = cost;
         }
         bool once = true;
@@ -72,7 +80,8 @@ TEST_CASE("tiles that see nothing are background, and the others are left alone"
     kernel::Frame frame{};
     frame.width = 100;
     frame.height = 61;
-    for (const kernel::ScreenBounds screen : {kernel::ScreenBounds{0, 0, 100, 61}, kernel::ScreenBounds{16, 8, 100, 56}, kernel::ScreenBounds{24, 0, 64, 61}}) {
+    for (const kernel::ScreenBounds screen : {kernel::ScreenBounds{0, 0, 100, 61}, kernel::ScreenBounds{16, 8, 100, 56},
+                                              kernel::ScreenBounds{24, 0, 64, 61}}) {
         INFO("screen from " << screen.left << ", " << screen.top);
         frame.screen = screen;
         const std::uint32_t across = kernel::tiles_across(screen), all = across * kernel::tiles_down(screen);
@@ -93,7 +102,8 @@ TEST_CASE("tiles that see nothing are background, and the others are left alone"
             const kernel::pixel_position at = kernel::pixel_of(ray, screen);
             if (!at.inside || costs[ray / tile_rays - first]) continue;
             for (std::size_t p = 0; p < 3; ++p)
-                expected[p * lines.size() + (at.y - lines.top) * lines.columns() + at.x - lines.left] = background.of[p];
+                expected[p * lines.size() + (at.y - lines.top) * lines.columns() + at.x - lines.left] =
+                    background.of[p];
         }
         CHECK(pixels == expected);
     }

@@ -15,14 +15,16 @@ constexpr std::uint32_t tile_pixels = TILE * TILE;
 
 // Planes that all lie in one place count as so many bytes; the last one is what is seen there. `left`: some tiles of
 // background are said to be it before. `screen`: what is not all of the picture is cleared around it.
-void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_count, bool left, kernel::ScreenBounds screen) {
-    INFO(width << " x " << height << ", planes " << plane_count << ", some tiles left: " << left << ", screen " << screen.left << " to "
-               << screen.right << ", " << screen.top << " to " << screen.bottom);
+void require_put(std::uint32_t width, std::uint32_t height, std::size_t plane_count, bool left,
+                 kernel::ScreenBounds screen) {
+    INFO(width << " x " << height << ", planes " << plane_count << ", some tiles left: " << left << ", screen "
+               << screen.left << " to " << screen.right << ", " << screen.top << " to " << screen.bottom);
     kernel::Frame frame{};
     frame.width = width;
     frame.height = height;
     frame.screen = screen;
-    const std::uint32_t across = kernel::tiles_across(screen), tiles = across * ((screen.bottom - screen.top + TILE - 1) / TILE);
+    const std::uint32_t across = kernel::tiles_across(screen),
+                        tiles = across * ((screen.bottom - screen.top + TILE - 1) / TILE);
     const std::vector<std::uint32_t> drawn{0, 1, 3, across - 1, across, 2 * across + 5, tiles - across, tiles - 1};
     const auto count = static_cast<std::uint32_t>(drawn.size());
     const std::vector<std::uint32_t> in_any_order(drawn.rbegin(), drawn.rend());

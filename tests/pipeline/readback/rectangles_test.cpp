@@ -12,7 +12,8 @@ using namespace csgrt;
 namespace {
 
 struct Picture {
-    Picture(std::uint32_t width, std::uint32_t height) : across((width + TILE - 1) / TILE), down((height + TILE - 1) / TILE) {
+    Picture(std::uint32_t width, std::uint32_t height)
+        : across((width + TILE - 1) / TILE), down((height + TILE - 1) / TILE) {
         frame.width = width;
         frame.height = height;
         pixels.resize(std::size_t{width} * height + 16);
@@ -67,15 +68,16 @@ TEST_CASE("rectangles hold what is shown and what was, each pixel once, and no o
         const std::uint32_t across = kernel::tiles_across(screen),
                             tiles = across * ((screen.bottom - screen.top + TILE - 1) / TILE);
         const std::uint32_t first = below(tiles), end = first + 1 + below(tiles - first);
-        INFO("round " << round << ": " << width << " x " << height << ", of it " << screen.left << " to " << screen.right << ", "
-                      << screen.top << " to " << screen.bottom << ", tiles " << first << " to " << end);
+        INFO("round " << round << ": " << width << " x " << height << ", of it " << screen.left << " to "
+                      << screen.right << ", " << screen.top << " to " << screen.bottom << ", tiles " << first << " to "
+                      << end);
         std::vector<std::uint8_t> shown(tiles);
         const std::uint32_t one_of = 1 + below(40);
         for (std::uint8_t& tile : shown) tile = below(one_of) == 0;
         for (std::uint8_t& tile : picture.drawn) tile = below(one_of) == 0;
         const std::vector<std::uint8_t> before = picture.drawn;
-        const auto times =
-            covered_by(picture, find_rectangles(picture.frame, first, end, of_batch(shown, first, end), picture.target()));
+        const auto times = covered_by(
+            picture, find_rectangles(picture.frame, first, end, of_batch(shown, first, end), picture.target()));
         CHECK(picture.drawn == before);
         mark_covered(picture.frame, first, end, of_batch(shown, first, end), picture.target());
         const Rectangle lines = rows_of(picture.frame, first, end);
@@ -108,9 +110,7 @@ TEST_CASE("rectangles join where that spares copies, and begin with lines of the
     Picture picture(4096, 4096);
     const std::uint32_t tiles = picture.across * picture.down;
     std::vector<std::uint8_t> shown(tiles, 0);
-    const auto found = [&] {
-        return find_rectangles(picture.frame, 0, tiles, shown, picture.target());
-    };
+    const auto found = [&] { return find_rectangles(picture.frame, 0, tiles, shown, picture.target()); };
     CHECK(found().empty());
     for (std::uint32_t row = 100; row < 110; ++row)  // a slanted bar
         for (std::uint32_t column = row; column < row + 20; ++column) shown[row * picture.across + column] = 1;
@@ -124,7 +124,8 @@ TEST_CASE("rectangles join where that spares copies, and begin with lines of the
     CHECK(bar[0].right < 129 * TILE + 16);
     CHECK(reinterpret_cast<std::uintptr_t>(picture.plane.pixels + bar[0].left) % 64 == 0);
     CHECK(reinterpret_cast<std::uintptr_t>(picture.plane.pixels + bar[0].right) % 64 == 0);
-    for (std::uint32_t column = 0; column < 512; ++column) shown[400 * picture.across + column] = 1;  // far below, all of a row
+    for (std::uint32_t column = 0; column < 512; ++column)
+        shown[400 * picture.across + column] = 1;  // far below, all of a row
     const auto both = found();
     REQUIRE(both.size() == 2);
     CHECK(both[1].columns() == 4096);
@@ -138,7 +139,9 @@ TEST_CASE("rectangles leave out what is between two things that are far apart, n
         for (std::uint32_t row = 40; row < 80; ++row)
             for (std::uint32_t column = left; column < right; ++column) shown[row * picture.across + column] = 1;
     };
-    const auto found = [&] { return find_rectangles(picture.frame, 0, picture.across * picture.down, shown, picture.target()); };
+    const auto found = [&] {
+        return find_rectangles(picture.frame, 0, picture.across * picture.down, shown, picture.target());
+    };
     show(10, 20);
     show(23, 30);
     CHECK(found().size() == 1);

@@ -38,7 +38,8 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
     Scene scene = bench::scene_of_parts(20);
     scene.background = {0.2, 0, 0.4};
     const bool every_partition = GENERATE(false, true);
-    const std::uint64_t room = GENERATE(std::uint64_t{0}, std::uint64_t{800'000}, std::uint64_t{5'000});  // beside the scene's
+    const std::uint64_t room =
+        GENERATE(std::uint64_t{0}, std::uint64_t{800'000}, std::uint64_t{5'000});  // beside the scene's
     const bool is_known = GENERATE(false, true);  // the picture's memory, to the device
     INFO("every partition: " << every_partition << ", room " << room << ", known: " << is_known);
     const Settings settings = test::on_compiling_device();
@@ -92,7 +93,8 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
         test::require_same(packed, image);
         const auto tiles = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), 1));
         CHECK(tiles > 5);
-        if (room == 0 || room > 100'000) CHECK(tiles < drawn.size() / 2);  // single rays mark theirs, whatever they show
+        if (room == 0 || room > 100'000)
+            CHECK(tiles < drawn.size() / 2);  // single rays mark theirs, whatever they show
     }
     CHECK((most_batches > 1) == (room > 0));
 
@@ -116,7 +118,8 @@ struct Lined {
     /// `room`: bytes of device memory beside the scene's; 0: all that there is. `most_rays`: of a batch.
     explicit Lined(const Scene& scene, std::uint64_t room = 0, std::uint64_t most_rays = Pipeline::most_rays_drawn,
                    Readback readback = Readback::asynchronous)
-        : renderer(scene, {}, settings), compiled(compile(scene, {})),
+        : renderer(scene, {}, settings),
+          compiled(compile(scene, {})),
           kernels(make_kernels(compiled, settings.precision, settings.quartic)),
           device(settings.device, room ? bytes_of_scene() + room : 0),
           pipeline(device, compiled, *kernels, settings, readback, most_rays) {}
@@ -127,8 +130,10 @@ struct Lined {
         return alone.allocated();
     }
 
-    /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress` interrupts it.
-    PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays, const Progress& progress = nullptr) {
+    /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress`
+    /// interrupts it.
+    PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays,
+                        const Progress& progress = nullptr) {
         View view;
         view.channels = channels;
         view.camera.azimuth = azimuth;
@@ -148,7 +153,8 @@ struct Lined {
         std::uint64_t done = 0;
         const auto told = [&](std::uint64_t more) {
             done += more;
-            if (progress && !progress(double(done) / double(prepared.rays))) throw Error(Status::interrupted, "interrupted");
+            if (progress && !progress(double(done) / double(prepared.rays)))
+                throw Error(Status::interrupted, "interrupted");
         };
         try {
             pipeline.render(prepared, ranges_of(prepared.rays, rays), target, told, counts);
@@ -245,7 +251,8 @@ TEST_CASE("pixels by lines: frames that are interrupted while batches are queued
     for (int i = 0; i < 12; ++i) {
         lined.azimuth = 30 * i;
         int told = 0;
-        CHECK_THROWS_AS(lined.draw(400, 250 + 8 * i, false, 1 << 20, [&](double) { return ++told < 1 + i % 3; }), Error);
+        CHECK_THROWS_AS(lined.draw(400, 250 + 8 * i, false, 1 << 20, [&](double) { return ++told < 1 + i % 3; }),
+                        Error);
         lined.azimuth += 100;
         lined.draw(400, 180 + 8 * i, false, 1 << 20);
     }
@@ -333,7 +340,8 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
     wait_for(first_hits.cull().launch(scene, batch, prepared.frame));
     for (const Event& event : list.list({0, rays}, batch, TileListPass::most_in_parts(device))) wait_for(event);
     const auto entries = batch.tiles.read<std::uint32_t>(batch.report.read<kernel::BatchReport>(1).front().entries);
-    return static_cast<std::size_t>(std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(entries, [](std::uint32_t entry) { return entry >> PART_SHIFT > 0; }));
 }
 
 }  // namespace
@@ -355,7 +363,8 @@ TEST_CASE("pixels by lines: rays that have no room") {
 TEST_CASE("pixels by lines: few tiles with more to see than all others, whose rays come in parts") {
     Scene scene;
     for (int i = 0; i < 300; ++i)  // a heap of some pixels, off the middle of an empty picture
-        add_ball(scene, "ball" + std::to_string(i), {40 + 0.3 * (i % 7), 0.3 * (i / 7 % 7), 0.3 * (i / 49)}, 0.1 + 0.0003 * i);
+        add_ball(scene, "ball" + std::to_string(i), {40 + 0.3 * (i % 7), 0.3 * (i / 7 % 7), 0.3 * (i / 49)},
+                 0.1 + 0.0003 * i);
     add_ball(scene, "left", {-100, 0, 0}, 1);
     add_ball(scene, "right", {100, 0, 0}, 1);
     const bool has_shells = GENERATE(false, true);
@@ -373,7 +382,8 @@ TEST_CASE("pixels by lines: few tiles with more to see than all others, whose ra
         CHECK((whole.segments > 0) == has_shells);
         CHECK((parts.segments > 0) == has_shells);
     }
-    if (TileListPass::most_in_parts(lined.device) >= 8) CHECK(listed >= 8);  // one processor alone may find them too many
+    if (TileListPass::most_in_parts(lined.device) >= 8)
+        CHECK(listed >= 8);  // one processor alone may find them too many
 }
 
 TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
@@ -395,7 +405,7 @@ TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and 
 TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last one, and one that sees nothing") {
     Lined lined(bench::scene_of_parts(20));
     DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
-                        Readback::asynchronous);
+                          Readback::asynchronous);
     View view;
     view.width = 1600;
     view.height = 1000;
@@ -416,7 +426,13 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
             CHECK((prepared.rays > 0) == sees);
             double told = 0;
             PipelineCounts counts;
-            pipelines.render(prepared, {.channels = planes, .covered = drawn}, [&](double part) { told = part; return true; }, counts);
+            pipelines.render(
+                prepared, {.channels = planes, .covered = drawn},
+                [&](double part) {
+                    told = part;
+                    return true;
+                },
+                counts);
             CHECK(told == 1);
             if (sees && !every_partition) CHECK(counts.batches > 1);
             Image packed = image;
@@ -424,7 +440,8 @@ TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last
             test::require_same(packed, image);
             CHECK((std::count(drawn.begin(), drawn.end(), 0) < std::ptrdiff_t(drawn.size())) == sees);
         }
-    CHECK_THROWS_AS(pipelines.render(prepare_frame(lined.compiled, view), {.channels = planes, .covered = drawn},
-                                     [](double) { return false; }, *std::make_unique<PipelineCounts>()),
+    CHECK_THROWS_AS(pipelines.render(
+                        prepare_frame(lined.compiled, view), {.channels = planes, .covered = drawn},
+                        [](double) { return false; }, *std::make_unique<PipelineCounts>()),
                     Error);
 }

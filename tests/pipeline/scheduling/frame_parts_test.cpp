@@ -58,7 +58,9 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
         const std::uint32_t band = std::max(1u, down / RayCosts::most_bands);  // rows, for which one stands
         Shown shown(across, down);
         for (auto& tile : shown.drawn) tile = random() % 3 == 0;
-        const auto middle = [&](std::uint32_t row) { return (row / band * band + std::min(down, (row / band + 1) * band)) / 2; };
+        const auto middle = [&](std::uint32_t row) {
+            return (row / band * band + std::min(down, (row / band + 1) * band)) / 2;
+        };
         shown.at(0, middle(0)) = 1;
         const RayCosts costs(shown.frame, {.channels = {}, .covered = shown.drawn});
         REQUIRE(costs.rays() == across * down * tile_rays);
@@ -75,7 +77,8 @@ TEST_CASE("what rays cost: as counted one by one, and found again from the cost"
             REQUIRE(end > first);
             REQUIRE(end <= costs.rays());
             REQUIRE(end % tile_rays == 0);
-            if (end < costs.rays()) REQUIRE(costs.before(end) + RayCosts::of_shown >= std::min(costs.before(first) + cost, sum));
+            if (end < costs.rays())
+                REQUIRE(costs.before(end) + RayCosts::of_shown >= std::min(costs.before(first) + cost, sum));
             const std::uint64_t more = across * tile_rays * RayCosts::of_shown;  // a row, at most
             REQUIRE(costs.before(end) <= costs.before(first) + cost + more);
             if (end >= first + 5 * across * tile_rays && end < costs.rays()) REQUIRE(end % (across * tile_rays) == 0);
@@ -89,7 +92,8 @@ TEST_CASE("rays of a picture that shows nothing yet cost the same, and those of 
     const RayCosts costs(shown.frame, {.channels = {}, .covered = shown.drawn});
     CHECK(costs.total() == costs.rays() * RayCosts::of_shown);
     CHECK(costs.before(1234) == 1234 * RayCosts::of_shown);
-    for (const std::uint64_t rays : {std::uint64_t{1}, std::uint64_t{63}, std::uint64_t{65'536}, std::uint64_t{100'000}, std::uint64_t{1} << 33}) {
+    for (const std::uint64_t rays :
+         {std::uint64_t{1}, std::uint64_t{63}, std::uint64_t{65'536}, std::uint64_t{100'000}, std::uint64_t{1} << 33}) {
         const RayCosts list(rays);
         CHECK(list.total() == rays * RayCosts::of_shown);
         CHECK(list.before(rays - 1) == (rays - 1) * RayCosts::of_shown);
@@ -130,7 +134,8 @@ TEST_CASE("devices' parts cost about as much, where most rays see nothing, too")
     CHECK(taken.size() >= 10);
     CHECK(taken.size() <= 16);
     const std::uint64_t fair = costs.total() / 10, row = 512 * tile_rays * RayCosts::of_shown;
-    for (const RayRange& part : taken) CHECK(costs.before(part.end) - costs.before(part.first) <= fair + fair / 4 + row);
+    for (const RayRange& part : taken)
+        CHECK(costs.before(part.end) - costs.before(part.first) <= fair + fair / 4 + row);
     CHECK(taken[0].first == 0);
     CHECK(costs.before(taken[1].first) >= costs.total() / 2 - row);  // the other half's first
 }

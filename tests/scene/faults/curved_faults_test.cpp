@@ -15,8 +15,8 @@ const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, none{};
 TEST_CASE("solid faults: particles") {
     check_sound(Part{none, z, 1, 1});
     check_sound(Part{none, z, 0, 1});
-    check_sound(Part{none, z, 70, 30});  // one ball holds the other
-    check_sound(Part{none, none, 1, 1});         // a ball
+    check_sound(Part{none, z, 70, 30});   // one ball holds the other
+    check_sound(Part{none, none, 1, 1});  // a ball
     check_fault(Part{none, z, 0, 0}, "greater than 0 at one end");
     check_fault(Part{none, z, -1, 1}, "the radius must be 0 or more");
     check_fault(Part{none, z, 1, not_a_number}, "not finite");

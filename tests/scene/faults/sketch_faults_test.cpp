@@ -91,7 +91,7 @@ TEST_CASE("solid faults: revolved outlines") {
     const double full = 2 * std::numbers::pi;
     check_sound(revolve(square, around, full));
     check_sound(revolve(square, {Line{0, 1}, Line{1, 2}, Line{2, 3}}));  // ends on the axis
-    check_sound(revolve(square, {Line{0, 1}, Line{1, 2}}));  // joined to the axis
+    check_sound(revolve(square, {Line{0, 1}, Line{1, 2}}));              // joined to the axis
     check_fault(revolve(square, around, 0), "the angle must be greater than 0");
     check_fault(revolve(square, around, full + 0.1), "at most a full turn");
     check_fault(revolve({{-1, 0}, {4, 0}, {4, 4}, {0, 4}}, around), "curve 0 of its sketch crosses the axis");

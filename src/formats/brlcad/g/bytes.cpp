@@ -15,8 +15,10 @@ Place ByteSource::place(std::size_t offset, std::string object) const {
 
 std::string_view ByteReader::take(std::uint64_t count, const char* what) {
     if (count > bytes_.size()) {
-        throw Fault{offset_, std::string(what) + ": " + std::to_string(count) + " bytes are needed, but only " +
-                                 std::to_string(bytes_.size()) + " are left", {}};
+        throw Fault{offset_,
+                    std::string(what) + ": " + std::to_string(count) + " bytes are needed, but only " +
+                        std::to_string(bytes_.size()) + " are left",
+                    {}};
     }
     const auto size = static_cast<std::size_t>(count);
     const std::string_view taken = bytes_.substr(0, size);
@@ -41,8 +43,10 @@ std::uint32_t ByteReader::count(std::size_t size, const char* what) {
     const std::size_t at = offset_;
     const std::uint32_t value = word(what);
     if (value > left() / size) {
-        throw Fault{at, std::string(what) + ": " + std::to_string(value) + " of " + std::to_string(size) +
-                            " bytes each do not fit into the " + std::to_string(left()) + " bytes that are left", {}};
+        throw Fault{at,
+                    std::string(what) + ": " + std::to_string(value) + " of " + std::to_string(size) +
+                        " bytes each do not fit into the " + std::to_string(left()) + " bytes that are left",
+                    {}};
     }
     return value;
 }
@@ -51,8 +55,10 @@ std::uint32_t ByteReader::index(std::size_t end, const char* what) {
     const std::size_t at = offset_;
     const std::uint32_t value = word(what);
     if (value >= end) {
-        throw Fault{at, std::string(what) + ": there is no number " + std::to_string(value) + ", only " +
-                            std::to_string(end) + ", counted from 0", {}};
+        throw Fault{at,
+                    std::string(what) + ": there is no number " + std::to_string(value) + ", only " +
+                        std::to_string(end) + ", counted from 0",
+                    {}};
     }
     return value;
 }

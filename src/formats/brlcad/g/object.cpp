@@ -19,9 +19,7 @@ struct Flags {
     std::uint8_t object, attributes, body;
 };
 
-unsigned width_of(std::uint8_t flags) {
-    return flags >> 6;
-}
+unsigned width_of(std::uint8_t flags) { return flags >> 6; }
 
 GObject::Kind kind_of(std::uint8_t flags) {
     constexpr GObject::Kind kinds[] = {GObject::Kind::data, GObject::Kind::header, GObject::Kind::free,
@@ -79,8 +77,9 @@ void read_g_object(const ByteSource& source, std::size_t offset, GObject& object
     object.name = name_if_any(head, flags.object);
 
     if (units > file.size() / unit) {
-        throw Fault{length_at, "the object is " + std::to_string(units) + " times 8 bytes long, but the file ends " +
-                                   "after " + std::to_string(file.size()) + " bytes of it",
+        throw Fault{length_at,
+                    "the object is " + std::to_string(units) + " times 8 bytes long, but the file ends " + "after " +
+                        std::to_string(file.size()) + " bytes of it",
                     "the file is cut off or damaged"};
     }
     const auto length = static_cast<std::size_t>(units) * unit;

@@ -22,9 +22,7 @@ constexpr int major_geometry = 1, major_attributes = 2, major_numbers = 9;
 constexpr int minor_combination = 31;
 
 /// Records of release 4 start with a letter, the first with I, a unit's number and the release.
-bool is_release_4(std::string_view bytes) {
-    return bytes.starts_with('I') && bytes.substr(2, 2) == "v4";
-}
+bool is_release_4(std::string_view bytes) { return bytes.starts_with('I') && bytes.substr(2, 2) == "v4"; }
 
 class GReader {
 public:
@@ -80,8 +78,10 @@ private:
             throw Fault{object.offset + 1, "the object is neither data, nor header, nor free", {}};
         }
         if (is_misplaced(object)) {
-            throw Fault{object.offset, object.offset == 0 ? "the file does not start with the header of a database"
-                                                          : "a second header of a database", {}};
+            throw Fault{object.offset,
+                        object.offset == 0 ? "the file does not start with the header of a database"
+                                           : "a second header of a database",
+                        {}};
         }
     }
 
@@ -156,11 +156,10 @@ Scene read_brlcad_g(const std::string& path, bool lenient) {
 bool is_brlcad_g(std::string_view bytes) {
     constexpr char begin = 0x76;
     constexpr unsigned kind = 3, header = 1;  // bits of the second byte
-    return is_release_4(bytes) || (bytes.size() > 1 && bytes[0] == begin && (static_cast<unsigned>(bytes[1]) & kind) == header);
+    return is_release_4(bytes) ||
+           (bytes.size() > 1 && bytes[0] == begin && (static_cast<unsigned>(bytes[1]) & kind) == header);
 }
 
-Scene parse_brlcad_g(const ByteSource& source, bool lenient) {
-    return GReader(source, lenient).read();
-}
+Scene parse_brlcad_g(const ByteSource& source, bool lenient) { return GReader(source, lenient).read(); }
 
 }  // namespace csgrt

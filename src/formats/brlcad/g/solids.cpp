@@ -13,9 +13,7 @@ namespace {
 
 Shape tor(ByteReader& b) { return Tor{b.vec3("V"), b.vec3("H"), b.real("r_a"), b.real("r_h")}; }
 
-Shape tgc(ByteReader& b) {
-    return Tgc{b.vec3("V"), b.vec3("H"), b.vec3("A"), b.vec3("B"), b.vec3("C"), b.vec3("D")};
-}
+Shape tgc(ByteReader& b) { return Tgc{b.vec3("V"), b.vec3("H"), b.vec3("A"), b.vec3("B"), b.vec3("C"), b.vec3("D")}; }
 
 Shape ell(ByteReader& b) { return Ell{b.vec3("V"), b.vec3("A"), b.vec3("B"), b.vec3("C")}; }
 
@@ -36,8 +34,9 @@ Shape arbn(ByteReader& b) {
     const std::size_t count_at = b.offset();
     const std::uint32_t count = b.count(4 * real_size, "the number of planes");
     if (count < 1 || count > Limits::faces) {
-        throw Fault{count_at, "the arbn has " + std::to_string(count) + " planes, not 1 to " +
-                                  std::to_string(Limits::faces), {}};
+        throw Fault{count_at,
+                    "the arbn has " + std::to_string(count) + " planes, not 1 to " + std::to_string(Limits::faces),
+                    {}};
     }
     Arbn solid;
     for (std::uint32_t i = 0; i < count; ++i) solid.planes.push_back(plane(b));
@@ -90,53 +89,53 @@ struct Type {
     BrlcadItem (*read)(ByteReader&) = nullptr;
 };
 constexpr Type types[] = {
-    {},                                           // 0
-    {"tor", item<tor>},                           //
-    {"tgc", item<tgc>},                           //
-    {"ell", item<ell>},                           //
-    {"arb8", item<arb8>},                         //
-    {"ars", item<read_g_ars>},                    // 5
-    {"half", item<half>},                         //
-    {"rec", item<tgc>},                           //
-    {"poly"},                                     //
-    {"bspline"},                                  //
-    {"sph", item<ell>},                           // 10
-    {"nmg", item<read_g_nmg>},                    //
-    {"ebm", read_g_ebm},                          //
-    {"vol", read_g_vol},                          //
-    {"arbn", item<arbn>},                         //
-    {"pipe", item<read_g_pipe>},                  // 15
-    {"part", item<part>},                         //
-    {"rpc", item<rpc>},                           //
-    {"rhc", item<rhc>},                           //
-    {"epa", item<epa>},                           //
-    {"ehy", item<ehy>},                           // 20
-    {"eto", item<eto>},                           //
-    {"grip"},                                     //
-    {"joint"},                                    //
-    {"hf"},                                       //
-    {"dsp", read_g_dsp},                          // 25
-    {"sketch", item<read_g_sketch>},              //
-    {"extrude", item<read_g_extrude>},            //
-    {"submodel"},                                 //
-    {"cline", item<cline>},                       //
-    {"bot", item<read_g_bot>},                    // 30
-    {"comb"},                                     //
-    {},                                           //
-    {"binunif"},                                  //
-    {},                                           //
-    {"superell", item<superell>},                 // 35
-    {"metaball", item<read_g_metaball>},          //
-    {"brep"},                                     //
-    {"hyp", item<hyp>},                           //
-    {"constrnt"},                                 //
-    {"revolve", item<read_g_revolve>},            // 40
-    {"pnts", item<read_g_points>},                //
-    {"annot"},                                    //
-    {"hrt", item<hrt>},                           //
-    {"datum"},                                    //
-    {"script"},                                   // 45
-    {"material"},                                 //
+    {},                                   // 0
+    {"tor", item<tor>},                   //
+    {"tgc", item<tgc>},                   //
+    {"ell", item<ell>},                   //
+    {"arb8", item<arb8>},                 //
+    {"ars", item<read_g_ars>},            // 5
+    {"half", item<half>},                 //
+    {"rec", item<tgc>},                   //
+    {"poly"},                             //
+    {"bspline"},                          //
+    {"sph", item<ell>},                   // 10
+    {"nmg", item<read_g_nmg>},            //
+    {"ebm", read_g_ebm},                  //
+    {"vol", read_g_vol},                  //
+    {"arbn", item<arbn>},                 //
+    {"pipe", item<read_g_pipe>},          // 15
+    {"part", item<part>},                 //
+    {"rpc", item<rpc>},                   //
+    {"rhc", item<rhc>},                   //
+    {"epa", item<epa>},                   //
+    {"ehy", item<ehy>},                   // 20
+    {"eto", item<eto>},                   //
+    {"grip"},                             //
+    {"joint"},                            //
+    {"hf"},                               //
+    {"dsp", read_g_dsp},                  // 25
+    {"sketch", item<read_g_sketch>},      //
+    {"extrude", item<read_g_extrude>},    //
+    {"submodel"},                         //
+    {"cline", item<cline>},               //
+    {"bot", item<read_g_bot>},            // 30
+    {"comb"},                             //
+    {},                                   //
+    {"binunif"},                          //
+    {},                                   //
+    {"superell", item<superell>},         // 35
+    {"metaball", item<read_g_metaball>},  //
+    {"brep"},                             //
+    {"hyp", item<hyp>},                   //
+    {"constrnt"},                         //
+    {"revolve", item<read_g_revolve>},    // 40
+    {"pnts", item<read_g_points>},        //
+    {"annot"},                            //
+    {"hrt", item<hrt>},                   //
+    {"datum"},                            //
+    {"script"},                           // 45
+    {"material"},                         //
 };
 
 Type type_of(int minor) { return minor >= 0 && minor < static_cast<int>(std::size(types)) ? types[minor] : Type{}; }
@@ -157,8 +156,10 @@ BrlcadItem read_g_solid(int minor, const GBlock& body) {
     ByteReader bytes = read_g_block(body, "the numbers");
     BrlcadItem read = type.read(bytes);
     if (bytes.left() > 0) {
-        throw Fault{bytes.offset(), "the body of the " + name + " should end here, but has " +
-                                        std::to_string(bytes.left()) + " bytes more", {}};
+        throw Fault{
+            bytes.offset(),
+            "the body of the " + name + " should end here, but has " + std::to_string(bytes.left()) + " bytes more",
+            {}};
     }
     return read;
 }

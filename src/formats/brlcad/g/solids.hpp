@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// The object that a body holds; `minor` is its type's number. Solids of types that csgrt does not know are Unsupported,
-/// their bodies unread. Throws Fault.
+/// The object that a body holds; `minor` is its type's number. Solids of types that csgrt does not know are
+/// Unsupported, their bodies unread. Throws Fault.
 BrlcadItem read_g_solid(int minor, const GBlock& body);
 /// BRL-CAD's name of that type, or its number.
 std::string g_type_name(int minor);

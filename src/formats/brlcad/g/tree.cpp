@@ -61,8 +61,10 @@ private:
         bytes_.number(width_, "the depth of the tree");  // a hint for a stack, which this reader does not have
 
         if (matrix_count_ > bytes_.left() / matrix_size) {
-            throw Fault{matrices_begin, std::to_string(matrix_count_) + " matrices do not fit the " +
-                                            std::to_string(bytes_.left()) + " bytes that are left", {}};
+            throw Fault{matrices_begin,
+                        std::to_string(matrix_count_) + " matrices do not fit the " + std::to_string(bytes_.left()) +
+                            " bytes that are left",
+                        {}};
         }
         matrices_at_ = bytes_.offset();
         matrices_ = bytes_.take(matrix_count_ * matrix_size, "the matrices");
@@ -90,8 +92,10 @@ private:
             const std::uint8_t token = tokens.byte("a token");
             if (token == leaf_token) {
                 if (used == leaf_count_) {
-                    throw Fault{at, "the expression needs more leaves than the " + std::to_string(leaf_count_) +
-                                        " there are", {}};
+                    throw Fault{
+                        at,
+                        "the expression needs more leaves than the " + std::to_string(leaf_count_) + " there are",
+                        {}};
                 }
                 ++used;
                 ++operands;
@@ -102,8 +106,8 @@ private:
             if (!op) throw Fault{at, std::to_string(token) + " is no token of an expression", "tokens are 1 to 6"};
             const std::uint32_t arity = token == not_token ? 1 : 2;
             if (operands < arity) {
-                throw Fault{at, "the operator has " + std::to_string(operands) + " operands, not " +
-                                    std::to_string(arity), {}};
+                throw Fault{
+                    at, "the operator has " + std::to_string(operands) + " operands, not " + std::to_string(arity), {}};
             }
             operands -= arity - 1;
             TreeNode node;
@@ -116,8 +120,10 @@ private:
             throw Fault{begin, "the expression leaves " + std::to_string(operands) + " operands, not 1", {}};
         }
         if (used != leaf_count_) {
-            throw Fault{begin, "the expression uses " + std::to_string(used) + " of " + std::to_string(leaf_count_) +
-                                   " leaves", {}};
+            throw Fault{
+                begin,
+                "the expression uses " + std::to_string(used) + " of " + std::to_string(leaf_count_) + " leaves",
+                {}};
         }
     }
 
@@ -128,8 +134,10 @@ private:
         const std::size_t at = leaves_.offset();
         const std::int64_t matrix = leaves_.signed_number(width_, "the number of a leaf's matrix");
         if (matrix < -1 || (matrix >= 0 && static_cast<std::uint64_t>(matrix) >= matrix_count_)) {
-            throw Fault{at, "the leaf has matrix " + std::to_string(matrix) + ", but there are " +
-                                std::to_string(matrix_count_), {}};
+            throw Fault{
+                at,
+                "the leaf has matrix " + std::to_string(matrix) + ", but there are " + std::to_string(matrix_count_),
+                {}};
         }
         if (matrix >= 0) leaf.matrix = read_matrix(static_cast<std::size_t>(matrix));
         tree_.nodes.push_back(std::move(leaf));

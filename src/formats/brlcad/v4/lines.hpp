@@ -80,8 +80,9 @@ public:
         std::array<double, count> values{};
         for (std::size_t i = 0; i < count; ++i) {
             if (!more()) {
-                throw Fault{offset(), "the record ends early: " + std::to_string(i) + " of " + std::to_string(count) +
-                                          ' ' + what, {}};
+                throw Fault{offset(),
+                            "the record ends early: " + std::to_string(i) + " of " + std::to_string(count) + ' ' + what,
+                            {}};
             }
             const Field field = next(what);
             values[i] = read_number(field.text, field.offset);

@@ -104,11 +104,16 @@ private:
         const Field letter = fields.next("the record's letter");
         if (letter.text.size() != 1 || line.text[0] != letter.text[0]) return refuse_record(line);
         switch (letter.text[0]) {
-            case 'I': return bear_faults([&] { read_ident(fields); });
-            case 'C': return read_combination(line, fields);
-            case 'm': return bear_faults([&] { read_color(fields); });
-            case 'F': return;  // a free record
-            default: break;
+            case 'I':
+                return bear_faults([&] { read_ident(fields); });
+            case 'C':
+                return read_combination(line, fields);
+            case 'm':
+                return bear_faults([&] { read_color(fields); });
+            case 'F':
+                return;  // a free record
+            default:
+                break;
         }
         if (!is_v4_solid(letter.text[0])) return refuse_record(line);
         BrlcadItem item;
@@ -141,18 +146,30 @@ private:
 
     static const char* type_of(const Line& record) {
         switch (record.text[0]) {
-            case 'n': return "arbn";
-            case 't': return "bot";
-            case 'w': return "pipe";
-            case 'N': return "nmg";
-            case 'p': return "part";
-            case 'P': return "poly";
-            case 'b': return "bspline";
-            case 'A': return "ars";
-            case 'e': return "extrude";
-            case 'c': return "cline";
-            case 'd': return "sketch";
-            default: return "solid";
+            case 'n':
+                return "arbn";
+            case 't':
+                return "bot";
+            case 'w':
+                return "pipe";
+            case 'N':
+                return "nmg";
+            case 'p':
+                return "part";
+            case 'P':
+                return "poly";
+            case 'b':
+                return "bspline";
+            case 'A':
+                return "ars";
+            case 'e':
+                return "extrude";
+            case 'c':
+                return "cline";
+            case 'd':
+                return "sketch";
+            default:
+                return "solid";
         }
     }
 
@@ -226,8 +243,7 @@ private:
     void read_attributes(Fields& fields, Combination& combination) {
         const Field kind = fields.next("the region flag");
         if (kind.text.size() != 1 || std::string_view("YRPVN").find(kind.text[0]) == std::string_view::npos) {
-            throw Fault{kind.offset, quoted(kind.text) + " is no region flag",
-                        "Y (or P, V) is a region, N is none"};
+            throw Fault{kind.offset, quoted(kind.text) + " is no region flag", "Y (or P, V) is a region, N is none"};
         }
         combination.region = kind.text != "N";
         combination.fastgen = fastgen_of(kind.text);
@@ -283,8 +299,6 @@ private:
 
 }  // namespace
 
-Scene parse_brlcad_asc_v4(const TextSource& source, bool lenient) {
-    return V4Reader(source, lenient).read();
-}
+Scene parse_brlcad_asc_v4(const TextSource& source, bool lenient) { return V4Reader(source, lenient).read(); }
 
 }  // namespace csgrt

@@ -18,14 +18,10 @@ constexpr double torus_rounding = 1e-6;
 /// An arbn of an absurd number of faces must not make the reader wait for it.
 constexpr int max_faces = static_cast<int>(Limits::faces);
 
-Vec3 vec3_at(const Parameters& p, std::size_t at) {
-    return {p[at], p[at + 1], p[at + 2]};
-}
+Vec3 vec3_at(const Parameters& p, std::size_t at) { return {p[at], p[at + 1], p[at + 2]}; }
 
 /// Rounded as where BRL-CAD turns these databases into .g files, so that both give the same scene.
-double length(const Vec3& v) {
-    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-}
+double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 Shape torus(const Parameters& p) {
     const Vec3 h = vec3_at(p, 3);
@@ -50,19 +46,30 @@ Shape arb8(const Parameters& p) {
 
 Shape shape_of(int number, const Parameters& p, const Field& type) {
     switch (number) {
-        case 16: return torus(p);
+        case 16:
+            return torus(p);
         case 18:
             return Tgc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), vec3_at(p, 12), vec3_at(p, 15)};
-        case 19: return Ell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9)};
-        case 20: return arb8(p);
-        case 24: return Half{unit_plane(vec3_at(p, 0), p[3])};
-        case 26: return Rpc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9]};
-        case 27: return Rhc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
-        case 28: return Epa{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10]};
-        case 29: return Ehy{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10], p[11]};
-        case 30: return Eto{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
-        case 32: return Superell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), p[12], p[13]};
-        case 33: return Hyp{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+        case 19:
+            return Ell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9)};
+        case 20:
+            return arb8(p);
+        case 24:
+            return Half{unit_plane(vec3_at(p, 0), p[3])};
+        case 26:
+            return Rpc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9]};
+        case 27:
+            return Rhc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+        case 28:
+            return Epa{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10]};
+        case 29:
+            return Ehy{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10], p[11]};
+        case 30:
+            return Eto{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+        case 32:
+            return Superell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), p[12], p[13]};
+        case 33:
+            return Hyp{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
         default:
             throw Fault{type.offset, "no solid has type " + std::to_string(number),
                         "solids are 16 tor, 18 tgc, 19 ell, 20 arb8, 24 half and 26 to 33"};
@@ -91,8 +98,9 @@ Shape arbn(Fields& fields, LineReader& lines, std::string& name) {
     std::optional<Fault> first_fault;
     for (int i = 0; i < count; ++i) {
         if (!lines.peek().text.starts_with("n ")) {
-            throw Fault{lines.peek().offset, "plane " + std::to_string(i + 1) + " of " + std::to_string(count) +
-                                                 " is missing", {}};
+            throw Fault{lines.peek().offset,
+                        "plane " + std::to_string(i + 1) + " of " + std::to_string(count) + " is missing",
+                        {}};
         }
         Fields plane(lines.take());
         try {
@@ -113,8 +121,9 @@ void take_lines(LineReader& lines, std::uint64_t count, std::string_view starts,
     for (std::uint64_t i = 0; i < count; ++i) {
         const Line line = lines.peek();
         if (lines.at_end() || line.text.empty() || starts.find(line.text[0]) == std::string_view::npos) {
-            throw Fault{line.offset, "the solid ends early: " + std::to_string(i) + " of " + std::to_string(count) +
-                                         ' ' + what, {}};
+            throw Fault{line.offset,
+                        "the solid ends early: " + std::to_string(i) + " of " + std::to_string(count) + ' ' + what,
+                        {}};
         }
         lines.take();
     }
@@ -171,31 +180,43 @@ Shape cline(Fields& fields) {
 
 }  // namespace
 
-bool is_v4_solid(char letter) {
-    return std::string_view("SnstwpNPbAecd").find(letter) != std::string_view::npos;
-}
+bool is_v4_solid(char letter) { return std::string_view("SnstwpNPbAecd").find(letter) != std::string_view::npos; }
 
 BrlcadItem read_v4_solid(const Line& line, LineReader& lines, std::string& name) {
     Fields fields(line);
     const char letter = fields.next("the record's letter").text[0];
     switch (letter) {
-        case 'S': return parameter_solid(fields, name);
-        case 'n': return {arbn(fields, lines, name)};
-        case 's': return string_solid(fields, name);
-        case 'A': return {read_v4_ars(fields, lines, name)};
-        case 'N': return {read_v4_nmg(fields, lines, name)};
-        default: break;
+        case 'S':
+            return parameter_solid(fields, name);
+        case 'n':
+            return {arbn(fields, lines, name)};
+        case 's':
+            return string_solid(fields, name);
+        case 'A':
+            return {read_v4_ars(fields, lines, name)};
+        case 'N':
+            return {read_v4_nmg(fields, lines, name)};
+        default:
+            break;
     }
     name = fields.next("the solid's name").text;
     switch (letter) {
-        case 't': return {read_v4_bot(fields, lines)};
-        case 'w': return {read_v4_pipe(fields, lines)};
-        case 'p': return {part(fields)};
-        case 'c': return {cline(fields)};
-        case 'e': return {read_v4_extrude(fields)};
-        case 'd': return {read_v4_sketch(fields, lines)};
-        case 'b': return {spline(fields, lines)};
-        default: return {polysolid(lines)};
+        case 't':
+            return {read_v4_bot(fields, lines)};
+        case 'w':
+            return {read_v4_pipe(fields, lines)};
+        case 'p':
+            return {part(fields)};
+        case 'c':
+            return {cline(fields)};
+        case 'e':
+            return {read_v4_extrude(fields)};
+        case 'd':
+            return {read_v4_sketch(fields, lines)};
+        case 'b':
+            return {spline(fields, lines)};
+        default:
+            return {polysolid(lines)};
     }
 }
 

@@ -46,9 +46,7 @@ void read_region_flag(Combination& combination, const TclWord& word) {
     combination.region = word.text == "R" || combination.fastgen != Fastgen::none || read_flag(word);
 }
 
-int read_any_integer(const TclWord& word) {
-    return read_integer(word.text, word.offset, any_low, any_high);
-}
+int read_any_integer(const TclWord& word) { return read_integer(word.text, word.offset, any_low, any_high); }
 
 /// "r/g/b" or "r g b".
 Vec3 read_color(const TclWord& word) {
@@ -70,8 +68,8 @@ Vec3 read_color(const TclWord& word) {
     return color_of_bytes(components[0], components[1], components[2]);
 }
 
-/// Here the unit is its length in millimetres, any length. It is for display only, so one that has no meaning is borne, as
-/// BRL-CAD does.
+/// Here the unit is its length in millimetres, any length. It is for display only, so one that has no meaning is borne,
+/// as BRL-CAD does.
 void set_unit_length(Scene& scene, const TclWord& value, const Source& source) {
     double length = 0;
     try {
@@ -84,7 +82,8 @@ void set_unit_length(Scene& scene, const TclWord& value, const Source& source) {
         const double known = unit_in_millimetres(scene.units);  // without the rounding of its decimals
         scene.unit_length = known > 0 ? known : length;
     } else {
-        scene.warnings.push_back({{}, source.place(value.offset, "_GLOBAL"),
+        scene.warnings.push_back({{},
+                                  source.place(value.offset, "_GLOBAL"),
                                   quoted(value.text) + " is no length of a unit in millimetres; it is left out"});
     }
 }

@@ -17,8 +17,8 @@ bool read_source(Parameters& p) {
     throw Fault{word.offset, quoted(word.text) + " is no kind of source", "f is a file, o an object"};
 }
 
-/// Where the cells are. BRL-CAD writes it as file, as name or as both, older programs as F; of several the last one holds,
-/// as in BRL-CAD.
+/// Where the cells are. BRL-CAD writes it as file, as name or as both, older programs as F; of several the last one
+/// holds, as in BRL-CAD.
 std::string read_name(Parameters& p) {
     std::string_view last = "file";
     for (const std::string_view key : {"file", "F", "name"}) {

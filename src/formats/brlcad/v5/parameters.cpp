@@ -1,6 +1,5 @@
 #include "formats/brlcad/v5/parameters.hpp"
 
-
 #include "formats/brlcad/values.hpp"
 
 namespace csgrt {
@@ -60,7 +59,9 @@ int Parameters::integer(std::string_view key, int low, int high) {
     return read_integer(word.text, word.offset, low, high);
 }
 
-std::uint32_t Parameters::count(std::string_view key) { return static_cast<std::uint32_t>(integer(key, 1, largest_integer)); }
+std::uint32_t Parameters::count(std::string_view key) {
+    return static_cast<std::uint32_t>(integer(key, 1, largest_integer));
+}
 
 Vec3 Parameters::vec3(std::string_view key) {
     const auto v = numbers<3>(key);

@@ -200,13 +200,11 @@ private:
     std::vector<TclWord> words_;
     BrlcadObjects objects_;
     std::unordered_set<std::string> broken_;  ///< objects whose put had a finding; their attributes are not another
-    std::string object_;  ///< the name of what is being read, as far as it is known
+    std::string object_;                      ///< the name of what is being read, as far as it is known
 };
 
 }  // namespace
 
-Scene parse_brlcad_asc_v5(const TextSource& source, bool lenient) {
-    return V5Reader(source, lenient).read();
-}
+Scene parse_brlcad_asc_v5(const TextSource& source, bool lenient) { return V5Reader(source, lenient).read(); }
 
 }  // namespace csgrt

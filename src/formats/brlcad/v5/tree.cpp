@@ -56,7 +56,7 @@ private:
         bool empty;
     };
     struct OpenNode {
-        Operator op;      ///< leaf: G or X, which hold what their operand holds
+        Operator op;  ///< leaf: G or X, which hold what their operand holds
         std::size_t at;
         std::vector<Operand> operands{};
     };

@@ -190,10 +190,11 @@ TEST_CASE("g: several findings are reported at once, in the order of the file", 
 }
 
 TEST_CASE("g: any end of a file, and any byte in it, gives a scene or findings", "[g][broken]") {
-    const std::string members = combination(
-        "c", {.leaves = {{"a", 0}, {"b"}, {"n"}}, .expression = "\1\1\2\1\6\4",
-              .matrices = {{1, 0, 0, 4, 0, 1, 0, 6, 0, 0, 1, 8, 0, 0, 0, 0.5}}},
-        attributes({"region", "R", "color", "1/2/3", "shader", "glass {tr 0.5}"}));
+    const std::string members = combination("c",
+                                            {.leaves = {{"a", 0}, {"b"}, {"n"}},
+                                             .expression = "\1\1\2\1\6\4",
+                                             .matrices = {{1, 0, 0, 4, 0, 1, 0, 6, 0, 0, 1, 8, 0, 0, 0, 0.5}}},
+                                            attributes({"region", "R", "color", "1/2/3", "shader", "glass {tr 0.5}"}));
     const WrittenObject objects[] = {
         {.major = 2, .name = "_GLOBAL", .attributes = attributes({"units", "1", "regionid_colortable", "{1 2 3 4 5}"})},
         {.minor = 14, .name = "n", .body = number(1, 2) + counted_reals(1, 4)},
@@ -224,7 +225,8 @@ TEST_CASE("g: any end of a file, and any byte in it, gives a scene or findings",
     CHECK(refused > 1000);
 }
 
-TEST_CASE("g: cells whose size is no number, or far too large, are refused with the object and its byte", "[g][broken]") {
+TEST_CASE("g: cells whose size is no number, or far too large, are refused with the object and its byte",
+          "[g][broken]") {
     const auto at = [](const std::string& body, const std::string& value) {
         return body_at + static_cast<std::int64_t>(body.find(value));
     };
@@ -233,18 +235,21 @@ TEST_CASE("g: cells whose size is no number, or far too large, are refused with 
         check_body(13, vol, at(vol, value), "is not a");
         const std::string ebm = "file=b src=o w=2 n=3 d=" + std::string(value) + zero;
         check_body(12, ebm, at(ebm, value), "is not a");
-        const std::string placed = "file=b src=o w=2 n=3 d=4 mat=1,0,0,5,0,1,0,6,0," + std::string(value) + ",1,7,0,0,0,1" + zero;
+        const std::string placed =
+            "file=b src=o w=2 n=3 d=4 mat=1,0,0,5,0,1,0,6,0," + std::string(value) + ",1,7,0,0,0,1" + zero;
         check_body(12, placed, at(placed, value), "is not a");
     }
     Matrix elements = identity;
     elements[5] = std::numeric_limits<double>::quiet_NaN();
-    const std::string dsp = number(2, 2) + number(2, 2) + reals({elements.begin(), elements.end()}) + number(1, 1) + "oLh" + zero;
+    const std::string dsp =
+        number(2, 2) + number(2, 2) + reals({elements.begin(), elements.end()}) + number(1, 1) + "oLh" + zero;
     check_body(25, dsp, body_at + 8 + 5 * 8, "an element of the dsp's matrix is not a finite number");
 
     // Finite, and so they are read; but what is computed of them overflows.
     elements = identity;
     elements[0] = elements[5] = elements[10] = 1e200;
-    const std::string before = header + WrittenObject{.major = 9, .minor = 4, .name = "b", .body = "\1\2\3\4\5\6"}.bytes() +
+    const std::string before = header +
+                               WrittenObject{.major = 9, .minor = 4, .name = "b", .body = "\1\2\3\4\5\6"}.bytes() +
                                WrittenObject{.major = 9, .minor = 5, .name = "h", .body = "\1\2\1\2\1\2\1\2"}.bytes();
     const auto refused = [&](int type, const std::string& body, const std::string& message) {
         INFO(message);
@@ -256,7 +261,8 @@ TEST_CASE("g: cells whose size is no number, or far too large, are refused with 
         CHECK(findings[0].place.file == "model.g");
         CHECK(findings[0].place.offset == static_cast<std::int64_t>(before.size()));
         CHECK(findings[0].message.find("solid 'x': " + message) == 0);
-        CHECK(findings[0].message.find("the largest size and distance from the origin is 1e+15 mm") != std::string::npos);
+        CHECK(findings[0].message.find("the largest size and distance from the origin is 1e+15 mm") !=
+              std::string::npos);
     };
     refused(13, "file=b src=o w=1 n=2 d=3 lo=1 hi=9 size=1,1e200,3" + zero, "it has the number 1e+200; ");
     refused(12, "file=b src=o w=2 n=3 d=1e308" + zero, "it has the number 1e+308; ");

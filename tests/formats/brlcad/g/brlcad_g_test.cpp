@@ -16,17 +16,13 @@ using asc_test::written;
 
 namespace {
 
-Scene parse(const std::string& objects) {
-    return parse_brlcad_g(ByteSource("model.g", header + objects));
-}
+Scene parse(const std::string& objects) { return parse_brlcad_g(ByteSource("model.g", header + objects)); }
 
 std::string solid(int type, const std::string& name, int numbers) {
     return WrittenObject{.minor = type, .name = name, .body = counted_reals(1, numbers)}.bytes();
 }
 
-std::string tree_of(const Members& members) {
-    return written(comb(parse(combination("c", members)), "c").tree);
-}
+std::string tree_of(const Members& members) { return written(comb(parse(combination("c", members)), "c").tree); }
 
 }  // namespace
 
@@ -38,11 +34,11 @@ TEST_CASE("g: a header alone is an empty scene", "[g]") {
 
 TEST_CASE("g: solids", "[g]") {
     const std::string planes = number(2, 2) + reals({0, 0, 1, 5, 0, 0, -4, 20});
-    const Scene scene = parse(solid(1, "tor", 8) + solid(2, "tgc", 18) + solid(3, "ell", 12) + solid(4, "arb", 24) +
-                              WrittenObject{.minor = 6, .name = "half", .body = reals({0, -2, 0, 8})}.bytes() +
-                              solid(7, "rec", 18) + solid(10, "sph", 12) +
-                              WrittenObject{.minor = 14, .name = "arbn", .body = planes}.bytes() +
-                              solid(20, "ehy", 12));
+    const Scene scene =
+        parse(solid(1, "tor", 8) + solid(2, "tgc", 18) + solid(3, "ell", 12) + solid(4, "arb", 24) +
+              WrittenObject{.minor = 6, .name = "half", .body = reals({0, -2, 0, 8})}.bytes() + solid(7, "rec", 18) +
+              solid(10, "sph", 12) + WrittenObject{.minor = 14, .name = "arbn", .body = planes}.bytes() +
+              solid(20, "ehy", 12));
     REQUIRE(scene.objects.size() == 9);
     CHECK(shape<Tor>(scene, "tor").v == Vec3{1, 2, 3});
     CHECK(shape<Tor>(scene, "tor").h == Vec3{4, 5, 6});
@@ -84,8 +80,8 @@ TEST_CASE("g: solids", "[g]") {
 
 TEST_CASE("g: solids that csgrt does not know keep BRL-CAD's names", "[g]") {
     const std::map<int, std::string> types = {
-        {0, "type 0"},   {8, "poly"}, {9, "bspline"},   {24, "hf"},       {28, "submodel"},
-        {32, "type 32"}, {37, "brep"}, {200, "type 200"},
+        {0, "type 0"},    {8, "poly"},     {9, "bspline"}, {24, "hf"},
+        {28, "submodel"}, {32, "type 32"}, {37, "brep"},   {200, "type 200"},
     };
     std::string objects;
     for (const auto& [type, name] : types) {
@@ -116,10 +112,16 @@ TEST_CASE("g: objects without an inside are the empty set where they are used, a
 TEST_CASE("g: lengths of every width", "[g]") {
     for (unsigned width = 0; width < 4; ++width) {
         INFO(width);
-        const Members members{.leaves = {{"a", 0}, {"b"}}, .expression = "\1\1\4",
-                              .matrices = {{1, 0, 0, 7, 0, 1, 0, 8, 0, 0, 1, 9, 0, 0, 0, 1}}, .width = width};
-        const Scene scene = parse(WrittenObject{.minor = 31, .name = "c", .body = members.bytes(),
-                                                 .attributes = attributes({"region", "R"}), .width = width}.bytes());
+        const Members members{.leaves = {{"a", 0}, {"b"}},
+                              .expression = "\1\1\4",
+                              .matrices = {{1, 0, 0, 7, 0, 1, 0, 8, 0, 0, 1, 9, 0, 0, 0, 1}},
+                              .width = width};
+        const Scene scene = parse(WrittenObject{.minor = 31,
+                                                .name = "c",
+                                                .body = members.bytes(),
+                                                .attributes = attributes({"region", "R"}),
+                                                .width = width}
+                                      .bytes());
         CHECK(written(comb(scene, "c").tree) == "-(a b)");
         CHECK(comb(scene, "c").region);
         CHECK(comb(scene, "c").tree.nodes[0].matrix[7] == 8);
@@ -162,16 +164,16 @@ TEST_CASE("g: matrices are divided by their scale", "[g]") {
 TEST_CASE("g: attributes", "[g]") {
     const std::string global = attributes({"title", "A {model}", "units", "2.54000000000000000e+01", "note", "",
                                            "regionid_colortable", "{1 2 0 0 255} {3 4 0 255 0} "});
-    const std::string keys = attributes({"region", "R", "region_id", "7", "material_id", "3", "los", "50", "aircode",
-                                         "2", "color", "255/0/51", "shader", "plastic {sh 5}", "inherit", "1",
-                                         "own", ""});
-    const Scene scene = parse(WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = global}.bytes() +
-                              combination("r", {.leaves = {{"a"}}}, keys) +
-                              combination("c", {.leaves = {{"a"}}},
-                                          attributes({"rgb", "0/0/255", "oshader", "glass"})) +
-                              combination("v", {.leaves = {{"a"}}}, attributes({}) + "\2binary") +
-                              combination("w", {.leaves = {{"a"}}}, "air" + zero + "5" + zero) +
-                              combination("f", {.leaves = {{"a"}}}, attributes({"region", "V"})));
+    const std::string keys =
+        attributes({"region", "R", "region_id", "7", "material_id", "3", "los", "50", "aircode", "2", "color",
+                    "255/0/51", "shader", "plastic {sh 5}", "inherit", "1", "own", ""});
+    const Scene scene =
+        parse(WrittenObject{.major = 2, .name = "_GLOBAL", .attributes = global}.bytes() +
+              combination("r", {.leaves = {{"a"}}}, keys) +
+              combination("c", {.leaves = {{"a"}}}, attributes({"rgb", "0/0/255", "oshader", "glass"})) +
+              combination("v", {.leaves = {{"a"}}}, attributes({}) + "\2binary") +
+              combination("w", {.leaves = {{"a"}}}, "air" + zero + "5" + zero) +
+              combination("f", {.leaves = {{"a"}}}, attributes({"region", "V"})));
     CHECK(scene.title == "A {model}");
     CHECK(scene.units == "in");
     CHECK(scene.unit_length == 25.4);
@@ -203,11 +205,10 @@ TEST_CASE("g: what is no geometry is passed over", "[g]") {
     free.insert(free.size() - 1, "left over bytes.");  // three units now
     free[5] = '\0';
     free[6] = '\3';
-    const Scene scene = parse(free + sphere("a") +
-                              WrittenObject{.major = 2, .name = "notes", .attributes = attributes({"k", "v"})}.bytes() +
-                              WrittenObject{.major = 9, .minor = 4, .name = "bytes", .body = "12345678"}.bytes() +
-                              WrittenObject{.major = 9, .name = "packed", .body = "zz", .compression = 2}.bytes() +
-                              sphere("b") + free);
+    const Scene scene = parse(
+        free + sphere("a") + WrittenObject{.major = 2, .name = "notes", .attributes = attributes({"k", "v"})}.bytes() +
+        WrittenObject{.major = 9, .minor = 4, .name = "bytes", .body = "12345678"}.bytes() +
+        WrittenObject{.major = 9, .name = "packed", .body = "zz", .compression = 2}.bytes() + sphere("b") + free);
     REQUIRE(scene.objects.size() == 2);
     CHECK(name_of(scene.objects[1]) == "b");
 }

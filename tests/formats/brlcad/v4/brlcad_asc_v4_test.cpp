@@ -138,7 +138,8 @@ TEST_CASE("v4: a combination's attributes", "[asc]") {
                               "C N plain -1 0 9 -8792 0 0 0 9 138 48 0 0 0\n"
                               "C P plate 5 0 0 0 1 100 0 0 0 0\n"
                               "C V volume 6 0 0 0 1 100 0 0 0 0 1\nplastic  \n"
-                              "C Y empty 7 0 0 0 1 100 0 0 0 0 1 1 0\nplastic\n\nM u a" + unit_matrix);
+                              "C Y empty 7 0 0 0 1 100 0 0 0 0 1 1 0\nplastic\n\nM u a" +
+                              unit_matrix);
     const Combination& lit = comb(scene, "lit");
     CHECK(lit.region);
     CHECK(lit.region_id == 1001);
@@ -251,8 +252,8 @@ TEST_CASE("v4: what is wrong is named with its place", "[asc][broken]") {
         {"pipe without an end", head + "w p\n0 1 2 0 0 0\n", 3, 4, "p", "END_PIPE"},
         {"ars cut off", head + "A 21 r 1 9 2 2 0\nB 22 0 1" + zeros + "\n", 5, 1, "r", "1 of 2"},
         {"record B cut off", head + "A 21 r 1 9 2 2 0\nB 22 0 1\n", 4, 9, "r", "0 of 24 coordinates"},
-        {"a count of billions", head + "N 1 n 2000000000\n 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n00\n", 6, 1, "n",
-         "1 of 8000000000"},
+        {"a count of billions", head + "N 1 n 2000000000\n 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n00\n",
+         6, 1, "n", "1 of 8000000000"},
     };
     for (const Broken& broken : cases) check_broken(broken);
 }

@@ -15,8 +15,9 @@ std::string tree_of(const std::string& tree) {
 }  // namespace
 
 TEST_CASE("v5: title, units and colours", "[asc]") {
-    const Scene scene = parse("# a comment\n\ntitle {A \\{model\\}, \"quoted\"}\nunits {in}\ncolor 10 19 255 0 51 \n"
-                              "attr set {_GLOBAL} {regionid_colortable} {{1 2 0 0 255} {3 4 0 255 0} }\n");
+    const Scene scene = parse(
+        "# a comment\n\ntitle {A \\{model\\}, \"quoted\"}\nunits {in}\ncolor 10 19 255 0 51 \n"
+        "attr set {_GLOBAL} {regionid_colortable} {{1 2 0 0 255} {3 4 0 255 0} }\n");
     CHECK(scene.title == "A {model}, \"quoted\"");
     CHECK(scene.units == "in");
     CHECK(scene.unit_length == 25.4);
@@ -168,15 +169,22 @@ TEST_CASE("v5: a combination's attributes, in every spelling", "[asc]") {
 
 TEST_CASE("v5: Tcl's quoting", "[asc]") {
     const std::string ell = " ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}";
-    const Scene scene = parse("title \"tab\\tand \\u00e9 \\101 \\x42\"; units mm\n"
-                              "put \\\n   {two words}" + ell + "\n"
-                              "put a\\ b\\{\\}" + ell + "; put \"q\\\"q\"" + ell + "\r\n"
-                              "put {open\\{} ell V {0 0 0} A {1\n0 \\\n 0} B \"0 1 0\" C 0\\ 0\\ 1\n"
-                              "put {back\\slash}" + ell + "\n"
-                              "  put {c} comb region no tree"
-                              " \"u {l {two words}} {u {l open\\\\{} {l a\\\\ b\\\\{\\\\}}}\"\n"
-                              "attr set {open\\{} {note} {a \\} b}\n"
-                              "put {d} comb region no tree {u {l open\\{} {l back\\\\slash}}\n");
+    const Scene scene = parse(
+        "title \"tab\\tand \\u00e9 \\101 \\x42\"; units mm\n"
+        "put \\\n   {two words}" +
+        ell +
+        "\n"
+        "put a\\ b\\{\\}" +
+        ell + "; put \"q\\\"q\"" + ell +
+        "\r\n"
+        "put {open\\{} ell V {0 0 0} A {1\n0 \\\n 0} B \"0 1 0\" C 0\\ 0\\ 1\n"
+        "put {back\\slash}" +
+        ell +
+        "\n"
+        "  put {c} comb region no tree"
+        " \"u {l {two words}} {u {l open\\\\{} {l a\\\\ b\\\\{\\\\}}}\"\n"
+        "attr set {open\\{} {note} {a \\} b}\n"
+        "put {d} comb region no tree {u {l open\\{} {l back\\\\slash}}\n");
     CHECK(scene.title == "tab\tand \u00e9 A B");
     for (const char* name : {"two words", "a b{}", "q\"q", "open{", "back\\slash"}) {
         INFO(name);
@@ -240,11 +248,11 @@ TEST_CASE("v5: what is wrong is named with its place", "[asc][broken]") {
 
 TEST_CASE("v5: several findings come at once, and one fault is one finding", "[asc][broken]") {
     const auto findings = findings_in(head +
-                                      "put {a} ell V {0 0 0} A {1 0 0\n"       // 3: swallows what follows
-                                      "attr set {a} {note} {text}\n"          // 4: of a broken object, not another
-                                      "put {b} half N {0 0 x} d 1\n"          // 5
-                                      "attr set {b} {note} {text}\n"          // 6
-                                      "frob\n"                                // 7
+                                      "put {a} ell V {0 0 0} A {1 0 0\n"         // 3: swallows what follows
+                                      "attr set {a} {note} {text}\n"             // 4: of a broken object, not another
+                                      "put {b} half N {0 0 x} d 1\n"             // 5
+                                      "attr set {b} {note} {text}\n"             // 6
+                                      "frob\n"                                   // 7
                                       "put {c} comb region no tree {u {l a}}\n"  // 8
                                       "put {d} half N {0 0 1} d 1\n"
                                       "put {d} half N {0 0 1} d 1\n");  // 10
