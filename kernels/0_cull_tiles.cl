@@ -1,5 +1,6 @@
 // Kernel 0: finds the tiles of a picture that can see anything; the other tiles get no rays. For each tile it also
-// lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests these alone.
+// lists the nodes of the hierarchy that the tile's 64 rays may meet, so that each ray tests these alone. A GPU has no
+// lists for every partition.
 #include "traversal/beam.h"
 #include "traversal/bvh_cursor.h"
 
@@ -11,8 +12,8 @@ static void clear_report(__global BatchReport* report, u32 tiles, u32 id) {
 }
 
 // Lists nodes that hold all that the beam meets, from the root down, level by level: as long as the list has room,
-// each node is replaced by those of its two children that the beam meets. `entry` is still in the hierarchy's own
-// parameter.
+// each node is replaced by those of its two children that the beam meets. `entry` is a distance along the
+// beam's middle ray yet, as in slab_ray.
 static u32 list_nodes(beam b, __global const BvhNode* nodes, TileNode* list) {
     u32 count, k, split = 1;
     list[0] = entry_of(b, nodes, 0);

@@ -28,11 +28,11 @@ static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __globa
     all_nodes[base + place].next = number;
 }
 
-// One work-item an end. `rays`: the ray of each end.
+// One work-item an end. `ray_of_end`: kernel 2 left it in the words of `bits`.
 __kernel void order_ends(__global const Frame* frame, __global const RayCount* offsets, __global const End* all_ends,
-                         __global const u32* rays, __global PartitionNode* all_nodes) {
+                         __global const u32* ray_of_end, __global PartitionNode* all_nodes) {
     const u32 id = (u32)get_global_id(0);
-    if (id < 2 * segments_of(frame, offsets)) order_end(id, rays[id], offsets, all_ends, all_nodes);
+    if (id < 2 * segments_of(frame, offsets)) order_end(id, ray_of_end[id], offsets, all_ends, all_nodes);
 }
 
 static u32 has_bit(__global const u32* bits, u32 index) { return (bits[index >> 5] >> (index & 31u)) & 1u; }

@@ -2,7 +2,7 @@
 // header that is compiled before this file says what a work-item draws: one ray (shading/first_hits_ray.h), or on
 // processors a packet of eight (packet/first_hits_packet.h).
 //
-// For a batch whose pixels come by lines the host launches a work-item for each ray of all tiles, before it knows how
+// For a batch whose picture is row-major the host launches a work-item for each ray of all tiles, before it knows how
 // many tiles the list has; items behind its end return at once.
 
 // The number of the ray of work-item `id`, by the list of tiles (PART_SHIFT). COUNT_MAX, which no ray of a picture

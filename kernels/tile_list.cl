@@ -1,4 +1,4 @@
-// Runs on a GPU before the other kernels of a batch whose pixels come by lines. It lists the tiles that see anything,
+// Runs on a GPU before the other kernels of a batch whose picture is row-major. It lists the tiles that see anything,
 // the most expensive first, so that the host can launch those kernels without waiting for the list; and it writes the
 // other tiles' background.
 #include "traversal/camera.h"

@@ -17,7 +17,7 @@ typedef struct {
     ENDS const u32* bits;
     u32 segments;
     u32 missed;  // MISSED_...: segments whose ends have any of these do not cover it
-    u32 marked;  // may any have them?
+    u32 marked;  // 0: no segment has MISSED_... set
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* trees;
@@ -26,7 +26,7 @@ typedef struct {
 FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.ends[2 * segment].surface & c.missed); }
 FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
-// The solids that cover a partition: all of them if they are few, and a filter that most others do not pass.
+// The solids that cover a partition: a list if they are few, and a filter (as Bloom's) that most others do not pass.
 #ifdef CSGRT_FEW
 #define FEW CSGRT_FEW  // a multiple of 32
 #else
@@ -287,9 +287,8 @@ FN SolidFilter all_solids(void) {
 }
 
 // Evaluates the terms that start at the segments of `starting`, which are some of c.bits. `ranks`: Frame.rank_ends,
-// or 0 if `other` is not wanted.
-// `changed`: if no region claimed before these solids came or went, only a term that has one of them can claim now. It
-// halves the time of first hits where rays pass many solids (havoc on a GPU).
+// or 0 if `other` is not wanted. `changed`: if no region claimed before these solids came or went, only a term that has
+// one of them can claim now.
 FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
                     SolidFilter changed) {
     claim found;

@@ -1,7 +1,7 @@
-// Memory for what a batch's rays need. The host has kernels queued before it knows how much that is; each kernel
-// compares the sums with the capacity of the buffers at hand, and where that does not do it writes nothing. The host,
-// which learns from the batch's tally (kernel 5) that it did not do, has the rays counted, allocates exactly what they
-// need, and has them run again.
+// Does what a batch's rays need fit the buffers? On a GPU the host queues the kernels before it knows how much the rays
+// need, and states the buffers' capacity in the frame. If the capacity is too small, a kernel writes nothing. The host
+// sees this in the batch's report and runs the batch again with exact sizes. Where the host counts first, as on
+// processors, the capacity is COUNT_MAX.
 #ifndef CSGRT_SHARED_CAPACITY_H
 #define CSGRT_SHARED_CAPACITY_H
 

@@ -245,8 +245,9 @@ typedef struct {
     wide ox, oy, oz, dx, dy, dz;
 } RayRecord;
 
-// 0 cull tiles -> first hits: nodes of the hierarchy that hold all that a tile's rays may meet, each one thing once:
-// leaves, or subtrees where there is much. Nearest first, then an entry without a node.
+// 0 cull tiles -> first hits, and kernel 1 on processors: nodes of the hierarchy that hold all that a tile's rays may
+// meet, each one thing once: leaves, or subtrees where there is much. For first hits the nearest comes first, for every
+// partition they stand in the hierarchy's order. The last entry has no node.
 typedef struct {
     u32 node;     // NONE: no more
     float entry;  // no ray of the tile comes there before this distance, less that of the scene's center
@@ -255,12 +256,12 @@ typedef struct {
 
 // 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the batch.
 typedef struct {
-    u32 segments;  // of the ray
+    u32 segments;  // of the ray; in the buffer of candidates' places: its candidates
     u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a batch is too large
 
-// Of a batch whose pixels come by lines: its tiles by what they cost, and what the host wants to know when it is drawn.
+// Of a batch whose picture is row-major: its tiles by what they cost, and what the host wants to know when it is drawn.
 // Behind it stands a byte for each of the batch's tiles: not 0 if a ray of it sees something.
 #define COST_CLASSES 48u
 typedef struct {

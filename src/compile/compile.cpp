@@ -1,4 +1,4 @@
-// The order of it all: flatten, box, number, pack, linearize.
+// The steps: validate, flatten, measure boxes, number, pack solids, pack regions, list terms.
 
 #include "compile/compiled_scene.hpp"
 

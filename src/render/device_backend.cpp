@@ -55,7 +55,7 @@ std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, cons
 }
 
 std::string DeviceBackend::method(bool every_partition) const {
-    return every_partition ? "five kernels, exact counts" : "first hits, front to back";
+    return every_partition ? "every partition, five kernels" : "first hits, front to back";
 }
 
 void DeviceBackend::report(Statistics& statistics) const {

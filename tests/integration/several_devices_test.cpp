@@ -94,7 +94,7 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
     CHECK(last == 1);
 }
 
-TEST_CASE("two devices bring a picture by lines", "[.two_devices]") {
+TEST_CASE("two devices read a picture back asynchronously", "[.two_devices]") {
     // Its memory is registered to them, or not.
     const bool is_registered = GENERATE(false, true);
     const Scene scene =

@@ -1,4 +1,4 @@
-// The hierarchy of boxes that kernels 1 and 2 walk.
+// The hierarchy of boxes that culling, kernel 1 and first hits walk.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Before a batch whose pixels come by lines: its tiles in order, and the background of those that see nothing.
+// Before a batch whose picture is row-major: its tiles in order, and the background of those that see nothing.
 #include "device/compiling_device.hpp"
 #include "pipeline/passes/tile_list.hpp"
 

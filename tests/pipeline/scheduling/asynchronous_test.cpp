@@ -34,7 +34,7 @@ TakeRays ranges_of(std::uint64_t rays, std::uint64_t each) {
 
 }  // namespace
 
-TEST_CASE("lines make the picture, whatever was there before and however many batches there are") {
+TEST_CASE("asynchronous: the picture is made, whatever was there before and however many batches there are") {
     Scene scene = bench::scene_of_parts(20);
     scene.background = {0.2, 0, 0.4};
     const bool every_partition = GENERATE(false, true);
@@ -113,7 +113,7 @@ TEST_CASE("lines make the picture, whatever was there before and however many ba
 
 namespace {
 
-/// A pipeline that brings pixels by lines, and the memory of a picture that it draws into.
+/// An asynchronous pipeline, and the memory of a picture that it draws into.
 struct Lined {
     /// `room`: bytes of device memory beside the scene's; 0: all that there is. `most_rays`: of a batch.
     explicit Lined(const Scene& scene, std::uint64_t room = 0, std::uint64_t most_rays = Pipeline::most_rays_drawn,
@@ -188,7 +188,7 @@ struct Lined {
 
 }  // namespace
 
-TEST_CASE("pixels by lines: batches that run beside each other") {
+TEST_CASE("asynchronous: batches that run beside each other") {
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t most_rays : {2048, 16'384}) {
         Lined lined(bench::scene_of_parts(20), 0, most_rays);
@@ -200,7 +200,7 @@ TEST_CASE("pixels by lines: batches that run beside each other") {
     }
 }
 
-TEST_CASE("pixels by lines: few channels, of batches that run beside each other, in little memory") {
+TEST_CASE("asynchronous: few channels, of batches that run beside each other, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
     for (std::uint64_t room = 200'000; room < 5'000'000; room += test::sanitized ? room : room / 5) {
         INFO("room " << room);
@@ -224,19 +224,19 @@ TEST_CASE("a picture in place after a list of rays, in little memory") {
     }
 }
 
-TEST_CASE("pixels by lines: parts of a frame one after the other") {
+TEST_CASE("asynchronous: parts of a frame one after the other") {
     Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t tiles : {7, 40, 1000}) lined.draw(203, 161, every_partition, tiles * tile_rays);
 }
 
-TEST_CASE("pixels by lines: a picture of several copies, each put as it comes") {
+TEST_CASE("asynchronous: a picture of several copies, each put as it comes") {
     Lined lined(bench::scene_of_parts(20));
     lined.draw(700, 500, false, 1 << 20);
     lined.draw(900, 800, true, 1 << 20);
 }
 
-TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
+TEST_CASE("asynchronous: a larger frame after one that was interrupted") {
     Lined lined(bench::scene_of_parts(20));
     const bool every_partition = GENERATE(false, true);
     int told = 0;
@@ -246,7 +246,7 @@ TEST_CASE("pixels by lines: a larger frame after one that was interrupted") {
     lined.draw(40, 50, every_partition, 10 * tile_rays);
 }
 
-TEST_CASE("pixels by lines: frames that are interrupted while batches are queued, and others at once") {
+TEST_CASE("asynchronous: frames that are interrupted while batches are queued, and others at once") {
     Lined lined(bench::scene_of_parts(20), 0, 16'384);
     for (int i = 0; i < 12; ++i) {
         lined.azimuth = 30 * i;
@@ -258,7 +258,7 @@ TEST_CASE("pixels by lines: frames that are interrupted while batches are queued
     }
 }
 
-TEST_CASE("pixels by lines: every partition of batches that need more than those before") {
+TEST_CASE("asynchronous: every partition of batches that need more than those before") {
     Scene scene = bench::scene_of_parts(20);
     for (int i = 0; i < 40; ++i) {  // a pile that a side shows one in front of the other
         Solid ball{"pile" + std::to_string(i), stress::ball({20.0 + 3 * i, 0, 0}, 2), {}};
@@ -282,7 +282,7 @@ TEST_CASE("pixels by lines: every partition of batches that need more than those
     CHECK(lined.draw(403, 361, true, 1 << 20).retried == 0);  // there is room for all by now
 }
 
-TEST_CASE("pixels by lines: every partition of batches that need more than those before, in little memory") {
+TEST_CASE("asynchronous: every partition of batches that need more than those before, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
     std::uint32_t again = 0;
     for (std::uint64_t room = 500'000; room < 40'000'000; room += test::sanitized ? 2 * room : room / 2) {
@@ -346,7 +346,7 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("pixels by lines: rays that have no room") {
+TEST_CASE("asynchronous: rays that have no room") {
     Scene scene;
     add_shells(scene, {0, 0, 0}, 20, 0.1);
     add_ball(scene, "ball", {0, 30, 0}, 9);
@@ -360,7 +360,7 @@ TEST_CASE("pixels by lines: rays that have no room") {
     }
 }
 
-TEST_CASE("pixels by lines: few tiles with more to see than all others, whose rays come in parts") {
+TEST_CASE("asynchronous: few tiles with more to see than all others, whose rays come in parts") {
     Scene scene;
     for (int i = 0; i < 300; ++i)  // a heap of some pixels, off the middle of an empty picture
         add_ball(scene, "ball" + std::to_string(i), {40 + 0.3 * (i % 7), 0.3 * (i / 7 % 7), 0.3 * (i / 49)},
@@ -386,7 +386,7 @@ TEST_CASE("pixels by lines: few tiles with more to see than all others, whose ra
         CHECK(listed >= 8);  // one processor alone may find them too many
 }
 
-TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and in much") {
+TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in much") {
     const Scene scene = bench::scene_of_parts(20);
     const bool every_partition = GENERATE(false, true);
     for (std::uint64_t room = 30'000; room < 6'000'000; room += test::sanitized ? 8 * room : room / 4) {
@@ -402,7 +402,7 @@ TEST_CASE("pixels by lines: whole lines of a wide picture, in little memory and 
     }
 }
 
-TEST_CASE("pixels by lines: parts of one device's picture, a frame like the last one, and one that sees nothing") {
+TEST_CASE("asynchronous: parts of one device's picture, a frame like the last one, and one that sees nothing") {
     Lined lined(bench::scene_of_parts(20));
     DeviceGroup pipelines(plan_devices(lined.settings).first, lined.compiled, *lined.kernels, lined.settings,
                           Readback::asynchronous);
