@@ -12,25 +12,25 @@ namespace {
 bool is_busy(const Renderer& renderer) { return !renderer.statistics().awaited_device.empty(); }
 
 /// Renderers that were not destroyed. end_process() empties it or exits, so no static destructor destroys them.
-std::vector<Renderer> kept;
+std::vector<Renderer> held;
 
 }  // namespace
 
 HeldRenderer::~HeldRenderer() {
     if (!is_busy(renderer_)) return;
     try {
-        kept.push_back(std::move(renderer_));
+        held.push_back(std::move(renderer_));
     } catch (const std::bad_alloc&) {  // no memory: the destructor waits for the driver
     }
 }
 
 int end_process(int status) {
-    while (!kept.empty()) {
-        if (is_busy(kept.back())) {
+    while (!held.empty()) {
+        if (is_busy(held.back())) {
             std::fflush(nullptr);
             std::quick_exit(status);
         }
-        kept.pop_back();
+        held.pop_back();
     }
     return status;
 }

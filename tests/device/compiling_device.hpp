@@ -16,4 +16,10 @@ inline std::string compiling_device() {
     return std::to_string(choose_device(devices(), "", Kernels::compiled_by_device));
 }
 
+/// Is that a processor, whose float arithmetic is the host's?
+inline bool is_processor() {
+    static const bool is = Device(compiling_device()).info().type == "cpu";
+    return is;
+}
+
 }  // namespace csgrt::test
