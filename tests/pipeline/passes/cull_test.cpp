@@ -74,8 +74,8 @@ std::size_t require_same(const CompiledScene& compiled, const View& view) {
         // An entry is a lower bound in float, made with a division that a GPU may round differently (OpenCL allows 2.5
         // units in the last place); which nodes are listed does not depend on it, nor does any pixel.
         const auto same = [](const kernel::TileNode& a, const kernel::TileNode& b) {
-            const float most = test::is_processor() ? 0 : 1e-6f * std::max(std::abs(a.entry), 1.0f);
-            return a.node == b.node && (a.entry == b.entry || std::abs(a.entry - b.entry) <= most);
+            const float allowed = test::is_processor() ? 0 : 1e-6f * std::max(std::abs(a.entry), 1.0f);
+            return a.node == b.node && (a.entry == b.entry || std::abs(a.entry - b.entry) <= allowed);
         };
         differing += !std::ranges::equal(on_host.lists[tile], on_device.lists[tile], same);
         most = std::max(most, on_host.lists[tile].size());
