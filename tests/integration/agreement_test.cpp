@@ -7,6 +7,7 @@
 #include "compile/compiled_scene.hpp"
 #include "integration/every_type.hpp"
 #include "integration/same_answers.hpp"
+#include "sanitized.hpp"
 #include "integration/scenes.hpp"
 
 using namespace csgrt;
@@ -25,7 +26,7 @@ void require_scenes(bool all) {
         std::vector<std::string> objects;
         Scene scene = load_scene(file);
         if (!all) scene = programs.of(std::move(scene), objects);
-        require_agreement(scene, objects, 96, 500);
+        require_agreement(scene, objects, test::sanitized ? 64 : 96, test::tries(500));
     }
     if (!files.empty() && !all) CHECK(programs.own() >= 2);
 }
