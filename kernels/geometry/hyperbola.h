@@ -12,7 +12,7 @@
 //       |    \     |
 //       |     )  .-x-.     Between its two arms f is positive only within about dz of that line. So each piece is split
 //       |    /  (  |  )    where it crosses z = oz, where f has the sign of r - p, known however small dz is: then
-//       there |   /    `-x-'     is one crossing on each arm, or none.
+//       |   /    `-x-'     there is one crossing on each arm, or none.
 //       +---------------- r
 //
 // Points on the axis are nearer to it than any ray, so an outline may end there.

@@ -5,8 +5,7 @@
 //   QUARTIC_UNSHIFTED  the same with the origin where the ray's is: coefficients lose their digits as it moves away
 //   QUARTIC_FERRARI    the closed form, ferrari.h
 //   QUARTIC_YUKSEL     roots between those of the derivative, to a stated error (Yuksel 2022, High-Performance
-//   Polynomial
-//                      Root Finding for Graphics), whose cubic is deflated once one of its roots is known
+//                      Polynomial Root Finding for Graphics), whose cubic is deflated once a root of it is known
 #ifndef CSGRT_GEOMETRY_QUARTIC_H
 #define CSGRT_GEOMETRY_QUARTIC_H
 

@@ -7,8 +7,7 @@
 //        y |    c                 The ray is the point 0. It meets a triangle whose three edges all have it on the
 //          |   / \                same side: sign(a x b) = sign(b x c) = sign(c x a).
 //          |  / 0 \               These signs are exact. A zero (0 on an edge, or on a vertex) is decided as if the ray
-//          | a-----b              stood a hair aside, at (e, e^2): then every point of the plane lies in exactly as
-//          many
+//          | a-----b              stood a hair aside, at (e, e^2): then every point of the plane lies in as many
 //          +---------- x          triangles as a point beside it (simulation of simplicity, Edelsbrunner, Muecke 1990).
 //
 // Parameters: affine (12). A mesh keeps its vertices around its middle, scaled by a power of two so that all of them

@@ -38,7 +38,9 @@ public:
     virtual std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
                                              const Progress& progress) = 0;
 
-    /// Writes who drew last, what was counted and how long it took.
+    /// Who answers the next call: a device's name, or several.
+    virtual std::string name() const = 0;
+    /// Writes what the last call counted, and how long it took.
     virtual void report(Statistics& statistics) const = 0;
     /// How such calls are answered, in words.
     virtual std::string method(bool every_partition) const = 0;

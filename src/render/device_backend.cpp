@@ -59,12 +59,10 @@ std::string DeviceBackend::method(bool every_partition) const {
 }
 
 void DeviceBackend::report(Statistics& statistics) const {
-    const DeviceGroup& group = drawer_ ? *drawer_ : takeover_.present();
     const PipelineCounts& c = counts_;
-    statistics.device = group.name();
-    statistics.ms.build = search_ms_ + group.build_ms();
+    statistics.ms.build = search_ms_ + group().build_ms();
     if (!drawer_) return;
-    statistics.device_bytes = group.device_bytes();
+    statistics.device_bytes = group().device_bytes();
     statistics.hits = c.hits;
     statistics.segments = c.segments;
     statistics.partitions_used = c.partitions_used;

@@ -16,6 +16,7 @@ public:
     void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) override;
     std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
                                      const Progress& progress) override;
+    std::string name() const override { return group().name(); }
     void report(Statistics& statistics) const override;
     std::string method(bool every_partition) const override;
     double build_ms_in_call() const override { return build_ms_in_call_; }
@@ -23,6 +24,7 @@ public:
     std::optional<std::string> take_fault() override { return takeover_.take_fault(); }
 
 private:
+    const DeviceGroup& group() const { return drawer_ ? *drawer_ : takeover_.present(); }
     template <class Call>
     void counted(const Call& call);
 

@@ -25,7 +25,6 @@ std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, c
 }
 
 void ReferenceBackend::report(Statistics& statistics) const {
-    statistics.device = "reference";
     statistics.hits = counts_.hits;
     statistics.segments = counts_.segments;
     statistics.partitions_used = statistics.partitions_allocated = counts_.partitions;

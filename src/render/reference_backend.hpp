@@ -16,6 +16,7 @@ public:
     void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) override;
     std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
                                      const Progress& progress) override;
+    std::string name() const override { return "reference"; }
     void report(Statistics& statistics) const override;
     std::string method(bool) const override { return "every solid near the ray, unique lists"; }
 

@@ -68,9 +68,9 @@ struct Renderer::Impl {
 
     void set_up_devices();
     void use_reference();
-    Statistics start_call(std::uint64_t rays, bool every_partition, int width, int height) const;
+    void start_call(std::uint64_t rays, bool every_partition, int width, int height);
     void prepare(bool every_partition);
-    void end_call(Clock::time_point start, Statistics fresh);
+    void end_call(Clock::time_point start);
 };
 
 Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
@@ -93,6 +93,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.statistics.quartic = name_of(quartic_names, settings.quartic);
     impl.statistics.tolerance = tolerance_of(impl.scene, settings);
     settings.reference ? impl.use_reference() : impl.set_up_devices();
+    impl.statistics.device = impl.backend->name();
     impl.statistics.method = impl.backend->method(true);
     impl.backend->report(impl.statistics);
 }
@@ -127,8 +128,8 @@ void Renderer::Impl::set_up_devices() {
     use_reference();
 }
 
-/// Figures of a new call: only those of the renderer are known yet.
-Statistics Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int width, int height) const {
+/// Of a new call only the renderer's own figures are known yet, and of one that throws no others.
+void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int width, int height) {
     Statistics fresh;
     fresh.device = statistics.device;
     fresh.precision = statistics.precision;
@@ -141,20 +142,20 @@ Statistics Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, 
     fresh.rays = rays;
     fresh.width = width;
     fresh.height = height;
-    return fresh;
+    statistics = std::move(fresh);
 }
 
 void Renderer::Impl::prepare(bool every_partition) {
     backend->prepare(every_partition);
+    statistics.device = backend->name();
     if (auto fault = backend->take_fault())
         warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
 }
 
 /// What a call waits for kernels counts as `build`.
-void Renderer::Impl::end_call(Clock::time_point start, Statistics fresh) {
-    backend->report(fresh);
-    fresh.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();
-    statistics = std::move(fresh);
+void Renderer::Impl::end_call(Clock::time_point start) {
+    backend->report(statistics);
+    statistics.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();
 }
 
 Renderer::~Renderer() = default;
@@ -171,8 +172,8 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     Impl& impl = *impl_;
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
-    Statistics figures = impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition,
-                                         view.width, view.height);
+    impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition, view.width,
+                    view.height);
     const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
     std::vector<const ChannelSource*> sources;
     std::vector<std::string> names;
@@ -202,13 +203,13 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
-    image.attributes["csgrt:precision"] = figures.precision;
-    image.attributes["csgrt:method"] =
-        figures.method + ", quartics " + figures.quartic + (impl.settings.contraction ? ", contraction" : "");
+    image.attributes["csgrt:precision"] = impl.statistics.precision;
+    image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " + impl.statistics.quartic +
+                                       (impl.settings.contraction ? ", contraction" : "");
     image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
     if (!impl.scene.warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(impl.scene.warnings);
     describe_camera(prepared, image);
-    impl.end_call(start, std::move(figures));
+    impl.end_call(start);
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
@@ -225,7 +226,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     const PreparedFrame prepared =
         prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.statistics.tolerance);
     impl.kernels->check(rays);
-    Statistics figures = impl.start_call(rays.size(), true, 0, 0);
+    impl.start_call(rays.size(), true, 0, 0);
     std::vector<Ray> scaled;
     if (any_scaled) {
         scaled = rays;
@@ -236,7 +237,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
         impl.backend->shoot(prepared, any_scaled ? scaled : rays, impl.settings.progress);
     for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
         if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
-    impl.end_call(start, std::move(figures));
+    impl.end_call(start);
     return answers;
 }
 

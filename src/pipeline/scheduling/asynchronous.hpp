@@ -1,10 +1,12 @@
 // A GPU's batches, two underway: while one's kernels run, the other's are queued, and pixels of those before are
 // copied. A device stands still whenever the host waits for an answer before it says what comes next.
 //
+// clang-format off
 //            start                 trace              shade             collect
 //   free  ----------->  culled  ----------> traced  ---------> shaded  ---------->  free
 //                       kernel 0,           kernels           kernel 5              pixels are copied
-//                       (readback/ring.hpp) tile list           1 to 4
+//                       tile list           1 to 4                                  (readback/ring.hpp)
+// clang-format on
 //
 // A batch of first hits goes from free to shaded at once: none of its kernels needs to know what the one before found.
 #pragma once
@@ -91,10 +93,9 @@ private:
     SynchronousSchedule& pixels_;
     std::array<Batch, Device::queues> batches_;
     ReadbackRing ring_;
-    std::vector<std::uint32_t>
-        overflown_;  ///< first hits: rays of collected batches that are to be traced as single pixels
-    bool drew_every_partition_ = false;  ///< in the last frame
-    bool is_memory_short_ = false;       ///< no other batch starts until one is collected
+    std::vector<std::uint32_t> overflown_;  ///< first hits: rays that are to be traced as single pixels
+    bool drew_every_partition_ = false;     ///< in the last frame
+    bool is_memory_short_ = false;          ///< no other batch starts until one is collected
 };
 
 }  // namespace csgrt

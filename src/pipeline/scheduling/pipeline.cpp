@@ -8,7 +8,8 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
                    Readback readback, std::uint64_t most_rays)
     : passes_(device, scene, kernels, settings),
       most_rays_(most_rays),
-      synchronous_(passes_, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
+      synchronous_(
+          passes_, [this] { return memory(); }, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
     // A processor shares the host's memory, and has no time beside its kernels.
     if (readback == Readback::asynchronous || device.info().type != "cpu") asynchronous_.emplace(passes_, synchronous_);
 }

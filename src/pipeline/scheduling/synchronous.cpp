@@ -16,13 +16,13 @@ void for_each_batch(BatchSource& source, const Device& device, const Work& work)
 
 }  // namespace
 
-SynchronousSchedule::SynchronousSchedule(DevicePasses& passes, std::function<bool()> reclaim)
-    : passes_(passes), reclaim_(std::move(reclaim)), batch_(passes.device), picture_(passes.device, "picture") {}
-
-DeviceMemory SynchronousSchedule::memory() const {
-    const Device& device = passes_.device;
-    return {.available = device.available(), .held = held() + passes_.held(), .max_buffer = device.max_buffer()};
-}
+SynchronousSchedule::SynchronousSchedule(DevicePasses& passes, std::function<DeviceMemory()> memory,
+                                         std::function<bool()> reclaim)
+    : passes_(passes),
+      memory_(std::move(memory)),
+      reclaim_(std::move(reclaim)),
+      batch_(passes.device),
+      picture_(passes.device, "picture") {}
 
 // `reused`: bytes of it that this holds already.
 void SynchronousSchedule::make_room(std::uint64_t bytes, std::uint64_t reused) {
@@ -127,12 +127,9 @@ bool SynchronousSchedule::draw_partitions(const FrameJob& job, Work work, std::u
 void SynchronousSchedule::draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers) {
     const std::uint64_t pixel_bytes = job.shape().pixel_bytes;
     const std::uint64_t ray_bytes = pixel_bytes + sizeof(std::uint32_t) + PartitionMemory::ray_bytes;
-    bool is_taken = false;
+    const auto take = [left = RayRange{0, numbers.size()}]() mutable { return std::exchange(left, RayRange{}); };
     BatchSource source(
-        [&] {
-            return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, numbers.size()};
-        },
-        [&] { return rays_fitting(memory(), ray_bytes); }, 0);
+        take, [&] { return rays_fitting(memory_(), ray_bytes); }, 0);
     for_each_batch(source, passes_.device, [&](const RayBatch& batch) {
         const auto some = numbers.subspan(batch.first, batch.rays);
         kernel::Frame frame = job.frame;

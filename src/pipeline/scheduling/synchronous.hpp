@@ -13,8 +13,9 @@ namespace csgrt {
 
 class SynchronousSchedule {
 public:
-    /// `reclaim` gives back device memory that others hold for later; false: they held none.
-    SynchronousSchedule(DevicePasses& passes, std::function<bool()> reclaim);
+    /// `memory`: the device's, with all that the pipeline holds of it. `reclaim` gives back what others hold for later;
+    /// false: they held none.
+    SynchronousSchedule(DevicePasses& passes, std::function<DeviceMemory()> memory, std::function<bool()> reclaim);
 
     void render(const FrameJob& job);
     /// Every partition of single pixels, by their rays' numbers, and what is seen of them.
@@ -29,7 +30,6 @@ public:
     std::uint64_t held() const { return batch_.held() + picture_.size(); }
 
 private:
-    DeviceMemory memory() const;
     bool draw_tiles(const FrameJob& job, const RayBatch& batch);
     void draw_first_hits(const FrameJob& job, std::uint32_t rays, std::vector<std::uint32_t>& overflown);
     bool draw_partitions(const FrameJob& job, Work work, std::uint32_t rays, bool are_tallied);
@@ -44,6 +44,7 @@ private:
                     std::uint64_t ray_bytes);
 
     DevicePasses& passes_;
+    std::function<DeviceMemory()> memory_;
     std::function<bool()> reclaim_;
     BatchBuffers batch_;
     Buffer picture_;  ///< of each channel a float a ray

@@ -1,8 +1,7 @@
 // Solids of the older text form that are made of many points.
 //
 //     t name mode orientation 0 vertices faces   lines "n: x y z", lines "n: a b c", for plates with the thickness
-//     behind
-//                                                and a last line with a bit for each face
+//                                                behind and a last line with a bit for each face
 //     w name                                     lines "inner outer bend x y z", END_PIPE
 //     A type name curves points lines all-lines  lines "B type curve line" with 8 points each; but for the very first,
 //                                                points stand relative to that
