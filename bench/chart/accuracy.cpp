@@ -16,18 +16,32 @@ Sequence sequence_of(const RayPartitions& found) {
     return sequence;
 }
 
+Sequence joined(const Sequence& stretches) {
+    Sequence sequence;
+    for (const Stretch& s : stretches) {
+        if (!(s.out > 0)) continue;
+        if (!sequence.empty() && sequence.back().out == s.in && sequence.back().region == s.region) {
+            sequence.back().out = s.out;
+            continue;
+        }
+        if (!sequence.empty() && sequence.back().out != s.in)
+            sequence.push_back({Stretch::gap, sequence.back().out, s.in});
+        sequence.push_back(s);
+    }
+    return sequence;
+}
+
 bool same_regions(const Sequence& a, const Sequence& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const Stretch& x, const Stretch& y) { return x.region == y.region; });
 }
 
-void Accuracy::add(const TrueRay& truth, const RayPartitions& found) {
+void Accuracy::add(const TrueRay& truth, const Sequence& sequence) {
     ++rays;
     if (truth.verdict == TrueRay::Verdict::tie) ++ties;
     if (truth.verdict == TrueRay::Verdict::rule) ++rule;
     if (truth.verdict != TrueRay::Verdict::decided) return;
     ++decided;
-    const Sequence sequence = sequence_of(found);
     if (!same_regions(sequence, truth.sequence)) {
         ++wrong;
         return;

@@ -20,6 +20,8 @@ using Sequence = std::vector<Stretch>;
 
 /// Without the part behind the ray's start.
 Sequence sequence_of(const RayPartitions& found);
+/// The same of stretches without gaps, some of which may touch or lie behind the ray's start.
+Sequence joined(const Sequence& stretches);
 /// The same regions and gaps in the same order, wherever they begin.
 bool same_regions(const Sequence& a, const Sequence& b);
 
@@ -47,7 +49,9 @@ struct Accuracy {
 
     void operator+=(const Accuracy& other);
 
-    void add(const TrueRay& truth, const RayPartitions& found);
+    void add(const TrueRay& truth, const RayPartitions& found) { add(truth, sequence_of(found)); }
+    /// `found`: as sequence_of() and joined() make them.
+    void add(const TrueRay& truth, const Sequence& found);
 };
 
 /// The smallest value that at least this share of them does not exceed; 0 of none.
