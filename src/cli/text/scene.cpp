@@ -74,7 +74,8 @@ public:
 
     /// Prints the tree of an object that the user named or gave a path to.
     void print(const std::string& name, int depth) {
-        const Object* object = object_at(scene_, name);
+        const auto named = objects_.find(name);  // object_at() looks at all objects, each time
+        const Object* object = named != objects_.end() ? named->second : object_at(scene_, name);
         print(object == nullptr ? name : name_of(*object), name, "", depth, 0);
     }
 
