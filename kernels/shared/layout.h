@@ -91,13 +91,6 @@ typedef u32 PlaneRef;
 // deeper stack second, so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
 #define TREE_STACK 30
 
-#define REGION_UNION_ONLY 1u  // the tree holds unions only: any of its segments claims
-
-typedef struct {
-    u32 first_word, word_count;  // into trees
-    u32 flags;
-} RegionRecord;
-
 // Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the
 // first in the model among those of the first rank. Regions of different ranks never overlap: the later one yields,
 // without a word.

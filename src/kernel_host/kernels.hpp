@@ -19,7 +19,6 @@ inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
 
 static_assert(sizeof(SolidRecord) == 44);
 static_assert(sizeof(PlaneRecord) == 32);
-static_assert(sizeof(RegionRecord) == 12);
 static_assert(sizeof(MaterialRecord) == 32);
 static_assert(sizeof(LightRecord) == 80);
 static_assert(sizeof(BvhNode) == 32 && offsetof(BvhNode, high) == 16);

@@ -18,7 +18,6 @@ using namespace csgrt;
     FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) \
     FIELD(SolidRecord, begins) FIELD(SolidRecord, alone) \
     RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(PlaneRecord, nz) FIELD(PlaneRecord, d) \
-    RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
     FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) \
