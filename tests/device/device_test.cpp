@@ -133,7 +133,7 @@ TEST_CASE("what stands in different queues is all done when a device has finishe
         CHECK(x[queue].read<cl_uint>(5000) == std::vector<cl_uint>(5000, 59049 * static_cast<cl_uint>(queue) + 29524));
     QueuedRead read(device, "last");
     read.start(x[1], sizeof(cl_uint), 4999 * sizeof(cl_uint));
-    read.fetch();
+    read.copy();
     CHECK(read.wait<cl_uint>(1).front() == 88573);
 }
 

@@ -67,7 +67,7 @@ void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels&
 kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed) {
     wait_for(timed.back().second);
     read_total_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
-    read_total_.fetch();
+    read_total_.copy();
     return read_total_.wait<kernel::RayCount>(1).front();
 }
 

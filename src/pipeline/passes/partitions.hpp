@@ -45,11 +45,11 @@ public:
     /// Sums the tallies of the rays that were traced last. Does not wait.
     void sum_tallies(std::uint32_t rays, TimedKernels& timed);
     /// Queues the copy of these sums to the host, once their kernels are done and before the next sum_tallies().
-    void fetch_tallies() { read_.fetch(); }
-    /// Adds the fetched sums up. Waits for the copy.
+    void copy_tallies() { read_.copy(); }
+    /// Adds the copied sums up. Waits for the copy.
     void add_tallies(PipelineCounts& counts);
-    /// Forgets sums that nobody will ask for.
-    void forget_tallies() noexcept { read_.forget(); }
+    /// Nobody will ask for the sums.
+    void cancel_tallies() noexcept { read_.cancel(); }
     /// Adds what rays needed to the counts, and remembers it for capacity_for().
     void add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts);
 
