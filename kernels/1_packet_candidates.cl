@@ -1,8 +1,8 @@
 // Kernel 1's first step on processors, for a picture's tiles: packets of eight rays list their candidates. Solids
-// that packets know are intersected here, too; count_hits (1_count_hits.cl) is left with what one ray alone can
-// answer.
+// that packets know are intersected here, too; count_segments (1_count_segments.cl) is left with what one ray alone
+// can answer.
 //
-//   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
+//   count packet candidates -> (scan) -> list packet candidates -> count segments -> ...
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 #include "geometry/collect.h"

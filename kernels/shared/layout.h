@@ -247,7 +247,8 @@ typedef struct {
 } TileNode;
 #define LISTED_NODES 32u  // entries of a tile
 
-// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the batch.
+// 1 count segments -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the
+// batch.
 typedef struct {
     u32 segments;  // of the ray; in the buffer of candidates' places: its candidates
     u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
@@ -279,7 +280,7 @@ FN u32 partitions_of(u32 segments) { return 2u * segments; }
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
-// 1 count hits -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
+// 1 count segments -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
 typedef struct {
     u32 ray, solid;
     u32 count, before;  // segments: how many, and how many the ray has of earlier candidates

@@ -1,6 +1,6 @@
 // What the five kernels hand on for a batch's rays, on the device.
 //
-//   kernel             1 count hits | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
+//   kernel             1 count      | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
 //   candidate places   w r            r
 //   ... ray tallies                                      w                     r w
 //   candidates         w r            r

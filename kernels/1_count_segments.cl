@@ -3,7 +3,7 @@
 // and lists its candidates: the solids that it may meet. Then a work-item intersects each candidate, so that no ray
 // waits for its many solids one after the other.
 //
-//   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
+//   find candidates -> (scan) -> find candidates, listing them -> count segments -> sum segments -> (scan)
 //
 // On processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
 #include "traversal/beam.h"
@@ -33,8 +33,8 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     if (!candidates) places[id] = count;
 }
 
-static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
-                           __global const u32* listed, __global Candidate* candidate, __global End* segment) {
+static void intersect_candidate(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
+                                __global const u32* listed, __global Candidate* candidate, __global End* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
     ray3 r;
@@ -57,17 +57,17 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
 
 // If a candidate has one segment, it is kept in `found`, so that kernel 2 need not find it again. Candidates of more
 // segments are too rare to be worth the memory.
-__kernel void count_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
-                         __global const u32* listed, __global const RayCount* places, __global Candidate* candidates,
-                         __global End* found) {
+__kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
+                             __global const u32* listed, __global const RayCount* places,
+                             __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0);
     if (id < candidates_of(frame, places))
-        count_segments(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
+        intersect_candidate(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
 }
 
 // Adds up each ray's counts, and gives each candidate its place among the ray's segments.
-__kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
-                       __global RayCount* counts) {
+__kernel void sum_segments(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
+                           __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;
     RayCount count;
     if (id >= frame->ray_count) return;
