@@ -80,8 +80,8 @@ typedef struct {
 } sight;
 
 // Inside already (t < t_min): the hit is the eye itself, seen face on.
-FN sight look_at(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
-                 real t_min) {
+FN sight shade_plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
+                       real t_min) {
     const lane_mask inside = t < t_min;
     sight seen;
     if (!none(inside)) {
