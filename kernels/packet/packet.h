@@ -28,7 +28,7 @@ FN double8 real_max(double8 a, double8 b) { return a > b ? a : b; }
 FN float8 single_min(float8 a, float8 b) { return a < b ? a : b; }
 FN float8 single_max(float8 a, float8 b) { return a > b ? a : b; }
 FN float8 to_single(double8 x) { return convert_float8(x); }
-FN int none(long8 x) { return !any(x); }
+FN int no_lane(long8 x) { return !any(x); }
 
 #include "begin.h"
 #include "../shared/vectors.h"
