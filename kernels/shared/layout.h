@@ -250,10 +250,15 @@ typedef struct {
 // 1 count segments -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the
 // batch.
 typedef struct {
-    u32 segments;  // of the ray; in the buffer of candidates' places: its candidates
-    u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
+    u32 segments;
+    u32 words;  // of bit arrays: partitions_of(segments) * words_of(segments)
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a batch is too large
+
+// 1 find candidates -> scan -> 1, 2: the same of candidates, as RayCount, so that the scan adds them up.
+typedef struct {
+    u32 candidates, unused;
+} CandidateCount;
 
 // Of a batch whose picture is row-major: its tiles by what they cost, and what the host wants to know when it is drawn.
 // Behind it stands a byte for each of the batch's tiles: not 0 if a ray of it sees something.

@@ -27,7 +27,7 @@ static_assert(sizeof(PartitionNode) == 16);
 static_assert(sizeof(Candidate) == 16);
 static_assert(sizeof(RayCount) == 8);
 static_assert(sizeof(StartRecord) == 32);
-static_assert(sizeof(RayTally) == sizeof(RayCount));
+static_assert(sizeof(RayTally) == sizeof(RayCount) && sizeof(CandidateCount) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
 static_assert(sizeof(TileNode) == 8);

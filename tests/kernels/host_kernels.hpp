@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
@@ -128,9 +129,11 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     };
     const HostTiles tiles = !rays.empty() ? HostTiles{} : cull(scene, frame);
     const TileNode* lists = !rays.empty() ? nullptr : tiles.lists.data();
-    std::vector<RayCount> places(count + 1);
+    std::vector<CandidateCount> places(count + 1);
     each([&] { find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), nullptr); });
-    std::vector<Candidate> candidates(scan(places).segments);
+    u32 candidate_count = 0;
+    for (CandidateCount& c : places) c.candidates = std::exchange(candidate_count, candidate_count + c.candidates);
+    std::vector<Candidate> candidates(candidate_count);
     each([&] {
         find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), candidates.data());
     });

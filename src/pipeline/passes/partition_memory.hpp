@@ -34,7 +34,7 @@ class PartitionMemory {
 public:
     PartitionMemory(Device& device, const HostKernels& kernels);
 
-    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::RayCount, one a ray and one behind
+    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::CandidateCount, one a ray and one behind
     Buffer& ray_tallies() { return ray_counts_; }       ///< kernel::RayTally, one a ray
     Buffer& offsets() { return offsets_; }              ///< kernel::RayCount, one a ray and one behind
     Buffer& candidates() { return candidates_; }        ///< kernel::Candidate

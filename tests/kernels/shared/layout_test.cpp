@@ -43,7 +43,8 @@ using namespace csgrt;
     RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) \
     FIELD(BatchReport, listed) \
     FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) \
-    FIELD(RayCount, words) RECORD(Candidate) \
+    FIELD(RayCount, words) RECORD(CandidateCount) FIELD(CandidateCount, candidates) \
+    FIELD(CandidateCount, unused) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
