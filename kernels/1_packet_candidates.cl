@@ -1,8 +1,8 @@
 // Kernel 1's first step on processors, for a picture's tiles: packets of eight rays list their candidates. Solids
-// that packets know are intersected here, too; count_hits (1_count_hits.cl) is left with what one ray alone can
-// answer.
+// that packets know are intersected here, too; count_segments (1_count_segments.cl) is left with what one ray alone
+// can answer.
 //
-//   count packet candidates -> (scan) -> list packet candidates -> count hits -> ...
+//   count packet candidates -> (scan) -> list packet candidates -> count segments -> ...
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 #include "geometry/collect.h"
@@ -40,7 +40,7 @@ static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
 
 __kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes,
                                       __global const TileNode* lists, __global const u32* listed,
-                                      __global RayCount* places) {
+                                      __global CandidateCount* places) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     pixel_position first;
     u32 counts[PACKET], number, k;
@@ -58,8 +58,8 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
     }
     for (k = 0; k < PACKET; ++k) {
         const u32 place = first_of_packet(id) + ray_of_packet(k);
-        places[place].segments = counts[k];
-        places[place].words = 0;
+        places[place].candidates = counts[k];
+        places[place].unused = 0;
     }
 }
 
@@ -103,7 +103,7 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask
 
 __kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes,
                                      __global const TileNode* lists, __global const u32* listed,
-                                     __global const RayCount* places, __global Candidate* candidates,
+                                     __global const CandidateCount* places, __global Candidate* candidates,
                                      __global End* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     const Geometry g = GEOMETRY;
@@ -116,8 +116,8 @@ __kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS,
     list.ray = first_of_packet(id);
     for (k = 0; k < PACKET; ++k) {
         const u32 ray = list.ray + ray_of_packet(k);
-        list.next[k] = places[ray].segments;
-        any |= places[ray + 1].segments != list.next[k];
+        list.next[k] = places[ray].candidates;
+        any |= places[ray + 1].candidates != list.next[k];
     }
     if (!any) return;
     number = first_of_packet(number_of(frame, listed, id));

@@ -31,7 +31,7 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
 }
 
 __kernel void store_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
-                             __global const u32* listed, __global const RayCount* places,
+                             __global const u32* listed, __global const CandidateCount* places,
                              __global const Candidate* candidates, __global const End* found,
                              __global const RayCount* offsets, __global End* ends, __global u32* bits) {
     const u32 id = (u32)get_global_id(0);

@@ -10,7 +10,7 @@ FN segments arb_intersect(Geometry g, SolidRecord solid, ray3 r) {
     u32 i;
     for (i = 0; i < solid.plane_count; ++i) {
         s = clip_to_face(s, g, solid.first_plane + i, r, i);
-        if (none(s.low < s.high)) return no_segments();
+        if (no_lane(s.low < s.high)) return no_segments();
     }
     return append_span(no_segments(), s);
 }

@@ -12,7 +12,7 @@ FN segments ell_intersect(GLOBAL const parameter* p, ray3 r) {
     vec3 q = add_scaled(l.o, -residue, l.d);
     real inside = REAL(1) - dot3(q, q);
     real reach, middle;
-    if (none(inside > 0)) return no_segments();
+    if (no_lane(inside > 0)) return no_segments();
     reach = real_sqrt(inside / dd);
     middle = l.shift - residue;
     return touching(inside > 0 && inside < TOUCHED, append(no_segments(), middle - reach, 0, middle + reach, 0));

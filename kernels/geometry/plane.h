@@ -24,7 +24,7 @@ FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
     const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
     const lane_mask parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);
     lane_mask enters = flipped ? rate > 0 : rate < 0, leaves = flipped ? rate < 0 : rate > 0;
-    if (!none(parallel)) {
+    if (!no_lane(parallel)) {
         const real sizes = sum_of_sizes(narrow(r.o)) + real_abs(REAL(plane.d));
         const lane_mask within = parallel && real_abs(above) <= ROUNDING * sizes;
         const lane_mask outside = rate == 0 && !within && (flipped ? above < 0 : above > 0);

@@ -16,7 +16,7 @@ FN real difference_of_products(real a, real b, real c, real d) {
 FN segments between_roots(real a, real b, real c, real discriminant, real shift, span s, u32 surface) {
     const lane_mask real_roots = discriminant > 0, inside_at_0 = c < 0;
     real root, q, u1, u2, low, high;
-    if (none(real_roots || inside_at_0)) return no_segments();
+    if (no_lane(real_roots || inside_at_0)) return no_segments();
     // Inside at u = 0, so there are roots, however far: along an asymptote, where a is rounding, the discriminant is,
     // too.
     discriminant = real_roots ? discriminant : real_fma(b, b, -a * c);

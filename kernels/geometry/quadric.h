@@ -32,7 +32,7 @@ FN segments quadric_intersect(Geometry g, SolidRecord solid, ray3 r) {
     u32 i;
     real a, b, c, xy, yz, zx, discriminant;
     for (i = 0; i < solid.plane_count; ++i) s = clip_to_face(s, g, solid.first_plane + i, r, QUADRIC_PLANES + i);
-    if (none(s.low < s.high)) return no_segments();
+    if (no_lane(s.low < s.high)) return no_segments();
     l = to_local(p, r);
     a = real_fma(qx * l.d.x, l.d.x, real_fma(qy * l.d.y, l.d.y, qz * l.d.z * l.d.z));
     b = real_fma(qx * l.o.x, l.d.x, real_fma(qy * l.o.y, l.d.y, qz * l.o.z * l.d.z));

@@ -4,52 +4,19 @@
 #ifndef CSGRT_GEOMETRY_SOLID_H
 #define CSGRT_GEOMETRY_SOLID_H
 
-#include "arb.h"
+#include "closed_form.h"
 #include "crossed_eto.h"
-#include "ehy.h"
-#include "ell.h"
 #include "eto.h"
 #include "extrude.h"
-#include "half.h"
 #include "hrt.h"
 #include "mesh.h"
 #include "metaball.h"
 #include "part.h"
 #include "plate.h"
-#include "quadric.h"
 #include "revolve.h"
 #include "superell.h"
-#include "tgc.h"
-#include "tor.h"
-
-#ifndef CSGRT_SOLIDS
-#define CSGRT_SOLIDS 0xffffffffu
-#endif
-
-#define HAS_SOLID(type) ((CSGRT_SOLIDS) >> (type)&1u)
 
 FN segments intersect(Geometry g, SolidRecord solid, ray3 r) {
-#if HAS_SOLID(SOLID_ELL)
-    if (solid.type == SOLID_ELL) return ell_intersect(g.reals + solid.first_real, r);
-#endif
-#if HAS_SOLID(SOLID_TGC)
-    if (solid.type == SOLID_TGC) return tgc_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_ARB)
-    if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_HALF)
-    if (solid.type == SOLID_HALF) return half_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_TOR)
-    if (solid.type == SOLID_TOR) return tor_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_EHY)
-    if (solid.type == SOLID_EHY) return ehy_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_QUADRIC)
-    if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
-#endif
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) return eto_intersect(g, solid, r);
 #endif
@@ -59,35 +26,15 @@ FN segments intersect(Geometry g, SolidRecord solid, ray3 r) {
 #if HAS_SOLID(SOLID_PART)
     if (solid.type == SOLID_PART) return part_intersect(g.reals + solid.first_real, r);
 #endif
-    return no_segments();
+    return closed_form_intersect(g, solid, r);
 }
 
 // Along the outward normal of a solid where its `surface` is hit at t, of any length.
 FN vec3 normal_of_any_length(Geometry g, SolidRecord solid, ray3 r, real t, u32 surface) {
-    vec3 n = make_vec3(0, 0, 0);
+    vec3 n;
     r = ray_at(solid, r);
     surface &= ~MISSED;
-#if HAS_SOLID(SOLID_ELL)
-    if (solid.type == SOLID_ELL) n = ell_normal(g.reals + solid.first_real, r, t);
-#endif
-#if HAS_SOLID(SOLID_TGC)
-    if (solid.type == SOLID_TGC) n = tgc_normal(g, solid, r, t, surface);
-#endif
-#if HAS_SOLID(SOLID_ARB)
-    if (solid.type == SOLID_ARB) n = face_normal(g, solid.first_plane + surface);
-#endif
-#if HAS_SOLID(SOLID_HALF)
-    if (solid.type == SOLID_HALF) n = face_normal(g, solid.first_plane);
-#endif
-#if HAS_SOLID(SOLID_TOR)
-    if (solid.type == SOLID_TOR) n = tor_normal(g, solid, r, t, surface);
-#endif
-#if HAS_SOLID(SOLID_EHY)
-    if (solid.type == SOLID_EHY) n = ehy_normal(g, solid, r, t, surface);
-#endif
-#if HAS_SOLID(SOLID_QUADRIC)
-    if (solid.type == SOLID_QUADRIC) n = quadric_normal(g, solid, r, t, surface);
-#endif
+    n = closed_form_normal(g, solid, r, t, surface);
 #if HAS_SOLID(SOLID_ETO)
     if (solid.type == SOLID_ETO) n = eto_normal(g.reals + solid.first_real, r, t);
 #endif

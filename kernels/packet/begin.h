@@ -16,7 +16,8 @@
 //   parameter, u32, int and float are the same for all rays.
 // - Rays' values compared give a lane_mask. It is 1 or 0 for one ray, and -1 or 0 in a lane, so nothing is calculated
 //   with it. It selects by ?:, and && || ! combine it. On vectors && and || evaluate both sides.
-// - `if`, `return` and loops depend on values that are the same for all rays, or on none(mask), to leave out work that
+// - `if`, `return` and loops depend on values that are the same for all rays, or on no_lane(mask), to leave out work
+// that
 //   no ray needs.
 // - A constant beside rays' values in ?: is written REAL(x), SINGLE(x) or TAG(x). sizeof(real) is the vector's size;
 //   BY_PRECISION asks for the size of one number.
@@ -73,6 +74,7 @@
 #undef CSGRT_GEOMETRY_TORUS_H
 #undef CSGRT_GEOMETRY_EHY_H
 #undef CSGRT_GEOMETRY_QUADRIC_H
+#undef CSGRT_GEOMETRY_CLOSED_FORM_H
 #undef CSGRT_SHADING_PLASTIC_H
 
 #endif

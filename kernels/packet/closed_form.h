@@ -27,7 +27,7 @@ FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const parameter* p = g.reals + solid.first_real;
     span s = between_ends(g, solid, r);
     local_ray l;
-    if (none(s.low < s.high)) return no_segments();
+    if (no_lane(s.low < s.high)) return no_segments();
     l = quartic_ray(p[16] == 0 ? QUARTIC_BRACKETED : QUARTIC_OF(g), p, r);
     if (p[16] == 0) {
         const real m0 = real_fma(p[13], l.o.z, p[12]);
@@ -43,7 +43,7 @@ FN segments tgc_intersect(Geometry g, SolidRecord solid, ray3 r) {
 FN segments tor_intersect(Geometry g, SolidRecord solid, ray3 r) {
     const span s = tor_bend(g, solid, r);
     tor_piece piece;
-    if (none(s.low < s.high)) return no_segments();
+    if (no_lane(s.low < s.high)) return no_segments();
     piece = tor_piece_of(QUARTIC_OF(g), g.reals + solid.first_real, r);
     return undecided_where(s.low < s.high && piece.low < piece.high, no_segments());
 }

@@ -28,7 +28,7 @@ FN double8 real_max(double8 a, double8 b) { return a > b ? a : b; }
 FN float8 single_min(float8 a, float8 b) { return a < b ? a : b; }
 FN float8 single_max(float8 a, float8 b) { return a > b ? a : b; }
 FN float8 to_single(double8 x) { return convert_float8(x); }
-FN int none(long8 x) { return !any(x); }
+FN int no_lane(long8 x) { return !any(x); }
 
 #include "begin.h"
 #include "../shared/vectors.h"
@@ -46,45 +46,16 @@ FN int none(long8 x) { return !any(x); }
 #include "closed_form.h"
 #include "../geometry/ehy.h"
 #include "../geometry/quadric.h"
+#include "../geometry/closed_form.h"
 #include "../shading/plastic.h"
 #include "end.h"
 
 // Do packets know this type of solid?
-FN int takes_packets(SolidRecord solid) {
-    return (1u << SOLID_ARB | 1u << SOLID_ELL | 1u << SOLID_HALF | 1u << SOLID_TGC | 1u << SOLID_TOR | 1u << SOLID_EHY |
-            1u << SOLID_QUADRIC) >>
-               solid.type &
-           1u;
-}
+FN int takes_packets(SolidRecord solid) { return CLOSED_FORM_SOLIDS >> solid.type & 1u; }
 
 // What each ray meets of such a solid: a segment, none, or UNDECIDED, also for a ray that may only touch it.
-FN packet_segments packet_meet(Geometry g, SolidRecord solid, packet_ray3 r) {
-#if HAS_SOLID(SOLID_ARB)
-    if (solid.type == SOLID_ARB) return arb_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_ELL)
-    if (solid.type == SOLID_ELL) return ell_intersect(g.reals + solid.first_real, r);
-#endif
-#if HAS_SOLID(SOLID_HALF)
-    if (solid.type == SOLID_HALF) return half_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_TGC)
-    if (solid.type == SOLID_TGC) return tgc_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_TOR)
-    if (solid.type == SOLID_TOR) return tor_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_EHY)
-    if (solid.type == SOLID_EHY) return ehy_intersect(g, solid, r);
-#endif
-#if HAS_SOLID(SOLID_QUADRIC)
-    if (solid.type == SOLID_QUADRIC) return quadric_intersect(g, solid, r);
-#endif
-    return packet_no_segments();
-}
-
 FN packet_segments packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r) {
-    packet_segments h = packet_meet(g, solid, r);
+    packet_segments h = closed_form_intersect(g, solid, r);
     h.count = h.touched ? (ulong8)UNDECIDED : h.count;
     return h;
 }
@@ -93,21 +64,7 @@ FN packet_segments packet_intersect(Geometry g, SolidRecord solid, packet_ray3 r
 FN int packet_normals(Geometry g, SolidRecord solid, packet_ray3 r, double8 t, u32 surface, packet_vec3* n) {
     surface &= ~MISSED;
     if (surface != 0 || solid.type == SOLID_ARB || solid.type == SOLID_HALF) return 0;
-#if HAS_SOLID(SOLID_ELL)
-    if (solid.type == SOLID_ELL) *n = ell_normal(g.reals + solid.first_real, r, t);
-#endif
-#if HAS_SOLID(SOLID_TGC)
-    if (solid.type == SOLID_TGC) *n = tgc_normal(g, solid, r, t, surface);
-#endif
-#if HAS_SOLID(SOLID_TOR)
-    if (solid.type == SOLID_TOR) *n = tor_normal(g, solid, r, t, surface);
-#endif
-#if HAS_SOLID(SOLID_EHY)
-    if (solid.type == SOLID_EHY) *n = ehy_normal(g, solid, r, t, surface);
-#endif
-#if HAS_SOLID(SOLID_QUADRIC)
-    if (solid.type == SOLID_QUADRIC) *n = quadric_normal(g, solid, r, t, surface);
-#endif
+    *n = closed_form_normal(g, solid, r, t, surface);
     return 1;
 }
 

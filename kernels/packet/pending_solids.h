@@ -77,7 +77,7 @@ FN u32 take_or_defer(packet* p, scene_tables s, u32 index, u32 active_mask, pend
 #else
 
 typedef struct {
-    u32 none;
+    u32 unused;
 } pending_solids;
 
 #define prefetch_node(s, node) ((void)0)

@@ -61,7 +61,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
     vec3 n = normal_at(g, g.solids[seen.solid], r, seen.t, seen.surface);
     Pixel p;
     if (from_within) n = scale(n, REAL(-1));
-    p = hit_pixel(look_at(f, lights, finish_of(m), r, seen.t, n, t_min_along(f, r)), r);
+    p = hit_pixel(shade_plastic(f, lights, finish_of(m), r, seen.t, n, t_min_along(f, r)), r);
     p.region = region + 1;
     p.solid = seen.solid + 1;
     return p;

@@ -24,7 +24,7 @@ typedef struct {
 
 FN real whole_power(real x, tag n) {
     real result = REAL(1);
-    while (!none(n != 0)) {
+    while (!no_lane(n != 0)) {
         result = (n & 1u) != 0 ? result * x : result;
         x = x * x;
         n >>= 1;
@@ -63,8 +63,8 @@ FN rgb plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m
                 lit && dot3(to_light, make_vec3(REAL(light.bx), REAL(light.by), REAL(light.bz))) <= REAL(-light.cosine);
 #endif
         shines = lit && mirrored > 0;
-        if (none(lit)) continue;
-        if (!none(shines)) specular = shines ? whole_power(mirrored, m.shine) * m.specular : specular;
+        if (no_lane(lit)) continue;
+        if (!no_lane(shines)) specular = shines ? whole_power(mirrored, m.shine) * m.specular : specular;
         c.r = lit ? c.r + REAL(light.r) * (diffuse * m.color.r + specular) : c.r;
         c.g = lit ? c.g + REAL(light.g) * (diffuse * m.color.g + specular) : c.g;
         c.b = lit ? c.b + REAL(light.b) * (diffuse * m.color.b + specular) : c.b;
@@ -80,11 +80,11 @@ typedef struct {
 } sight;
 
 // Inside already (t < t_min): the hit is the eye itself, seen face on.
-FN sight look_at(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
-                 real t_min) {
+FN sight shade_plastic(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, finish m, ray3 r, real t, vec3 n,
+                       real t_min) {
     const lane_mask inside = t < t_min;
     sight seen;
-    if (!none(inside)) {
+    if (!no_lane(inside)) {
         const vec3 face_on = scale(normalize3(r.d), REAL(-1));
         t = inside ? t_min : t;
         n.x = inside ? face_on.x : n.x;

@@ -91,7 +91,7 @@ typedef int single_lane_mask;  // the same of two singles
 typedef u32 tag;               // a count or a surface
 // A number of a solid, which is the same for all rays, also in a packet.
 typedef real parameter;
-FN int none(lane_mask x) { return !x; }
+FN int no_lane(lane_mask x) { return !x; }
 FN single to_single(real x) { return (float)x; }
 
 #define REAL(x) ((real)(x))

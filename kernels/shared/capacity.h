@@ -8,8 +8,8 @@
 #include "layout.h"
 
 // How many candidates `places`, the sums over the rays' counts, has; none if there is no memory for all of them.
-FN u32 candidates_of(GLOBAL const Frame* f, GLOBAL const RayCount* places) {
-    const u32 count = places[f->ray_count].segments;
+FN u32 candidates_of(GLOBAL const Frame* f, GLOBAL const CandidateCount* places) {
+    const u32 count = places[f->ray_count].candidates;
     return count <= f->candidate_capacity ? count : 0;
 }
 

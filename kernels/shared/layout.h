@@ -91,13 +91,6 @@ typedef u32 PlaneRef;
 // deeper stack second, so a tree of n leaves needs at most log2(n) <= 29 entries (Sethi and Ullman 1970).
 #define TREE_STACK 30
 
-#define REGION_UNION_ONLY 1u  // the tree holds unions only: any of its segments claims
-
-typedef struct {
-    u32 first_word, word_count;  // into trees
-    u32 flags;
-} RegionRecord;
-
 // Regions are numbered by rank, and those of one rank in the model's order: the claim of the least number is the
 // first in the model among those of the first rank. Regions of different ranks never overlap: the later one yields,
 // without a word.
@@ -254,12 +247,18 @@ typedef struct {
 } TileNode;
 #define LISTED_NODES 32u  // entries of a tile
 
-// 1 count hits -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the batch.
+// 1 count segments -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the
+// batch.
 typedef struct {
-    u32 segments;  // of the ray; in the buffer of candidates' places: its candidates
-    u32 words;     // of bit arrays: partitions_of(segments) * words_of(segments)
+    u32 segments;
+    u32 words;  // of bit arrays: partitions_of(segments) * words_of(segments)
 } RayCount;
 #define COUNT_MAX 0xffffffffu  // sums saturate here, which tells the host that a batch is too large
+
+// 1 find candidates -> scan -> 1, 2: the same of candidates, as RayCount, so that the scan adds them up.
+typedef struct {
+    u32 candidates, unused;
+} CandidateCount;
 
 // Of a batch whose picture is row-major: its tiles by what they cost, and what the host wants to know when it is drawn.
 // Behind it stands a byte for each of the batch's tiles: not 0 if a ray of it sees something.
@@ -286,7 +285,7 @@ FN u32 partitions_of(u32 segments) { return 2u * segments; }
 
 // ---- What the five kernels hand on. One entry a ray unless said otherwise. ----
 
-// 1 count hits -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
+// 1 count segments -> 2 store segments: a solid that a ray may meet. Sorted by ray, then by solid.
 typedef struct {
     u32 ray, solid;
     u32 count, before;  // segments: how many, and how many the ray has of earlier candidates

@@ -23,6 +23,11 @@ struct FlatTree {
     std::vector<Node> nodes;
 };
 
+/// Where a region's tree stands in `trees`.
+struct RegionWords {
+    std::uint32_t first_word = 0, word_count = 0;
+};
+
 struct CompiledScene {
     // Crosses the bus. Solids are numbered: the unbounded ones first, then in the order of the hierarchy's leaves.
     std::vector<kernel::SolidRecord> solids;
@@ -39,7 +44,7 @@ struct CompiledScene {
     std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
 
     // Stays on the host.
-    std::vector<kernel::RegionRecord> regions;
+    std::vector<RegionWords> regions;
     std::vector<FlatTree> flat_trees;     ///< one a region
     std::vector<RegionInfo> region_info;  ///< one a region
     std::vector<SolidInfo> solid_info;    ///< one a solid
@@ -48,7 +53,6 @@ struct CompiledScene {
     Vec3 center;                          ///< of the sphere around all bounded solids
     double radius = 0;
     std::uint32_t solid_types = 0;  ///< bit SOLID_x: the scene has such solids
-    std::uint32_t operators = 0;    ///< bit OP_x: trees that need a walk have such operators
     std::uint32_t instances = 0;    ///< leaves over all trees
     bool has_large_terms = false;   ///< of more than SCANNED_WORDS words
     std::vector<double> background{0, 0, 0};

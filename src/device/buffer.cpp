@@ -110,7 +110,7 @@ Event Buffer::queue_fill(std::uint32_t value, std::size_t bytes, std::size_t off
     return Event(device_->cl(), event);
 }
 
-KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {
+HostRegistration::HostRegistration(const Device& device, void* data, std::size_t bytes) {
     cl_int code = CL_SUCCESS;
     check(device.cl().RetainCommandQueue(device.queue()), "clRetainCommandQueue");
     queue_ = Queue(device.cl(), device.queue());
@@ -122,7 +122,7 @@ KnownMemory::KnownMemory(const Device& device, void* data, std::size_t bytes) {
     check(code, "clEnqueueMapBuffer (picture)");
 }
 
-KnownMemory::~KnownMemory() {
+HostRegistration::~HostRegistration() {
     if (!memory_ || !data_) return;
     queue_.cl().EnqueueUnmapMemObject(queue_.get(), memory_.get(), data_, 0, nullptr, nullptr);
     queue_.cl().Finish(queue_.get());

@@ -96,15 +96,15 @@ private:
     void* data_;
 };
 
-/// Memory of the host's own, made known to a GPU, which then copies to it at the full speed of its bus. Its driver
+/// Registers host memory with a GPU's driver, so that the GPU copies to it at the full speed of its bus. The driver
 /// holds as much on the device. What is there stays there. The memory must outlast this; the device need not.
-class KnownMemory {
+class HostRegistration {
 public:
     /// Throws Error (out_of_memory, device_fault) if the driver does not take it.
-    KnownMemory(const Device& device, void* data, std::size_t bytes);
-    KnownMemory(KnownMemory&&) noexcept = default;
-    KnownMemory& operator=(KnownMemory&&) = delete;
-    ~KnownMemory();
+    HostRegistration(const Device& device, void* data, std::size_t bytes);
+    HostRegistration(HostRegistration&&) noexcept = default;
+    HostRegistration& operator=(HostRegistration&&) = delete;
+    ~HostRegistration();
 
 private:
     Queue queue_;

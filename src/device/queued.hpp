@@ -54,11 +54,11 @@ public:
         bytes_ = bytes;
         offset_ = offset;
     }
-    void forget() { buffer_ = nullptr; }
+    void cancel() { buffer_ = nullptr; }
     /// Has them copied, if any were asked for. Does not wait, but the device must have finished all that writes the
     /// buffer; until wait() it must stay as it is. If this was asked of several before one waits, their bytes come
     /// together.
-    void fetch() {
+    void copy() {
         if (buffer_ == nullptr) return;
         if (!memory_ || memory_->size() < bytes_) {
             wait_until_done(event_);  // if nobody waited for it
@@ -67,14 +67,14 @@ public:
         }
         event_ = std::exchange(buffer_, nullptr)->copy_read(memory_->data(), bytes_, offset_);
     }
-    /// The first `count` values of what start() has asked for, once they are there; they stay until the next fetch().
+    /// The first `count` values of what start() has asked for, once they are there; they stay until the next copy().
     /// Throws Error (device_fault, out_of_memory) if the copy failed; of the command that wrote them only its event
     /// tells.
     template <class T>
     std::span<const T> wait(std::size_t count) {
         if (count * sizeof(T) > bytes_) throw std::logic_error(name_ + ": more than was asked for");
         if (buffer_ != nullptr) device_->finish();
-        fetch();
+        copy();
         wait_for(std::exchange(event_, Event()));
         return {static_cast<const T*>(memory_->data()), count};
     }

@@ -19,7 +19,6 @@ inline constexpr real REAL_INFINITY = std::numeric_limits<double>::infinity();
 
 static_assert(sizeof(SolidRecord) == 44);
 static_assert(sizeof(PlaneRecord) == 32);
-static_assert(sizeof(RegionRecord) == 12);
 static_assert(sizeof(MaterialRecord) == 32);
 static_assert(sizeof(LightRecord) == 80);
 static_assert(sizeof(BvhNode) == 32 && offsetof(BvhNode, high) == 16);
@@ -28,7 +27,7 @@ static_assert(sizeof(PartitionNode) == 16);
 static_assert(sizeof(Candidate) == 16);
 static_assert(sizeof(RayCount) == 8);
 static_assert(sizeof(StartRecord) == 32);
-static_assert(sizeof(RayTally) == sizeof(RayCount));
+static_assert(sizeof(RayTally) == sizeof(RayCount) && sizeof(CandidateCount) == sizeof(RayCount));
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
 static_assert(sizeof(TileNode) == 8);

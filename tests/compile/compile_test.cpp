@@ -37,14 +37,13 @@ TEST_CASE("a compiled scene: everything is where the records say") {
     CHECK(c.solid_info[0].type == "half");
     CHECK(c.instances == 4);
     CHECK(c.solid_types == (1u << SOLID_ARB | 1u << SOLID_TGC | 1u << SOLID_ELL | 1u << SOLID_HALF));
-    CHECK(c.operators == 1u << OP_DIFFERENCE);
     CHECK(!c.has_large_terms);
     // Ground, base of the plate and of the hole are one plane; so are the tops.
     CHECK(c.planes.size() == 6);
 
     CHECK(c.region_info[0].path == "/all/plate.r");
-    CHECK(c.regions[0].flags == 0);
-    CHECK(c.regions[1].flags == REGION_UNION_ONLY);
+    CHECK(c.regions[0].word_count == 3);
+    CHECK(c.regions[1].word_count == 1);
     REQUIRE(c.materials.size() == c.regions.size());
     CHECK(c.materials[0].r == c.materials[2].r);
     CHECK(c.materials[1].r == 1);

@@ -133,7 +133,7 @@ TEST_CASE("what stands in different queues is all done when a device has finishe
         CHECK(x[queue].read<cl_uint>(5000) == std::vector<cl_uint>(5000, 59049 * static_cast<cl_uint>(queue) + 29524));
     QueuedRead read(device, "last");
     read.start(x[1], sizeof(cl_uint), 4999 * sizeof(cl_uint));
-    read.fetch();
+    read.copy();
     CHECK(read.wait<cl_uint>(1).front() == 88573);
 }
 
@@ -299,11 +299,10 @@ TEST_CASE("pinned memory is memory that transfers reach", "[device]") {
     CHECK(PinnedMemory(device, "none", 0).data() == nullptr);
 }
 
-TEST_CASE("memory made known to a device keeps what it holds, takes copies by lines, and may outlast the device",
-          "[device]") {
+TEST_CASE("registered host memory keeps what it holds, takes copies by lines, and may outlast the device", "[device]") {
     std::vector<float> host(100 * 40, 7);
     auto device = std::make_unique<Device>();
-    std::optional<KnownMemory> known(std::in_place, *device, host.data(), host.size() * sizeof(float));
+    std::optional<HostRegistration> registered(std::in_place, *device, host.data(), host.size() * sizeof(float));
     CHECK(host == std::vector<float>(100 * 40, 7));
     std::vector<float> values(30 * 10 + 30 * 20);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
@@ -323,8 +322,8 @@ TEST_CASE("memory made known to a device keeps what it holds, takes copies by li
     for (std::size_t y = 0; y < 20; ++y)
         for (std::size_t x = 0; x < 30; ++x) expected[(5 + y) * 100 + 11 + x] = static_cast<float>(300 + y * 30 + x);
     CHECK(host == expected);
-    std::optional<KnownMemory> moved(std::move(*known));
-    known.reset();
+    std::optional<HostRegistration> moved(std::move(*registered));
+    registered.reset();
     device.reset();
     moved.reset();
     CHECK(host == expected);

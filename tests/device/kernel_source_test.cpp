@@ -36,14 +36,14 @@ TEST_CASE("every kernel file is in the library, whole", "[device]") {
 }
 
 TEST_CASE("an assembled program has each file once and no #include left", "[device]") {
-    const std::string text = assemble_program({"1_count_hits.cl", "2_store_segments.cl"});
+    const std::string text = assemble_program({"1_count_segments.cl", "2_store_segments.cl"});
     CHECK(count(text, "#include") == 0);
     CHECK(count(text, "#line 1 \"kernels/shared/layout.h\"") == 1);
     CHECK(count(text, "#line 1 \"kernels/traversal/candidates.h\"") == 1);
-    CHECK(count(text, "__kernel void count_hits(") == 1);
+    CHECK(count(text, "__kernel void count_segments(") == 1);
     CHECK(count(text, "__kernel void store_segments(") == 1);
     // What is included stands before what includes it.
-    CHECK(text.find("SolidRecord;") < text.find("__kernel void count_hits("));
+    CHECK(text.find("SolidRecord;") < text.find("__kernel void count_segments("));
 }
 
 TEST_CASE("a header's guard is its path, so that no two share one", "[device]") {
@@ -73,7 +73,7 @@ TEST_CASE("a file whose guard is undefined is assembled once more where it is in
 
 TEST_CASE("#line marks give every line its own place", "[device]") {
     // Reads the marks as a compiler does, and looks each line up in the file that they name.
-    const std::string text = assemble_program({"1_count_hits.cl"});
+    const std::string text = assemble_program({"1_count_segments.cl"});
     std::string file;
     std::size_t number = 0, at = 0, compared = 0;
     const auto line_of = [](const std::string& name, std::size_t wanted) -> std::string {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
@@ -29,7 +30,7 @@ using std::size_t;
 #pragma GCC diagnostic ignored "-Wzero-as-null-pointer-constant"
 #include "../kernels/traversal/candidates.h"
 #include "../kernels/0_cull_tiles.cl"
-#include "../kernels/1_count_hits.cl"
+#include "../kernels/1_count_segments.cl"
 #include "../kernels/2_store_segments.cl"
 #include "../kernels/3_weave.cl"
 #include "../kernels/4_evaluate.cl"
@@ -128,20 +129,22 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     };
     const HostTiles tiles = !rays.empty() ? HostTiles{} : cull(scene, frame);
     const TileNode* lists = !rays.empty() ? nullptr : tiles.lists.data();
-    std::vector<RayCount> places(count + 1);
+    std::vector<CandidateCount> places(count + 1);
     each([&] { find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), nullptr); });
-    std::vector<Candidate> candidates(scan(places).segments);
+    u32 candidate_count = 0;
+    for (CandidateCount& c : places) c.candidates = std::exchange(candidate_count, candidate_count + c.candidates);
+    std::vector<Candidate> candidates(candidate_count);
     each([&] {
         find_candidates(&frame, scene.nodes.data(), lists, rays.data(), listed, places.data(), candidates.data());
     });
     std::vector<End> found(2 * candidates.size());
     each_of(candidates.size(), [&] {
-        count_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
-                   scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data());
+        count_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                       scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data());
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
-    each([&] { sum_hits(&frame, places.data(), candidates.data(), run.offsets.data()); });
+    each([&] { sum_segments(&frame, places.data(), candidates.data(), run.offsets.data()); });
     const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());

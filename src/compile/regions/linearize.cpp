@@ -249,7 +249,6 @@ LinearTree Linearizer::write(std::uint32_t root, std::vector<std::uint32_t>& wor
         const std::uint32_t largest = node.op == OP_LEAF ? std::max(node.left, position) : position;
         check_tree_words(std::uint64_t{largest} + 1);
         if (parent != none) words[parent] |= position;
-        result.operators |= 1u << node.op;
         if (node.op == OP_LEAF) {
             words.push_back(OP_LEAF << TREE_SHIFT | node.left);
             continue;
@@ -259,8 +258,6 @@ LinearTree Linearizer::write(std::uint32_t root, std::vector<std::uint32_t>& wor
         tasks.push_back({node.left, none});
     }
     result.word_count = static_cast<std::uint32_t>(words.size()) - result.first_word;
-    result.operators &= ~(1u << OP_LEAF);
-    result.union_only = (result.operators & ~(1u << OP_UNION)) == 0;
     return result;
 }
 

@@ -10,9 +10,7 @@ namespace csgrt {
 
 struct LinearTree {
     std::uint32_t first_word = 0, word_count = 0;  ///< in the words that were given
-    std::uint32_t operators = 0;                   ///< bit OP_x: the words hold such operators
     std::uint32_t stack = 0;                       ///< entries that the walk needs at most
-    bool union_only = false;                       ///< true where any of its solids is: needs no walk
 };
 
 /// Is the tree true where no solid is? Such a tree is no region.

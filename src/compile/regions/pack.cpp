@@ -21,7 +21,7 @@ constexpr std::size_t chunk_size = 512;
 /// What a chunk of regions comes to; positions of words count from its first.
 struct RegionChunk {
     std::vector<std::uint32_t> words;
-    std::uint32_t operators = 0, first_word = 0;
+    std::uint32_t first_word = 0;
     std::uint64_t leaves = 0;
     Box bounds = empty_box;
 };
@@ -75,8 +75,7 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
                 ++chunk.leaves;
             }
             const LinearTree tree = linearize(region.tree, chunk.words);
-            if (!tree.union_only) chunk.operators |= tree.operators;
-            compiled.regions[i] = {tree.first_word, tree.word_count, tree.union_only ? REGION_UNION_ONLY : 0u};
+            compiled.regions[i] = {tree.first_word, tree.word_count};
             compiled.materials[i] = material_of(region.info, region.brightness, compiled.ambient);
             compiled.region_info[i] = std::move(region.info);
             compiled.flat_trees[i] = std::move(region.tree);
@@ -92,7 +91,6 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         chunk.first_word = static_cast<std::uint32_t>(words);
         words += chunk.words.size();
         leaves += chunk.leaves;
-        compiled.operators |= chunk.operators;
         compiled.bounds = united(compiled.bounds, chunk.bounds);
         check_tree_words(words);
     }

@@ -20,7 +20,7 @@ struct Term {
 };
 
 /// The members of the unions at a tree's top, in order.
-void add_terms(const std::vector<std::uint32_t>& trees, const kernel::RegionRecord& record, std::uint32_t region,
+void add_terms(const std::vector<std::uint32_t>& trees, const RegionWords& record, std::uint32_t region,
                std::vector<Term>& terms) {
     const Term whole{region, record.first_word, record.first_word + record.word_count};
     if (trees[whole.first] >> TREE_SHIFT != OP_UNION) return terms.push_back(whole);

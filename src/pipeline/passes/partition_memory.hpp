@@ -1,6 +1,6 @@
 // What the five kernels hand on for a batch's rays, on the device.
 //
-//   kernel             1 count hits | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
+//   kernel             1 count      | 2 store segments | 3 weave | 4 evaluate | 5 shade, host
 //   candidate places   w r            r
 //   ... ray tallies                                      w                     r w
 //   candidates         w r            r
@@ -34,7 +34,7 @@ class PartitionMemory {
 public:
     PartitionMemory(Device& device, const HostKernels& kernels);
 
-    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::RayCount, one a ray and one behind
+    Buffer& candidate_places() { return ray_counts_; }  ///< kernel::CandidateCount, one a ray and one behind
     Buffer& ray_tallies() { return ray_counts_; }       ///< kernel::RayTally, one a ray
     Buffer& offsets() { return offsets_; }              ///< kernel::RayCount, one a ray and one behind
     Buffer& candidates() { return candidates_; }        ///< kernel::Candidate

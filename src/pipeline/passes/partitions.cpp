@@ -9,8 +9,8 @@ namespace {
 std::vector<std::string> files_of(bool packets) {
     std::vector<std::string> files = {CullPass::file};
     if (packets) files.push_back("1_packet_candidates.cl");
-    files.insert(files.end(),
-                 {"1_count_hits.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl", "5_shade.cl"});
+    files.insert(files.end(), {"1_count_segments.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl",
+                               "5_shade.cl"});
     return files;
 }
 
@@ -24,8 +24,8 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
                program_options(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
-      count_hits_(program_.kernel("count_hits")),
-      sum_hits_(program_.kernel("sum_hits")),
+      count_segments_(program_.kernel("count_segments")),
+      sum_segments_(program_.kernel("sum_segments")),
       scan_blocks_(program_.kernel("scan_blocks")),
       scan_sums_(program_.kernel("scan_sums")),
       scan_add_(program_.kernel("scan_add")),
@@ -67,7 +67,7 @@ void PartitionPass::scan(const Buffer& counts, std::uint32_t rays, TimedKernels&
 kernel::RayCount PartitionPass::read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed) {
     wait_for(timed.back().second);
     read_total_.start(counts, sizeof(kernel::RayCount), rays * sizeof(kernel::RayCount));
-    read_total_.fetch();
+    read_total_.copy();
     return read_total_.wait<kernel::RayCount>(1).front();
 }
 
@@ -143,10 +143,10 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
             : find_candidates_.launch(listing_rays, work_group, batch.frame, input.scene.nodes(), tile_nodes,
                                       batch.rays, numbers, memory_.candidate_places(), memory_.candidates()));
     device_.flush();
-    add(count_hits_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
-                           memory_.candidate_places(), memory_.candidates(), memory_.found()));
-    add(sum_hits_.launch(input.rays, work_group, batch.frame, memory_.candidate_places(), memory_.candidates(),
-                         memory_.offsets()));
+    add(count_segments_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
+                               memory_.candidate_places(), memory_.candidates(), memory_.found()));
+    add(sum_segments_.launch(input.rays, work_group, batch.frame, memory_.candidate_places(), memory_.candidates(),
+                             memory_.offsets()));
     scan(memory_.offsets(), input.rays, timed);
 }
 

@@ -1,6 +1,6 @@
 // Every partition of a batch's rays, in five kernels:
 //
-//   1 count hits -> 2 store segments -> 3 weave -> 4 evaluate -> 5 shade
+//   1 count segments -> 2 store segments -> 3 weave -> 4 evaluate -> 5 shade
 //
 // Either the host reads what the rays need between the kernels and allocates exactly that (trace_counted), or all
 // kernels are queued at once into the buffers at hand (trace_queued). In the second case the kernels write nothing if
@@ -45,11 +45,11 @@ public:
     /// Sums the tallies of the rays that were traced last. Does not wait.
     void sum_tallies(std::uint32_t rays, TimedKernels& timed);
     /// Queues the copy of these sums to the host, once their kernels are done and before the next sum_tallies().
-    void fetch_tallies() { read_.fetch(); }
-    /// Adds the fetched sums up. Waits for the copy.
+    void copy_tallies() { read_.copy(); }
+    /// Adds the copied sums up. Waits for the copy.
     void add_tallies(PipelineCounts& counts);
-    /// Forgets sums that nobody will ask for.
-    void forget_tallies() noexcept { read_.forget(); }
+    /// Nobody will ask for the sums.
+    void cancel_tallies() noexcept { read_.cancel(); }
     /// Adds what rays needed to the counts, and remembers it for capacity_for().
     void add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts);
 
@@ -83,8 +83,8 @@ private:
         Kernel count, list;
     };
     std::optional<PacketCandidates> packet_candidates_;  ///< on processors
-    Kernel find_candidates_, count_hits_, sum_hits_, scan_blocks_, scan_sums_, scan_add_, store_segments_, order_ends_,
-        weave_, evaluate_, shade_;
+    Kernel find_candidates_, count_segments_, sum_segments_, scan_blocks_, scan_sums_, scan_add_, store_segments_,
+        order_ends_, weave_, evaluate_, shade_;
     PartitionMemory memory_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;

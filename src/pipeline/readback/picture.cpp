@@ -24,12 +24,12 @@ void copy(float* to, std::size_t count, const float* values) {
     }
 }
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t not_drawn = UINT32_MAX;
 
 /// Tiles of a row that stand side by side and are background, or a single one that was drawn.
 struct Run {
     std::size_t begin, end;  ///< pixels of a line
-    std::uint32_t place;     ///< of the drawn one, else `none`
+    std::uint32_t place;     ///< of the drawn one, else not_drawn
 };
 
 class Tiles {
@@ -40,7 +40,7 @@ public:
           width_(frame.width),
           drawn_(drawn.size()),
           values_(values),
-          places_(end - first, none),
+          places_(end - first, not_drawn),
           target_(target) {
         for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
         std::size_t covered = 0;
@@ -69,11 +69,11 @@ private:
         const std::span<std::uint8_t> covered = rows_.covered(row, target_);
         for (std::size_t tile = all.begin; tile < all.end; ++tile) {
             const std::uint32_t place = places_[rows_.place(row, tile)];
-            const bool is_drawn = place != none;
+            const bool is_drawn = place != not_drawn;
             std::uint8_t& holds = covered[tile - all.begin];
             if (is_drawn || holds) {
                 const std::size_t begin = rows_.column(tile), end = rows_.column(tile + 1);
-                if (!is_drawn && !runs.empty() && runs.back().place == none && runs.back().end == begin)
+                if (!is_drawn && !runs.empty() && runs.back().place == not_drawn && runs.back().end == begin)
                     runs.back().end = end;
                 else
                     runs.push_back({begin, end, place});
@@ -89,7 +89,7 @@ private:
             for (std::size_t y = 0; y < lines; ++y) {
                 float* line = channel.pixels + (top + y) * width_;
                 for (const Run& run : runs) {
-                    if (run.place != none)
+                    if (run.place != not_drawn)
                         copy(line + run.begin, run.end - run.begin,
                              values_ + ((c * drawn_ + run.place) * TILE + y) * TILE);
                     else

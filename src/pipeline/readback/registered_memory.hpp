@@ -21,7 +21,7 @@ public:
 private:
     void* data_;
     std::size_t bytes_;
-    std::map<cl_context, KnownMemory> registered_;  ///< each keeps its context, so that no other gets its address
+    std::map<cl_context, HostRegistration> registered_;  ///< each keeps its context, so that no other gets its address
 };
 
 }  // namespace csgrt

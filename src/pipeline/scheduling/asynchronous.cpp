@@ -195,7 +195,7 @@ void AsynchronousSchedule::write_background(Batch& batch, const FrameJob& job) {
 // do; else that one is collected first, and this one's memory is counted.
 void AsynchronousSchedule::trace(Batch& batch, const FrameJob& job) {
     wait_for(batch.culling.back());
-    batch.report_read.fetch();
+    batch.report_read.copy();
     batch.frame.ray_count = batch.report().entries * tile_rays;
     Batch& before = *other(batch);
     if (before.state == State::shaded && is_done(before.end())) {  // its pixels need not wait for anything
@@ -243,7 +243,7 @@ void AsynchronousSchedule::collect(Batch& batch, const FrameJob& job) {
 
 void AsynchronousSchedule::collect_first_hits(Batch& batch, const FrameJob& job) {
     wait_for(batch.end());
-    batch.report_read.fetch();
+    batch.report_read.copy();
     add_times(batch.drawing, job.counts);
     // By the copy queue: a read that is queued behind kernels would hold up all copies.
     std::vector<std::uint32_t> numbers(batch.report().overflows);
@@ -254,13 +254,13 @@ void AsynchronousSchedule::collect_first_hits(Batch& batch, const FrameJob& job)
 
 void AsynchronousSchedule::collect_partitions(Batch& batch, const FrameJob& job) {
     wait_patiently(batch.end());
-    batch.report_read.fetch();
+    batch.report_read.copy();
     if (batch.frame.ray_count > 0) {
         const kernel::BatchReport& report = batch.report();
         const PartitionSizes needed{report.candidates, report.total};
         if (!needed.fit(batch.capacity)) return retry(batch, job);
         PartitionPass& pass = passes_.partitions();
-        pass.fetch_tallies();
+        pass.copy_tallies();
         pass.add_sizes(needed, batch.frame.ray_count, job.counts);
         pass.add_tallies(job.counts);
         add_times(batch.drawing, job.counts);
@@ -277,7 +277,7 @@ void AsynchronousSchedule::retry(Batch& batch, const FrameJob& job) {
         cancel(after);
         job.source.give_back(after.rays);
     }
-    passes_.partitions().forget_tallies();
+    passes_.partitions().cancel_tallies();
     batch.state = State::culled;
     trace_alone(batch, job);
 }

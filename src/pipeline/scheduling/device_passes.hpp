@@ -55,8 +55,8 @@ public:
     void release() {
         if (partitions_) partitions_->release();
     }
-    void forget_tallies() noexcept {
-        if (partitions_) partitions_->forget_tallies();
+    void cancel_tallies() noexcept {
+        if (partitions_) partitions_->cancel_tallies();
     }
 
 private:

@@ -44,13 +44,13 @@ void Pipeline::finish() {
 }
 
 void Pipeline::abandon() noexcept {
-    passes_.forget_tallies();
+    passes_.cancel_tallies();
     if (asynchronous_) asynchronous_->abandon();
 }
 
 void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take,
                      RayPartitions* answers, const Told& told, PipelineCounts& counts) {
-    passes_.forget_tallies();  // of a call that threw
+    passes_.cancel_tallies();  // of a call that threw
     BatchSource source(
         take, [&] { return rays_fitting(memory(), synchronous_.shot_ray_bytes()); }, 0);
     synchronous_.shoot(prepared.frame, rays, source, answers, told, counts);

@@ -57,7 +57,7 @@ void SynchronousSchedule::finish_trace(std::uint32_t rays, bool are_tallied, Tim
     PartitionPass& pass = passes_.partitions();
     if (are_tallied) pass.sum_tallies(rays, timed);
     passes_.device.finish();
-    pass.fetch_tallies();
+    pass.copy_tallies();
     if (are_tallied) pass.add_tallies(counts);
     add_times(timed, counts);
 }

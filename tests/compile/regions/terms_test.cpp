@@ -140,7 +140,7 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
         for (FlatTree& tree : trees) {
             add_tree(tree, 1 + random.below(20), solids, random);
             const LinearTree linear = linearize(tree, scene.trees);
-            scene.regions.push_back({linear.first_word, linear.word_count, 0});
+            scene.regions.push_back({linear.first_word, linear.word_count});
         }
         const auto regions = static_cast<std::uint32_t>(trees.size());
         for (std::uint32_t& end : scene.rank_ends) end = regions;

@@ -18,7 +18,6 @@ using namespace csgrt;
     FIELD(SolidRecord, start_count) FIELD(SolidRecord, first_leaf) FIELD(SolidRecord, leaf_count) \
     FIELD(SolidRecord, begins) FIELD(SolidRecord, alone) \
     RECORD(PlaneRecord) FIELD(PlaneRecord, nx) FIELD(PlaneRecord, ny) FIELD(PlaneRecord, nz) FIELD(PlaneRecord, d) \
-    RECORD(RegionRecord) FIELD(RegionRecord, first_word) FIELD(RegionRecord, word_count) FIELD(RegionRecord, flags) \
     RECORD(SolidFilter) FIELD(SolidFilter, even) FIELD(SolidFilter, odd) \
     RECORD(StartRecord) FIELD(StartRecord, region) FIELD(StartRecord, first_word) FIELD(StartRecord, end_word) \
     FIELD(StartRecord, needed) FIELD(StartRecord, solids) FIELD(StartRecord, roles) RECORD(MaterialRecord) \
@@ -44,7 +43,8 @@ using namespace csgrt;
     RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) \
     FIELD(BatchReport, listed) \
     FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) \
-    FIELD(RayCount, words) RECORD(Candidate) \
+    FIELD(RayCount, words) RECORD(CandidateCount) FIELD(CandidateCount, candidates) \
+    FIELD(CandidateCount, unused) RECORD(Candidate) \
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \

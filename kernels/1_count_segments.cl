@@ -3,7 +3,7 @@
 // and lists its candidates: the solids that it may meet. Then a work-item intersects each candidate, so that no ray
 // waits for its many solids one after the other.
 //
-//   find candidates -> (scan) -> find candidates, listing them -> count hits -> sum hits -> (scan)
+//   find candidates -> (scan) -> find candidates, listing them -> count segments -> sum segments -> (scan)
 //
 // On processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
 #include "traversal/beam.h"
@@ -17,24 +17,25 @@
 // `lists`: kernel 0's, or 0 if the rays do not come in tiles.
 __kernel void find_candidates(__global const Frame* frame, __global const BvhNode* nodes,
                               __global const TileNode* lists, __global const RayRecord* rays,
-                              __global const u32* listed, __global RayCount* places, __global Candidate* candidates) {
+                              __global const u32* listed, __global CandidateCount* places,
+                              __global Candidate* candidates) {
     u32 id = (u32)get_global_id(0), number;
-    RayCount count;
+    CandidateCount count;
     ray3 r;
     if (id >= frame->ray_count) return;
     if (candidates) {
-        if (places[id].segments == places[id + 1].segments || !candidates_of(frame, places)) return;
-        candidates += places[id].segments;
+        if (places[id].candidates == places[id + 1].candidates || !candidates_of(frame, places)) return;
+        candidates += places[id].candidates;
     }
-    count.segments = count.words = 0;
+    count.candidates = count.unused = 0;
     number = number_of(frame, listed, id);
     if (lists) lists = list_of(frame, lists, number);
-    if (ray_of(frame, rays, number, &r)) count.segments = walk(frame, nodes, lists, r, id, candidates);
+    if (ray_of(frame, rays, number, &r)) count.candidates = walk(frame, nodes, lists, r, id, candidates);
     if (!candidates) places[id] = count;
 }
 
-static void count_segments(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
-                           __global const u32* listed, __global Candidate* candidate, __global End* segment) {
+static void intersect_candidate(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
+                                __global const u32* listed, __global Candidate* candidate, __global End* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
     ray3 r;
@@ -57,26 +58,26 @@ static void count_segments(__global const Frame* frame, Geometry g, __global con
 
 // If a candidate has one segment, it is kept in `found`, so that kernel 2 need not find it again. Candidates of more
 // segments are too rare to be worth the memory.
-__kernel void count_hits(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
-                         __global const u32* listed, __global const RayCount* places, __global Candidate* candidates,
-                         __global End* found) {
+__kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
+                             __global const u32* listed, __global const CandidateCount* places,
+                             __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0);
     if (id < candidates_of(frame, places))
-        count_segments(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
+        intersect_candidate(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
 }
 
 // Adds up each ray's counts, and gives each candidate its place among the ray's segments.
-__kernel void sum_hits(__global const Frame* frame, __global const RayCount* places, __global Candidate* candidates,
-                       __global RayCount* counts) {
+__kernel void sum_segments(__global const Frame* frame, __global const CandidateCount* places,
+                           __global Candidate* candidates, __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;
     RayCount count;
     if (id >= frame->ray_count) return;
-    if (places[frame->ray_count].segments > frame->candidate_capacity) {
+    if (places[frame->ray_count].candidates > frame->candidate_capacity) {
         counts[id].segments = counts[id].words = COUNT_MAX;
         return;
     }
     count.segments = 0;
-    for (i = places[id].segments; i < places[id + 1].segments; ++i) {
+    for (i = places[id].candidates; i < places[id + 1].candidates; ++i) {
         candidates[i].before = count.segments;
         count.segments += candidates[i].count;
     }
