@@ -75,6 +75,24 @@ double Errors::quantile(double share) const {
     return worst_;
 }
 
+std::vector<std::int64_t> Errors::counts() const {
+    const auto whole = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    std::vector<std::int64_t> all = {whole(count_), whole(zeros_), whole(infinite_)};
+    for (const auto& [size, count] : classes_) {
+        all.push_back(size);
+        all.push_back(whole(count));
+    }
+    return all;
+}
+
+Errors::Errors(const std::vector<std::int64_t>& counts, double worst) : worst_(worst) {
+    const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+    count_ = size(counts.at(0));
+    zeros_ = size(counts.at(1));
+    infinite_ = size(counts.at(2));
+    for (std::size_t i = 3; i < counts.size(); i += 2) classes_[static_cast<int>(counts[i])] = size(counts.at(i + 1));
+}
+
 void Accuracy::add(const TrueRay& truth, const Sequence& sequence, Mode mode) {
     ++rays;
     const bool first = mode == Mode::first_hits;

@@ -61,6 +61,11 @@ public:
     /// The smallest value that at least this share of them does not exceed, rounded up by 1.6 % at most; 0 of none.
     double quantile(double share) const;
 
+    /// All that it counts, and back: {count, zeros, infinite, class, its count, class, its count, ...}.
+    std::vector<std::int64_t> counts() const;
+    Errors() = default;
+    Errors(const std::vector<std::int64_t>& counts, double worst);
+
 private:
     std::size_t count_ = 0, zeros_ = 0, infinite_ = 0;
     double worst_ = 0;

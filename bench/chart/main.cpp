@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 
@@ -32,12 +34,12 @@ struct Options {
     Sample sample{.models = "../shared/brlcad", .scenes = "scenes", .rays = 300, .only = {}};
     std::vector<std::string> variants, methods;
     bool truth_only = false;
-    double minutes = 0;  ///< that --truth-only may take; 0: as long as it takes
+    double minutes = 0;  ///< after which nothing more is begun; 0: as long as it takes
     int frames = 9;
     TrialOptions trial;
 };
 
-constexpr int more_is_left = 75;  ///< exit status of --truth-only (EX_TEMPFAIL of sysexits.h)
+constexpr int more_is_left = 75;  ///< exit status if --minutes ended the call (EX_TEMPFAIL of sysexits.h)
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -232,7 +234,54 @@ int make_truth(const Options& options) {
     return more_is_left;
 }
 
-void measure(Options options) {
+/// How rows were measured: those of another key do not go together with ours.
+std::string key_of(const Report& report, const Options& options, const std::vector<Variant>& variants) {
+    std::string key = report.device + ", csgrt " + report.version + ", truth " + std::to_string(truth_version);
+    for (const std::size_t number : {report.rays, static_cast<std::size_t>(report.size),
+                                     static_cast<std::size_t>(report.frames), options.trial.device_scenes})
+        key += ", " + std::to_string(number);
+    for (const double number : {options.trial.method_seconds, options.trial.method_frame})
+        key += ", " + std::to_string(number);
+    for (const Mode mode : options.trial.modes) key += std::string(", ") + name_of(mode);
+    for (const Variant& variant : variants) key += ", " + variant.name;
+    for (const Method& method : report.methods) key += ", " + method.name;
+    return key;
+}
+
+/// What an earlier call that ended has measured.
+std::vector<Row> earlier_rows(const std::string& path, const std::string& key) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) return {};
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::string fault;
+    std::optional<std::vector<Row>> rows = rows_from_json(text, key, fault);
+    if (rows) return std::move(*rows);
+    std::fprintf(stderr, "%s: %s; all is measured anew\n", path.c_str(), fault.c_str());
+    return {};
+}
+
+/// All rows of one workload.
+std::vector<Row> rows_of(const ChartWorkload& workload, const std::vector<Variant>& variants,
+                         const std::vector<Method>& methods, const Options& options) {
+    const auto begun = std::chrono::steady_clock::now();
+    TruthMaker truth_maker(workload, options.truth);
+    truth_maker.make();
+    const Truth truth = truth_maker.take();
+    std::printf("%s: truth in %.1f s\n", workload.name.c_str(), seconds_since(begun));
+    const std::vector<std::unique_ptr<Trial>> trials = trials_of(variants, methods, workload, truth, options.trial);
+    // In turn, so that whatever else the machine does slows all of them down.
+    for (int i = 0; i <= options.frames; ++i)
+        for (const std::unique_ptr<Trial>& trial : trials) trial->frame(i > 0);
+    std::vector<Row> rows;
+    for (const std::unique_ptr<Trial>& trial : trials)
+        for (Row& row : trial->rows()) {
+            print(row);
+            rows.push_back(std::move(row));
+        }
+    return rows;
+}
+
+int measure(Options options) {
     const auto start = std::chrono::steady_clock::now();
     const DeviceInfo device = device_of(options);
     const bool is_gpu = device.type == "gpu";
@@ -245,29 +294,34 @@ void measure(Options options) {
     if (is_gpu) options.trial.max_memory = device.memory / (variants_chosen.size() + 2);
     Report report{device.name,         device.type, version(), options.trial.size, options.frames,
                   options.sample.rays, 0,           {},        anchors(),          methods_chosen};
+    const std::string key = key_of(report, options, variants_chosen), unfinished = options.json + ".unfinished";
+    const std::vector<Row> earlier = earlier_rows(unfinished, key);
+    std::size_t made = 0, left = 0;
     for (const WorkloadMaker& maker : chart_workloads(options.sample)) {
-        const auto begun = std::chrono::steady_clock::now();
-        const ChartWorkload workload = maker.make();
-        TruthMaker truth_maker(workload, options.truth);
-        truth_maker.make();
-        const Truth truth = truth_maker.take();
-        std::printf("%s: truth in %.1f s\n", workload.name.c_str(), seconds_since(begun));
-        const std::vector<std::unique_ptr<Trial>> trials =
-            trials_of(variants_chosen, methods_chosen, workload, truth, options.trial);
-        // In turn, so that whatever else the machine does slows all of them down.
-        for (int i = 0; i <= options.frames; ++i)
-            for (const std::unique_ptr<Trial>& trial : trials) trial->frame(i > 0);
-        for (const std::unique_ptr<Trial>& trial : trials)
-            for (Row& row : trial->rows()) {
-                print(row);
-                report.rows.push_back(std::move(row));
-            }
+        std::vector<Row> rows;
+        std::copy_if(earlier.begin(), earlier.end(), std::back_inserter(rows),
+                     [&](const Row& row) { return row.workload == maker.name; });
+        if (rows.empty() && made > 0 && options.minutes > 0 && seconds_since(start) >= 60 * options.minutes) {
+            ++left;
+            continue;
+        }
+        const bool is_new = rows.empty();
+        if (is_new) rows = rows_of(maker.make(), variants_chosen, methods_chosen, options);
+        std::move(rows.begin(), rows.end(), std::back_inserter(report.rows));
+        if (is_new) write_whole(rows_to_json(report.rows, key), unfinished);
+        made += is_new;
+    }
+    if (left > 0) {
+        std::printf("%zu workloads are left; the same call goes on\n", left);
+        return more_is_left;
     }
     report.seconds = seconds_since(start);
     if (report.rows.empty()) throw Error(Status::usage, "there is nothing to measure");
     std::printf("all, in %.0f s\n", report.seconds);
     for (const Total& total : totals(report)) print(total.row);
     write_whole(to_json(report), options.json);
+    std::remove(unfinished.c_str());
+    return 0;
 }
 
 }  // namespace
@@ -276,11 +330,9 @@ int main(int argc, char** argv) {
     cli::ensure_cache_folder();
     try {
         const Options options = parse(argc, argv);
-        if (options.truth_only) return make_truth(options);
-        measure(options);
+        return options.truth_only ? make_truth(options) : measure(options);
     } catch (const Error& error) {
         std::fprintf(stderr, "csgrt_chart: %s\n", error.what());
         return static_cast<int>(error.status());
     }
-    return 0;
 }

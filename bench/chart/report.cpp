@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 
 #include <csgrt/error.hpp>
 #include <nlohmann/json.hpp>
@@ -87,7 +88,7 @@ const Row* default_row(const Report& report, const std::string& workload, Mode m
 std::vector<std::string> timed_workloads(const Report& report) {
     std::vector<std::string> timed;
     for (const Row& row : report.rows)
-        if (row.variant == report.rows.front().variant && row.ns_per_ray > 0 &&
+        if (row.variant == report.rows.front().variant && row.ns_per_ray > 0 && row.family != "deep" &&
             std::find(timed.begin(), timed.end(), row.workload) == timed.end())
             timed.push_back(row.workload);
     std::vector<std::string> shared = timed;
@@ -192,6 +193,70 @@ std::string to_json(const Report& report) {
     json["results"] = Json::array();
     for (const Row& row : report.rows) json["results"].push_back(json_of(row));
     return json.dump(1) + "\n";
+}
+
+namespace {
+
+Json whole_json(const Errors& errors) { return {{"counts", errors.counts()}, {"worst", number(errors.worst())}}; }
+Errors errors_of(const Json& json) {
+    const Json& worst = json.at("worst");
+    return {json.at("counts").get<std::vector<std::int64_t>>(), worst.is_null() ? HUGE_VAL : worst.get<double>()};
+}
+
+}  // namespace
+
+std::string rows_to_json(const std::vector<Row>& rows, const std::string& key) {
+    Json json = {{"key", key}, {"rows", Json::array()}};
+    for (const Row& row : rows) {
+        const Accuracy& a = row.accuracy;
+        json["rows"].push_back(
+            {{"names", {row.variant, row.workload, row.family, row.method, row.knob, row.device, row.error}},
+             {"first_hits", row.mode == Mode::first_hits},
+             {"laboratory", row.laboratory},
+             {"exact", row.exact},
+             {"counts", {a.rays, a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.rule_ends, row.timed_rays}},
+             {"error_mm", whole_json(a.error_mm)},
+             {"error_ulp", whole_json(a.error_ulp)},
+             {"times", {row.knob_value, row.ns_per_ray, row.ns.low, row.ns.high, row.frame_ms}},
+             {"refusals", row.refusals},
+             {"figures", row.figures}});
+    }
+    return json.dump() + "\n";
+}
+
+std::optional<std::vector<Row>> rows_from_json(const std::string& text, const std::string& key, std::string& fault) {
+    try {
+        const Json json = Json::parse(text);
+        if (json.at("key").get<std::string>() != key) {
+            fault = "it was measured otherwise";
+            return std::nullopt;
+        }
+        std::vector<Row> rows;
+        for (const Json& from : json.at("rows")) {
+            Row row;
+            std::string* const names[] = {&row.variant, &row.workload, &row.family, &row.method,
+                                          &row.knob,    &row.device,   &row.error};
+            Accuracy& a = row.accuracy;
+            std::size_t* const counts[] = {&a.rays,       &a.decided, &a.ties,      &a.rule,
+                                           &a.unanswered, &a.wrong,   &a.rule_ends, &row.timed_rays};
+            double* const times[] = {&row.knob_value, &row.ns_per_ray, &row.ns.low, &row.ns.high, &row.frame_ms};
+            for (std::size_t i = 0; i < std::size(names); ++i) from.at("names").at(i).get_to(*names[i]);
+            for (std::size_t i = 0; i < std::size(counts); ++i) from.at("counts").at(i).get_to(*counts[i]);
+            for (std::size_t i = 0; i < std::size(times); ++i) from.at("times").at(i).get_to(*times[i]);
+            row.mode = from.at("first_hits").get<bool>() ? Mode::first_hits : Mode::every_partition;
+            from.at("laboratory").get_to(row.laboratory);
+            from.at("exact").get_to(row.exact);
+            a.error_mm = errors_of(from.at("error_mm"));
+            a.error_ulp = errors_of(from.at("error_ulp"));
+            from.at("refusals").get_to(row.refusals);
+            from.at("figures").get_to(row.figures);
+            rows.push_back(std::move(row));
+        }
+        return rows;
+    } catch (const std::exception&) {  // of the parser, or of a list that is too short
+        fault = "it is damaged";
+        return std::nullopt;
+    }
 }
 
 void write_whole(const std::string& text, const std::string& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,19 +50,25 @@ struct Report {
 
 /// A variant's rows of one mode together.
 struct Total {
-    Row row;                          ///< its rays of all workloads
-    std::size_t timed_on = 0;         ///< workloads
-    double of_default = 0;            ///< its time by the default's: geometric mean over the workloads that both have
+    Row row;                   ///< its rays of all workloads
+    std::size_t timed_on = 0;  ///< workloads
+    /// Its time divided by the first variant's: geometric mean over those of timed_workloads() that both have.
+    double of_default = 0;
     std::vector<std::string> failed;  ///< workloads where it has an error
 };
 /// Every variant and mode, over all workloads (`by_family` false: the row's workload and family are "all") or over each
 /// family's. The row's time is the geometric mean over timed_workloads(), or 0 if the variant lacks one of these.
 std::vector<Total> totals(const Report& report, bool by_family = false);
-/// The workloads that the default (without it: the first variant) was timed on; of these the ones that every anchor of
-/// this device has, if there are such.
+/// The workloads that the first variant, the default, was timed on, without those of depth, where one would outweigh
+/// all others; of these the ones that every anchor of this device has, if there are such.
 std::vector<std::string> timed_workloads(const Report& report);
 
 std::string to_json(const Report& report);
+
+/// Rows with all that they count, so that a measurement goes on where it was, and back. `key`: of how they were
+/// measured. Nothing, and why in `fault`, if the text is no such rows or its key is another.
+std::string rows_to_json(const std::vector<Row>& rows, const std::string& key);
+std::optional<std::vector<Row>> rows_from_json(const std::string& text, const std::string& key, std::string& fault);
 
 /// Writes the file whole, or not at all: throws Error (file).
 void write_whole(const std::string& text, const std::string& path);

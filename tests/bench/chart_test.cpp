@@ -549,6 +549,21 @@ TEST_CASE("the chart's file has every figure, is JSON whatever was measured, and
     CHECK(json["results"][1]["error"] == "no \n memory");
     CHECK(json["totals"][1]["wrong_ppm"].is_null());  // nothing was decided
 
+    // Of an unfinished measurement: the same rows, whole; nothing of another one's, or of what is damaged.
+    std::string fault;
+    const std::string kept = rows_to_json(report.rows, "key");
+    const auto rows = rows_from_json(kept, "key", fault);
+    REQUIRE(rows);
+    Report again = report;
+    again.rows = *rows;
+    CHECK(to_json(again) == to_json(report));
+    CHECK(rows_to_json(*rows, "key") == kept);
+    CHECK_FALSE(rows_from_json(kept, "another", fault));
+    CHECK(fault == "it was measured otherwise");
+    CHECK_FALSE(rows_from_json(kept.substr(0, kept.size() / 2), "key", fault));
+    CHECK_FALSE(rows_from_json(R"({"key": "key", "rows": [{"names": []}]})", "key", fault));
+    CHECK(fault == "it is damaged");
+
     CHECK_THROWS_AS(write_whole("text", "no/such/folder/chart.json"), Error);
     write_whole("text", "chart_test.json");
     std::string text;
