@@ -105,6 +105,7 @@ void Accuracy::add(const TrueRay& truth, const Sequence& sequence, Mode mode) {
         ++wrong;
         return;
     }
+    bool is_misplaced = false;
     const auto measure = [&](double is, double should, double unit) {
         if (!std::isfinite(should)) return;
         if (unit == 0) {
@@ -114,17 +115,16 @@ void Accuracy::add(const TrueRay& truth, const Sequence& sequence, Mode mode) {
         const double off = std::isfinite(is) ? std::abs(is - should) * truth.speed : HUGE_VAL;
         error_mm.add(off);
         error_ulp.add(off / unit);
+        is_misplaced = is_misplaced || off / unit > misplaced_ulps;
     };
-    if (first) {
-        if (!sequence.empty() && truth.sequence[0].in > 0)
-            measure(sequence[0].in, truth.sequence[0].in, truth.in_unit[0]);
-        return;
-    }
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
+    if (first && !sequence.empty() && truth.sequence[0].in > 0)
+        measure(sequence[0].in, truth.sequence[0].in, truth.in_unit[0]);
+    for (std::size_t i = 0; !first && i < sequence.size(); ++i) {
         if (sequence[i].region == Stretch::gap) continue;  // its ends are its neighbours'
         measure(sequence[i].in, truth.sequence[i].in, truth.in_unit[i]);
         measure(sequence[i].out, truth.sequence[i].out, truth.out_unit[i]);
     }
+    misplaced += is_misplaced;
 }
 
 void Accuracy::operator+=(const Accuracy& other) {
@@ -134,6 +134,7 @@ void Accuracy::operator+=(const Accuracy& other) {
     rule += other.rule;
     unanswered += other.unanswered;
     wrong += other.wrong;
+    misplaced += other.misplaced;
     rule_ends += other.rule_ends;
     error_mm += other.error_mm;
     error_ulp += other.error_ulp;

@@ -72,11 +72,16 @@ private:
     std::map<int, std::size_t> classes_;  ///< by exponent and 6 bits of the fraction
 };
 
+/// So far off, no rounding puts an end, not in single precision either: head-on a four-thousandth of its distance. It
+/// is on another surface, as when an operator is wrong where both answers are one region.
+inline constexpr double misplaced_ulps = 0x1p40;
+
 /// Of one variant on one workload, or summed over a family's scenes.
 struct Accuracy {
     std::size_t rays = 0, decided = 0, ties = 0, rule = 0;
     std::size_t unanswered = 0;  ///< rays that the method gave up, or whose scene it refused: they are not judged
     std::size_t wrong = 0;       ///< decided rays with another sequence of regions, or another first one
+    std::size_t misplaced = 0;   ///< of the others those with an end that is not where it should be: see misplaced_ulps
     std::size_t rule_ends = 0;   ///< on the right ones, but not judged: the file's own tolerance moves them
     Errors error_mm, error_ulp;  ///< of every other finite end on the right ones
 

@@ -52,10 +52,11 @@ void print(const Row& row) {
         std::printf("%s\n", row.error.c_str());
     else
         std::printf(
-            "%7zu decided %5zu ties %4zu rule %6zu given up %6zu wrong %10.3g ulp (99.9 %%) %10.3g worst %10.1f "
+            "%7zu decided %5zu ties %4zu rule %6zu given up %6zu wrong %6zu misplaced %10.3g ulp (99.9 %%) %10.3g "
+            "worst %10.1f "
             "ns/ray\n",
-            a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.error_ulp.quantile(0.999), a.error_ulp.worst(),
-            row.ns_per_ray);
+            a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.misplaced, a.error_ulp.quantile(0.999),
+            a.error_ulp.worst(), row.ns_per_ray);
     std::fflush(stdout);
 }
 

@@ -52,6 +52,8 @@ Json json_of(const Row& row) {
     json["wrong_ppm"] = ppm(a.wrong, a.decided);
     const Interval wrong = share_interval(a.wrong, a.decided);
     json["wrong_ppm_interval"] = {1e6 * wrong.low, 1e6 * wrong.high};
+    json["misplaced"] = a.misplaced;
+    json["misplaced_ppm"] = ppm(a.misplaced, a.decided);
     json["ends"] = a.error_mm.count();
     json["rule_ends"] = a.rule_ends;
     json["error_mm"] = {{"p999", number(a.error_mm.quantile(0.999))}, {"worst", number(a.error_mm.worst())}};
@@ -214,7 +216,8 @@ std::string rows_to_json(const std::vector<Row>& rows, const std::string& key) {
              {"first_hits", row.mode == Mode::first_hits},
              {"laboratory", row.laboratory},
              {"exact", row.exact},
-             {"counts", {a.rays, a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.rule_ends, row.timed_rays}},
+             {"counts",
+              {a.rays, a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.misplaced, a.rule_ends, row.timed_rays}},
              {"error_mm", whole_json(a.error_mm)},
              {"error_ulp", whole_json(a.error_ulp)},
              {"times", {row.knob_value, row.ns_per_ray, row.ns.low, row.ns.high, row.frame_ms}},
@@ -237,8 +240,8 @@ std::optional<std::vector<Row>> rows_from_json(const std::string& text, const st
             std::string* const names[] = {&row.variant, &row.workload, &row.family, &row.method,
                                           &row.knob,    &row.device,   &row.error};
             Accuracy& a = row.accuracy;
-            std::size_t* const counts[] = {&a.rays,       &a.decided, &a.ties,      &a.rule,
-                                           &a.unanswered, &a.wrong,   &a.rule_ends, &row.timed_rays};
+            std::size_t* const counts[] = {&a.rays,  &a.decided,   &a.ties,      &a.rule,        &a.unanswered,
+                                           &a.wrong, &a.misplaced, &a.rule_ends, &row.timed_rays};
             double* const times[] = {&row.knob_value, &row.ns_per_ray, &row.ns.low, &row.ns.high, &row.frame_ms};
             for (std::size_t i = 0; i < std::size(names); ++i) from.at("names").at(i).get_to(*names[i]);
             for (std::size_t i = 0; i < std::size(counts); ++i) from.at("counts").at(i).get_to(*counts[i]);

@@ -159,6 +159,43 @@ TEST_CASE("first hits are held against the first region and where it begins, and
     CHECK(a.decided == 8);
 }
 
+TEST_CASE("a wrong operator shows in the count of wrong rays, in both modes") {
+    const auto scene_with = [](const char* op) {
+        const std::string text = std::string(R"({"csgrt": 1, "units": "mm", "solids": {
+            "a": {"type": "box", "low": [-4, -2, -2], "high": [4, 2, 2]},
+            "b": {"type": "box", "low": [-8, -1, -2], "high": [0, 1, 2]}}, "combinations": {
+            "r": {"region": true, "tree": {")") +
+                                 op + R"(": ["a", "b"]}}}})";
+        const char* path = "chart_test_planted.json";
+        std::ofstream(path) << text;
+        const Scene scene = load_scene(path);
+        std::remove(path);
+        return scene;
+    };
+    std::vector<Ray> rays;  // 10 beside the second box, 10 through it, 5 that meet nothing
+    for (int i = 0; i < 25; ++i) rays.push_back({{-20, (i < 10 ? 1.5 : i < 20 ? 0.5 : 3), 0.01 * i}, {1, 0, 0}});
+    const std::vector<TrueRay> truth = true_rays(scene_with("difference"), {}, rays);
+    Settings settings;
+    settings.reference = true;
+    for (const Mode mode : {Mode::first_hits, Mode::every_partition}) {
+        Accuracy right, planted;
+        const std::vector<RayPartitions> as_it_is = Renderer(scene_with("difference"), {}, settings).shoot(rays);
+        const std::vector<RayPartitions> as_union = Renderer(scene_with("union"), {}, settings).shoot(rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            right.add(truth[i], as_it_is[i], mode);
+            planted.add(truth[i], as_union[i], mode);
+        }
+        CHECK(right.wrong == 0);
+        CHECK(right.decided == 25);
+        // One region either way, which begins 8 mm before where it should.
+        CHECK(planted.wrong == 0);
+        CHECK(planted.misplaced == 10);
+        CHECK(planted.error_mm.worst() == 8);
+        CHECK(right.misplaced == 0);
+        CHECK(right.error_mm.worst() == 0);
+    }
+}
+
 TEST_CASE("errors are counted by size, and their quantiles are rounded up by 1.6 % at most") {
     Errors errors;
     CHECK(errors.quantile(0.5) == 0);
@@ -511,6 +548,7 @@ TEST_CASE("the chart's file has every figure, is JSON whatever was measured, and
     row.accuracy.decided = 8;
     row.accuracy.ties = 3;
     row.accuracy.wrong = 2;
+    row.accuracy.misplaced = 1;
     for (const double error : {0.5, HUGE_VAL}) row.accuracy.error_mm.add(error);
     for (const double error : {1.0, 2.0}) row.accuracy.error_ulp.add(error);
     row.ns_per_ray = 12.5;
@@ -542,6 +580,7 @@ TEST_CASE("the chart's file has every figure, is JSON whatever was measured, and
     CHECK(first["wrong_ppm"] == 250000);
     CHECK(first["wrong_ppm_interval"][1] == Approx(1e6 * share_interval(2, 8).high));
     CHECK(first["ns_per_ray_interval"][0] == 12);
+    CHECK(first["misplaced_ppm"] == 125000);
     CHECK(first["error_mm"]["worst"].is_null());
     CHECK(first["error_ulp"]["worst"] == 2);
     CHECK(first["ns_per_ray"] == 12.5);
