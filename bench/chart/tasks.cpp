@@ -37,10 +37,11 @@ constexpr std::uint64_t stride = 5;
 ChartWorkload from_family(const std::string& family, std::size_t count) {
     ChartWorkload workload{family, "stress", {}};
     const bool large = family == "deep_trees" || family == "depth";  // 10^5 nodes, 10^4 segments: fewer of them
+    if (large) count = std::max<std::size_t>(40, count / 100);
     const std::size_t scenes = large ? 4 : std::max(least_scenes, (count + rays_a_scene - 1) / rays_a_scene);
-    const std::size_t each = (count + scenes - 1) / scenes;
+    const std::size_t each = (count + scenes - 1) / scenes, usual = 12;  // of a large one
     for (std::size_t i = 0; i < scenes; ++i) {
-        stress::StressScene made = stress::make(family, i * stride);
+        stress::StressScene made = stress::make(family, i * stride, large ? (each + usual - 1) / usual : 1);
         Task task{std::move(made.scene), std::move(made.objects), {}};
         const std::size_t taken = std::min(each, made.rays.size());
         for (std::size_t k = 0; k < taken; ++k) task.rays.push_back(made.rays[k * made.rays.size() / taken]);
