@@ -131,6 +131,8 @@ Options parse(int argc, char** argv) {
             options.minutes = number(name, value, 0.001, 1e6);
         } else if (name == "--size") {
             options.trial.size = static_cast<int>(number(name, value, 1, 32768));
+        } else if (name == "--deep-size") {
+            options.trial.deep_size = static_cast<int>(number(name, value, 1, 32768));
         } else if (name == "--frames") {
             options.frames = whole(name, value);
         } else if (name == "--device-scenes") {
@@ -238,8 +240,9 @@ int make_truth(const Options& options) {
 /// How rows were measured: those of another key do not go together with ours.
 std::string key_of(const Report& report, const Options& options, const std::vector<Variant>& variants) {
     std::string key = report.device + ", csgrt " + report.version + ", truth " + std::to_string(truth_version);
-    for (const std::size_t number : {report.rays, static_cast<std::size_t>(report.size),
-                                     static_cast<std::size_t>(report.frames), options.trial.device_scenes})
+    for (const std::size_t number :
+         {report.rays, static_cast<std::size_t>(report.size), static_cast<std::size_t>(report.frames),
+          options.trial.device_scenes, static_cast<std::size_t>(options.trial.deep_size)})
         key += ", " + std::to_string(number);
     for (const double number : {options.trial.method_seconds, options.trial.method_frame})
         key += ", " + std::to_string(number);
@@ -291,6 +294,7 @@ int measure(Options options) {
     if (is_gpu) std::erase_if(variants_chosen, [](const Variant& variant) { return variant.ray_by_ray; });
     const std::vector<Method> methods_chosen = choose(methods(), options.methods, "--methods");
     if (options.trial.size == 0) options.trial.size = is_gpu ? 4096 : 512;
+    if (options.trial.deep_size == 0) options.trial.deep_size = std::max(1, options.trial.size / 32);
     // Every variant keeps its memory while the others draw.
     if (is_gpu) options.trial.max_memory = device.memory / (variants_chosen.size() + 2);
     Report report{device.name,         device.type, version(), options.trial.size, options.frames,

@@ -86,7 +86,7 @@ private:
     /// than anything else.
     int size() const {
         if (settings_.reference) return std::min(32, options_.size);
-        return workload_.family == "deep" ? std::max(1, options_.size / 8) : options_.size;
+        return workload_.family == "deep" ? options_.deep_size : options_.size;
     }
 
     /// What a method cannot do is its result; that there is no device is nobody's.

@@ -13,12 +13,13 @@
 namespace csgrt::bench {
 
 struct TrialOptions {
-    std::string device;  ///< as of csgrt
-    int size = 0;        ///< of the timed pictures, pixels
-    std::size_t device_scenes = SIZE_MAX;
-    double method_seconds = 3;     ///< for the answers of one of the laboratory's methods on one workload
-    double method_frame = 0.2;     ///< seconds of a timed picture of one of these, about
-    std::uint64_t max_memory = 0;  ///< as in Settings
+    std::string device;             ///< as of csgrt
+    int size = 0;                   ///< of the timed pictures, pixels
+    int deep_size = 0;              ///< of those of the family "deep"
+    std::size_t device_scenes = 1;  ///< of a stress family, for what only the device has
+    double method_seconds = 3;      ///< for the answers of one of the laboratory's methods on one workload
+    double method_frame = 0.2;      ///< seconds of a timed picture of one of these, about
+    std::uint64_t max_memory = 0;   ///< as in Settings
     std::vector<Mode> modes{Mode::first_hits, Mode::every_partition};
 };
 
