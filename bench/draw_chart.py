@@ -48,9 +48,12 @@ USE = {
 class Measured:
     """One device's file."""
 
-    def __init__(self, path):
+    def __init__(self, path, mode):
         with open(path, encoding="utf-8") as file:
             data = json.load(file)
+        self.mode = mode
+        data["totals"] = [t for t in data["totals"] if t["mode"] == mode]
+        data["results"] = [r for r in data["results"] if r["mode"] == mode]
         self.name, self.data = os.path.splitext(os.path.basename(path))[0], data
         self.device = data["device"]
         self.totals = {t["variant"]: t for t in data["totals"] if t.get("decided")}
@@ -169,7 +172,7 @@ def draw(measured, folder):
     data = measured.data
     figure.suptitle(
         f"csgrt {data['csgrt']} on {measured.device}: kernels' time over {', '.join(data['timed_workloads'])}\n"
-        f"(geometric mean, {data['size']} x {data['size']}, every partition). Ringed: each picture's Pareto front, "
+        f"(geometric mean, {data['size']} x {data['size']}, {measured.mode}). Ringed: each picture's Pareto front, "
         f"times within {100 * NOISE:.0f} % taken as equal.{fewer}" + (f"\nOff the chart: {words}." if words else ""),
         fontsize=9)
     for kind in ("svg", "png"):
@@ -283,11 +286,12 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("measured", nargs="+", help="what csgrt_chart wrote, a file a device")
     arguments.add_argument("-o", "--output", default=".", help="folder for the pictures and the page")
+    arguments.add_argument("--mode", default="every partition", choices=("first hits", "every partition"))
     options = arguments.parse_args()
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "csgrt", "font.size": 8.5})
     os.makedirs(options.output, exist_ok=True)
     try:
-        measured = [Measured(path) for path in options.measured]
+        measured = [Measured(path, options.mode) for path in options.measured]
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f"draw_chart.py: not a file that csgrt_chart wrote: {error}")
     page(measured, [draw(m, options.output) for m in measured], options.output)

@@ -1,18 +1,16 @@
-// csgrt_chart: every variant on every workload, how fast and how exact; one JSON file.
-//
-//   csgrt_chart [--device CHOICE] [--json FILE] [--rays N] [--size N] [--frames N] [--models FOLDER] [--scenes FOLDER]
-//               [--workloads A,B] [--variants A,B] [--device-scenes N]
-//
-// --rays: judged of each workload, about (300). --size, --frames: of the timed pictures (512, 5).
+// csgrt_chart: every variant and every method of the laboratory on every workload, how fast and how exact; one JSON
+// file. bench/chart/README.md lists the options.
 //
 // Timed pictures are shot on the device; the judged rays, too, where the workload is timed. The stress families are
 // many small scenes, each of which would need its kernels compiled, so there the reference answers, which has the
 // device's very bits; only contraction, which it has not, goes to the device.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 
@@ -22,7 +20,8 @@
 #include "cli/cache_folder.hpp"
 #include "report.hpp"
 #include "tasks.hpp"
-#include "truth.hpp"
+#include "trial.hpp"
+#include "truth_file.hpp"
 #include "variants.hpp"
 
 namespace {
@@ -31,105 +30,33 @@ using namespace csgrt;
 using namespace csgrt::bench;
 
 struct Options {
-    std::string device, json = "chart.json";
-    Sample sample{"../shared/brlcad", "scenes", 300, {}};
-    std::vector<std::string> variants;
-    int size = 512, frames = 5;
-    std::size_t device_scenes = std::numeric_limits<std::size_t>::max();
+    std::string json = "chart.json", truth;
+    Sample sample{.models = "../shared/brlcad", .scenes = "scenes", .rays = 300, .only = {}};
+    std::vector<std::string> variants, methods;
+    bool truth_only = false;
+    double minutes = 0;  ///< after which nothing more is begun; 0: as long as it takes
+    int frames = 9;
+    TrialOptions trial;
 };
+
+constexpr int more_is_left = 75;  ///< exit status if --minutes ended the call (EX_TEMPFAIL of sysexits.h)
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-double kernels_ms(const Statistics& s) { return s.ms.device(); }
-
-/// One variant on one workload: its answers first, then its times.
-class Trial {
-public:
-    Trial(const Variant& variant, const ChartWorkload& workload, const std::vector<std::vector<TrueRay>>& truth,
-          const Options& options)
-        : workload_(workload), size_(options.size) {
-        row_.variant = variant.name;
-        row_.workload = workload.name;
-        row_.family = workload.family;
-        settings_ = variant.settings;
-        settings_.device = options.device;
-        settings_.wait_for_device = true;
-        settings_.reference = settings_.reference || (!workload.timed() && variant.on_reference());
-        const std::size_t all = workload.tasks.size();
-        const bool few = !workload.timed() && !settings_.reference;
-        guard([&] { answer(truth, few ? std::min(all, options.device_scenes) : all); });
-    }
-
-    /// The next frame, if there are any: kernels and all of it. The first one takes memory and does not count.
-    void frame(bool counts) {
-        if (!renderer_) return;
-        guard([&] {
-            View view;
-            view.camera = workload_.tasks.front().scene.camera;
-            view.camera.perspective = 0;
-            view.width = view.height = size_;
-            renderer_->render(view);
-            if (!counts) return;
-            kernels_.push_back(kernels_ms(renderer_->statistics()));
-            frames_.push_back(renderer_->statistics().ms.frame);
-        });
-    }
-
-    Row result() {
-        if (!kernels_.empty()) {
-            row_.ns_per_ray = 1e6 * quantile(kernels_, 0.5) / (static_cast<double>(size_) * size_);
-            row_.frame_ms = quantile(frames_, 0.5);
-        }
-        return std::move(row_);
-    }
-
-private:
-    /// What a method cannot do is its result; that there is no device is nobody's.
-    template <class Work>
-    void guard(const Work& work) {
-        try {
-            work();
-        } catch (const Error& error) {
-            if (error.status() == Status::no_device) throw;
-            row_.accuracy = {};
-            row_.error = error.what();
-            renderer_.reset();
-            kernels_.clear();
-        }
-    }
-
-    void answer(const std::vector<std::vector<TrueRay>>& truth, std::size_t tasks) {
-        for (std::size_t i = 0; i < tasks; ++i) {
-            const Task& task = workload_.tasks[i];
-            auto renderer = std::make_unique<Renderer>(task.scene, task.objects, settings_);
-            const std::vector<RayPartitions> found = renderer->shoot(task.rays);
-            for (std::size_t k = 0; k < found.size(); ++k) row_.accuracy.add(truth[i][k], found[k]);
-            if (!workload_.timed()) continue;
-            if (settings_.reference)  // no device that would time its kernels: by the clock
-                row_.ns_per_ray = 1e6 * renderer->statistics().ms.frame / static_cast<double>(task.rays.size());
-            else
-                renderer_ = std::move(renderer);
-        }
-    }
-
-    const ChartWorkload& workload_;
-    int size_;
-    Settings settings_;
-    Row row_;
-    std::unique_ptr<Renderer> renderer_;
-    std::vector<double> kernels_, frames_;
-};
 
 void print(const Row& row) {
     const Accuracy& a = row.accuracy;
-    if (!row.error.empty()) {
-        std::printf("  %-20s %s\n", row.variant.c_str(), row.error.c_str());
-        return;
-    }
-    std::printf("  %-20s %7zu decided %5zu ties %4zu rule %6zu wrong %10.3g ulp (99.9 %%) %10.3g worst %10.1f ns/ray\n",
-                row.variant.c_str(), a.decided, a.ties, a.rule, a.wrong, quantile(a.error_ulp, 0.999),
-                quantile(a.error_ulp, 1), row.ns_per_ray);
+    std::printf("  %-26s %-15s ", row.variant.c_str(), name_of(row.mode));
+    if (!row.error.empty())
+        std::printf("%s\n", row.error.c_str());
+    else
+        std::printf(
+            "%7zu decided %5zu ties %4zu rule %6zu given up %6zu wrong %6zu misplaced %10.3g ulp (99.9 %%) %10.3g "
+            "worst %10.1f "
+            "ns/ray\n",
+            a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.misplaced, a.error_ulp.quantile(0.999),
+            a.error_ulp.worst(), row.ns_per_ray);
     std::fflush(stdout);
 }
 
@@ -153,32 +80,73 @@ std::vector<std::string> split(const std::string& list) {
     return parts;
 }
 
-int whole(const std::string& name, const std::string& value) {
+double number(const std::string& name, const std::string& value, double least, double most) {
     char* end = nullptr;
-    const long number = std::strtol(value.c_str(), &end, 10);
-    if (end == value.c_str() || *end != 0 || number < 1 || number > 1000000)
-        throw Error(Status::usage, name + ": needs a whole number from 1 to 1000000, not " + value);
-    return static_cast<int>(number);
+    const double number = std::strtod(value.c_str(), &end);
+    if (end == value.c_str() || *end != 0 || !(number >= least && number <= most)) {
+        char range[64];
+        std::snprintf(range, sizeof range, "%g to %g", least, most);
+        throw Error(Status::usage, name + ": needs a number from " + range + ", not " + value);
+    }
+    return number;
+}
+int whole(const std::string& name, const std::string& value) {
+    const double x = number(name, value, 1, 1e7);
+    if (x != std::floor(x)) throw Error(Status::usage, name + ": needs a whole number, not " + value);
+    return static_cast<int>(x);
+}
+
+std::vector<Mode> modes_of(const std::string& name, const std::string& value) {
+    std::vector<Mode> modes;
+    for (const std::string& part : split(value)) {
+        if (part == name_of(Mode::first_hits))
+            modes.push_back(Mode::first_hits);
+        else if (part == name_of(Mode::every_partition))
+            modes.push_back(Mode::every_partition);
+        else
+            throw Error(Status::usage, name + ": there is no " + part + "; \"first hits\" or \"every partition\"");
+    }
+    return modes;
 }
 
 Options parse(int argc, char** argv) {
     Options options;
     for (int i = 1; i < argc; ++i) {
         const std::string name = argv[i];
+        if (name == "--truth-only") {
+            options.truth_only = true;
+            continue;
+        }
         if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
         const std::string value = argv[++i];
         if (name == "--device") {
-            options.device = value;
+            options.trial.device = value;
         } else if (name == "--json") {
             options.json = value;
         } else if (name == "--rays") {
             options.sample.rays = static_cast<std::size_t>(whole(name, value));
+        } else if (name == "--truth") {
+            options.truth = value;
+        } else if (name == "--minutes") {
+            options.minutes = number(name, value, 0.001, 1e6);
         } else if (name == "--size") {
-            options.size = whole(name, value);
+            options.trial.size = static_cast<int>(number(name, value, 1, 32768));
+        } else if (name == "--deep-size") {
+            options.trial.deep_size = static_cast<int>(number(name, value, 1, 32768));
         } else if (name == "--frames") {
             options.frames = whole(name, value);
         } else if (name == "--device-scenes") {
-            options.device_scenes = static_cast<std::size_t>(whole(name, value));
+            options.trial.device_scenes = static_cast<std::size_t>(whole(name, value));
+        } else if (name == "--method-seconds") {
+            options.trial.method_seconds = number(name, value, 0, 1e6);
+        } else if (name == "--method-frame") {
+            options.trial.method_frame = number(name, value, 0, 1e6);
+        } else if (name == "--modes") {
+            options.trial.modes = modes_of(name, value);
+        } else if (name == "--deep") {
+            options.sample.deep.clear();
+            for (const std::string& size : split(value))
+                options.sample.deep.push_back(static_cast<std::uint32_t>(number(name, size, 2, 1e6)));
         } else if (name == "--models") {
             options.sample.models = value;
         } else if (name == "--scenes") {
@@ -187,22 +155,26 @@ Options parse(int argc, char** argv) {
             options.sample.only = split(value);
         } else if (name == "--variants") {
             options.variants = split(value);
+        } else if (name == "--methods") {
+            options.methods = split(value);
         } else {
             throw Error(Status::usage, name + ": unknown option");
         }
     }
+    if (options.truth_only && options.truth.empty())
+        throw Error(Status::usage, "--truth-only: needs --truth FOLDER, where the truth goes");
     return options;
 }
 
-/// Those of the names; all if there are none.
-std::vector<Variant> choose(const std::vector<std::string>& names) {
-    if (names.empty()) return variants();
-    std::vector<Variant> chosen;
+/// Those of the names, in their order; all if there are none, none if the only name is "none".
+template <class T>
+std::vector<T> choose(const std::vector<T>& all, const std::vector<std::string>& names, const char* option) {
+    if (names.empty()) return all;
+    if (names == std::vector<std::string>{"none"}) return {};
+    std::vector<T> chosen;
     for (const std::string& name : names) {
-        const std::vector<Variant> all = variants();
-        const auto at = std::find_if(all.begin(), all.end(), [&](const Variant& v) { return v.name == name; });
-        if (at == all.end())
-            throw Error(Status::usage, "--variants: there is no " + name + " (bench/chart/variants.hpp)");
+        const auto at = std::find_if(all.begin(), all.end(), [&](const T& one) { return one.name == name; });
+        if (at == all.end()) throw Error(Status::usage, std::string(option) + ": there is no " + name);
         chosen.push_back(*at);
     }
     return chosen;
@@ -212,7 +184,7 @@ DeviceInfo device_of(const Options& options) {
     // What a renderer with these settings says it runs on.
     Scene scene;
     Settings settings;
-    settings.device = options.device;
+    settings.device = options.trial.device;
     settings.wait_for_device = true;
     scene = load_scene(options.sample.scenes + "/operators.json");
     const std::string name = Renderer(scene, {}, settings).statistics().device;
@@ -221,40 +193,151 @@ DeviceInfo device_of(const Options& options) {
     return {};
 }
 
+/// Everything that is tried on a workload.
+std::vector<std::unique_ptr<Trial>> trials_of(const std::vector<Variant>& variants, const std::vector<Method>& methods,
+                                              const ChartWorkload& workload, const Truth& truth,
+                                              const TrialOptions& options) {
+    std::vector<std::unique_ptr<Trial>> trials;
+    for (const Variant& variant : variants) trials.push_back(try_variant(variant, workload, truth, options));
+    for (const Method& method : methods)
+        for (const Mode mode : options.modes) {
+            if (!(mode == Mode::first_hits ? method.first_hits : method.every_partition)) continue;
+            const std::vector<double> none{0};
+            for (const double knob : method.knob.empty() ? none : method.knob_values)
+                trials.push_back(try_method(method, knob, mode, workload, truth, options));
+        }
+    return trials;
+}
+
+/// Makes what there is not yet, until the time is over.
+int make_truth(const Options& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const auto end =
+        options.minutes > 0
+            ? start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(60 * options.minutes))
+            : Clock::time_point::max();
+    Progress sum;
+    for (const WorkloadMaker& maker : chart_workloads(options.sample)) {
+        const auto begun = Clock::now();
+        const ChartWorkload workload = maker.make();
+        const Progress progress = TruthMaker(workload, options.truth).make(end);
+        std::printf("%s: %zu of %zu rays, %.1f s\n", workload.name.c_str(), progress.done, progress.all,
+                    seconds_since(begun));
+        std::fflush(stdout);
+        sum.done += progress.done;
+        sum.all += progress.all;
+    }
+    if (sum.done == sum.all) {
+        std::printf("the truth of all %zu rays is in %s\n", sum.all, options.truth.c_str());
+        return 0;
+    }
+    std::printf("%zu of %zu rays (%.1f %%) are in %s; the same call goes on\n", sum.done, sum.all,
+                100.0 * static_cast<double>(sum.done) / static_cast<double>(sum.all), options.truth.c_str());
+    return more_is_left;
+}
+
+/// How rows were measured: those of another key do not go together with ours.
+std::string key_of(const Report& report, const Options& options, const std::vector<Variant>& variants) {
+    std::string key = report.device + ", csgrt " + report.version + ", truth " + std::to_string(truth_version);
+    for (const std::size_t number :
+         {report.rays, static_cast<std::size_t>(report.size), static_cast<std::size_t>(report.frames),
+          options.trial.device_scenes, static_cast<std::size_t>(options.trial.deep_size)})
+        key += ", " + std::to_string(number);
+    for (const double number : {options.trial.method_seconds, options.trial.method_frame})
+        key += ", " + std::to_string(number);
+    for (const Mode mode : options.trial.modes) key += std::string(", ") + name_of(mode);
+    for (const Variant& variant : variants) key += ", " + variant.name;
+    for (const Method& method : report.methods) key += ", " + method.name;
+    return key;
+}
+
+/// What an earlier call that ended has measured.
+std::vector<Row> earlier_rows(const std::string& path, const std::string& key) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) return {};
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::string fault;
+    std::optional<std::vector<Row>> rows = rows_from_json(text, key, fault);
+    if (rows) return std::move(*rows);
+    std::fprintf(stderr, "%s: %s; all is measured anew\n", path.c_str(), fault.c_str());
+    return {};
+}
+
+/// All rows of one workload.
+std::vector<Row> rows_of(const ChartWorkload& workload, const std::vector<Variant>& variants,
+                         const std::vector<Method>& methods, const Options& options) {
+    const auto begun = std::chrono::steady_clock::now();
+    TruthMaker truth_maker(workload, options.truth);
+    truth_maker.make();
+    const Truth truth = truth_maker.take();
+    std::printf("%s: truth in %.1f s\n", workload.name.c_str(), seconds_since(begun));
+    const std::vector<std::unique_ptr<Trial>> trials = trials_of(variants, methods, workload, truth, options.trial);
+    // In turn, so that whatever else the machine does slows all of them down.
+    for (int i = 0; i <= options.frames; ++i)
+        for (const std::unique_ptr<Trial>& trial : trials) trial->frame(i > 0);
+    std::vector<Row> rows;
+    for (const std::unique_ptr<Trial>& trial : trials)
+        for (Row& row : trial->rows()) {
+            print(row);
+            rows.push_back(std::move(row));
+        }
+    return rows;
+}
+
+int measure(Options options) {
+    const auto start = std::chrono::steady_clock::now();
+    const DeviceInfo device = device_of(options);
+    const bool is_gpu = device.type == "gpu";
+    std::vector<Variant> variants_chosen = choose(variants(), options.variants, "--variants");
+    // On a GPU every ray is traced by itself anyway.
+    if (is_gpu) std::erase_if(variants_chosen, [](const Variant& variant) { return variant.ray_by_ray; });
+    const std::vector<Method> methods_chosen = choose(methods(), options.methods, "--methods");
+    if (options.trial.size == 0) options.trial.size = is_gpu ? 4096 : 512;
+    if (options.trial.deep_size == 0) options.trial.deep_size = std::max(1, options.trial.size / 32);
+    // Every variant keeps its memory while the others draw.
+    if (is_gpu) options.trial.max_memory = device.memory / (variants_chosen.size() + 2);
+    Report report{device.name,         device.type, version(), options.trial.size, options.frames,
+                  options.sample.rays, 0,           {},        anchors(),          methods_chosen};
+    const std::string key = key_of(report, options, variants_chosen), unfinished = options.json + ".unfinished";
+    const std::vector<Row> earlier = earlier_rows(unfinished, key);
+    std::size_t made = 0, left = 0;
+    for (const WorkloadMaker& maker : chart_workloads(options.sample)) {
+        std::vector<Row> rows;
+        std::copy_if(earlier.begin(), earlier.end(), std::back_inserter(rows),
+                     [&](const Row& row) { return row.workload == maker.name; });
+        if (rows.empty() && made > 0 && options.minutes > 0 && seconds_since(start) >= 60 * options.minutes) {
+            ++left;
+            continue;
+        }
+        const bool is_new = rows.empty();
+        if (is_new) rows = rows_of(maker.make(), variants_chosen, methods_chosen, options);
+        std::move(rows.begin(), rows.end(), std::back_inserter(report.rows));
+        if (is_new) write_whole(rows_to_json(report.rows, key), unfinished);
+        made += is_new;
+    }
+    if (left > 0) {
+        std::printf("%zu workloads are left; the same call goes on\n", left);
+        return more_is_left;
+    }
+    report.seconds = seconds_since(start);
+    if (report.rows.empty()) throw Error(Status::usage, "there is nothing to measure");
+    std::printf("all, in %.0f s\n", report.seconds);
+    for (const Total& total : totals(report)) print(total.row);
+    write_whole(to_json(report), options.json);
+    std::remove(unfinished.c_str());
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     cli::ensure_cache_folder();
     try {
-        const auto start = std::chrono::steady_clock::now();
         const Options options = parse(argc, argv);
-        const std::vector<Variant> chosen = choose(options.variants);
-        const DeviceInfo device = device_of(options);
-        Report report{device.name,         device.type, version(), options.size, options.frames,
-                      options.sample.rays, 0,           {},        anchors()};
-        for (const ChartWorkload& workload : chart_workloads(options.sample)) {
-            const auto begun = std::chrono::steady_clock::now();
-            std::vector<std::vector<TrueRay>> truth;
-            for (const Task& task : workload.tasks) truth.push_back(true_rays(task.scene, task.objects, task.rays));
-            std::printf("%s: truth in %.1f s\n", workload.name.c_str(), seconds_since(begun));
-            std::vector<Trial> trials;
-            for (const Variant& variant : chosen) trials.emplace_back(variant, workload, truth, options);
-            // In turn, so that whatever else the machine does slows all of them down.
-            for (int i = 0; i <= options.frames; ++i)
-                for (Trial& trial : trials) trial.frame(i > 0);
-            for (Trial& trial : trials) {
-                report.rows.push_back(trial.result());
-                print(report.rows.back());
-            }
-        }
-        report.seconds = seconds_since(start);
-        if (report.rows.empty()) throw Error(Status::usage, "there is no workload to measure");
-        std::printf("all, in %.0f s\n", report.seconds);
-        for (const Row& row : totals(report)) print(row);
-        write_whole(to_json(report), options.json);
+        return options.truth_only ? make_truth(options) : measure(options);
     } catch (const Error& error) {
         std::fprintf(stderr, "csgrt_chart: %s\n", error.what());
         return static_cast<int>(error.status());
     }
-    return 0;
 }

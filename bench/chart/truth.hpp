@@ -8,6 +8,7 @@
 // on its way through the scene, to the four corners of a tetrahedron, or when the tolerance is four times as large.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,23 @@ namespace csgrt::bench {
 
 inline constexpr double shift_ulps = 4;
 
-std::vector<TrueRay> true_rays(const Scene& scene, const std::vector<std::string>& objects,
-                               const std::vector<Ray>& rays);
+/// Of one scene.
+class Judge {
+public:
+    /// `threads`: as in Settings.
+    Judge(const Scene& scene, const std::vector<std::string>& objects, unsigned threads = 0);
+    ~Judge();
+    Judge(Judge&&) noexcept;
+    std::vector<TrueRay> true_rays(const std::vector<Ray>& rays);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+inline std::vector<TrueRay> true_rays(const Scene& scene, const std::vector<std::string>& objects,
+                                      const std::vector<Ray>& rays) {
+    return Judge(scene, objects).true_rays(rays);
+}
 
 }  // namespace csgrt::bench

@@ -1,7 +1,9 @@
 // 113-bit arithmetic for the kernels' source: what host_math.hpp has for double. Not for speed.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace csgrt::host {
 
@@ -27,19 +29,84 @@ inline quad root(quad x) {
     return y;
 }
 
-/// a b + c: the product is exact (Veltkamp's split), the sum has one rounding more than it should.
+/// The bits of a number: magnitude 2^exponent, where that has 113 bits.
+__extension__ typedef unsigned __int128 Bits;
+struct QuadParts {
+    Bits magnitude;
+    int exponent;
+    bool negative, normal;  ///< not normal: 0, subnormal, infinite or no number
+};
+inline QuadParts parts_of(quad x) {
+    static_assert(sizeof(quad) == sizeof(Bits));
+    const Bits bits = std::bit_cast<Bits>(x), leading = Bits(1) << 112;
+    const int biased = static_cast<int>(bits >> 112) & 0x7fff;
+    return {(bits & (leading - 1)) | leading, biased - 16383 - 112, (bits >> 127) != 0,
+            biased != 0 && biased != 0x7fff};
+}
+
+/// 256 bits.
+struct Wide {
+    Bits high, low;
+
+    /// Moved to the right; the last bit is set if some of what is lost was.
+    Wide moved(int by) const {
+        if (by == 0) return *this;
+        if (by > 255) return {0, Bits((high | low) != 0)};
+        const Bits lost = by < 128 ? low << (128 - by) : by == 128 ? low : low | (high << (256 - by));
+        const Bits sticky = lost != 0;
+        if (by < 128) return {high >> by, (high << (128 - by)) | (low >> by) | sticky};
+        return {0, (high >> (by - 128)) | sticky};
+    }
+};
+
+/// a b + c with one rounding.
+///
+///     a b   |<- 113 + 113 bits ->|                both stand in 256 bits, the larger one's leading bit at 253 or 254;
+///     c            |<- 113 ->|                    what the smaller one loses to the right is one bit that is set
 inline quad fma(quad a, quad b, quad c) {
-    const quad product = a * b;
-    if (!(product - product == 0)) return product + c;
-    const auto high = [](quad x) {
-        const quad t = x * quad(0x1p57 + 1);
-        return t - (t - x);
-    };
-    const quad a1 = high(a), a2 = a - a1, b1 = high(b), b2 = b - b1;
-    const quad lost = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
-    const quad sum = product + c, back = sum - product;
-    if (!(sum - sum == 0)) return sum;
-    return sum + (((product - (sum - back)) + (c - back)) + lost);
+    const QuadParts x = parts_of(a), y = parts_of(b), z = parts_of(c);
+    if (!x.normal || !y.normal || !z.normal) return a * b + c;
+    const Bits half = 0xffffffffffffffffu;
+    const Bits x1 = x.magnitude >> 64, x0 = x.magnitude & half, y1 = y.magnitude >> 64, y0 = y.magnitude & half;
+    const Bits low = x0 * y0, middle = x0 * y1 + (low >> 64), other = x1 * y0 + (middle & half);
+    const Wide product{x1 * y1 + (middle >> 64) + (other >> 64), (other << 64) | (low & half)};
+    // Leading bits: of the product 224 or 225, moved to 252 or 253; of c 112, moved to 253.
+    Wide p{(product.high << 28) | (product.low >> 100), product.low << 28}, q{z.magnitude << 13, 0};
+    const int p_exponent = x.exponent + y.exponent - 28, q_exponent = z.exponent - 141;
+    const int exponent = p_exponent > q_exponent ? p_exponent : q_exponent;
+    p = p.moved(exponent - p_exponent);
+    q = q.moved(exponent - q_exponent);
+    bool negative = x.negative != y.negative;
+    Wide sum;
+    if (negative == z.negative) {
+        sum = {p.high + q.high, p.low + q.low};
+        sum.high += sum.low < p.low;
+    } else {
+        if (p.high < q.high || (p.high == q.high && p.low < q.low)) {
+            std::swap(p, q);
+            negative = z.negative;
+        }
+        sum = {p.high - q.high - (p.low < q.low), p.low - q.low};
+        if ((sum.high | sum.low) == 0) return 0;
+    }
+    int leading = 0;  // zeros
+    while (sum.high == 0) {
+        sum = {sum.low, 0};
+        leading += 128;
+    }
+    const auto top = static_cast<unsigned long long>(sum.high >> 64);
+    const int zeros = top ? std::countl_zero(top) : 64 + std::countl_zero(static_cast<unsigned long long>(sum.high));
+    if (zeros) sum = {(sum.high << zeros) | (sum.low >> (128 - zeros)), sum.low << zeros};
+    leading += zeros;
+    Bits magnitude = sum.high >> 15;
+    const Bits rest = (sum.high & 0x7fff) << 1 | Bits(sum.low != 0), tie = 0x8000;
+    magnitude += rest > tie || (rest == tie && (magnitude & 1));
+    // Rounded up to 2^113, the magnitude carries into the exponent, as it should.
+    const int biased = exponent + 143 - leading + 112 + 16383;
+    if (biased < 1 || biased > 0x7ffd) return a * b + c;  // beyond the normal numbers
+    const Bits leading_one = Bits(1) << 112;
+    return std::bit_cast<quad>((Bits(negative) << 127) |
+                               ((Bits(static_cast<unsigned>(biased)) << 112) + (magnitude - leading_one)));
 }
 
 /// Of either zero: 0.

@@ -3,16 +3,24 @@
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 execute_process(
-    COMMAND ${CHART} --scenes ${ROOT}/scenes --models ${WORK}/none --rays 16 --size 16 --frames 1
+    COMMAND ${CHART} --scenes ${ROOT}/scenes --models ${WORK}/none --rays 16 --truth ${WORK}/truth --truth-only
+            --workloads "scene operators,edges"
+    RESULT_VARIABLE failed)
+if(failed)
+    message(FATAL_ERROR "csgrt_chart --truth-only failed: ${failed}")
+endif()
+execute_process(
+    COMMAND ${CHART} --scenes ${ROOT}/scenes --models ${WORK}/none --rays 16 --truth ${WORK}/truth --size 16 --frames 1
             --json ${WORK}/tiny.json --workloads "scene operators,edges" --variants "default,single,tolerance none"
+            --methods none
     RESULT_VARIABLE failed)
 if(failed)
     message(FATAL_ERROR "csgrt_chart failed: ${failed}")
 endif()
 file(READ ${WORK}/tiny.json json)
 string(JSON rows LENGTH ${json} results)
-if(NOT rows EQUAL 6)
-    message(FATAL_ERROR "3 variants on 2 workloads should be 6 results, not ${rows}")
+if(NOT rows EQUAL 12)
+    message(FATAL_ERROR "3 variants on 2 workloads in 2 modes should be 12 results, not ${rows}")
 endif()
 execute_process(COMMAND ${PYTHON} -c "import matplotlib" RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
 if(failed)
