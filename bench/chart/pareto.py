@@ -30,3 +30,24 @@ def judged_on_all(totals):
     """
     most = max((t["rays"] for t in totals.values()), default=0)
     return {name for name, t in totals.items() if t["rays"] == most}
+
+
+def beaten_at(results, noise=NOISE):
+    """Where another method beats the default: (workload, method, its share of the default's time), one a workload.
+
+    `results` are rows of one mode. The other has answered all rays, is wrong on no more of them, is faster by more than
+    noise, and the intervals of the two times do not meet.
+    """
+    beaten = []
+    for default in results:
+        if default["variant"] != "default" or not default.get("ns_per_ray"):
+            continue
+        rivals = [r for r in results
+                  if r["workload"] == default["workload"] and r is not default and r.get("ns_per_ray")
+                  and r["decided"] >= default["decided"] and r["wrong"] <= default["wrong"]
+                  and r["ns_per_ray"] * (1 + noise) < default["ns_per_ray"]
+                  and r["ns_per_ray_interval"][1] < default["ns_per_ray_interval"][0]]
+        if rivals:
+            best = min(rivals, key=lambda r: r["ns_per_ray"])
+            beaten.append((default["workload"], best["variant"], best["ns_per_ray"] / default["ns_per_ray"]))
+    return beaten

@@ -4,7 +4,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "chart"))
-from pareto import front, judged_on_all  # noqa: E402
+from pareto import beaten_at, front, judged_on_all  # noqa: E402
 
 
 class Front(unittest.TestCase):
@@ -30,6 +30,22 @@ class Front(unittest.TestCase):
     def test_what_was_judged_on_fewer_rays_is_left_out(self):
         self.assertEqual(judged_on_all({"a": {"rays": 9}, "b": {"rays": 8}, "c": {"rays": 9}}), {"a", "c"})
         self.assertEqual(judged_on_all({}), set())
+
+
+class Beaten(unittest.TestCase):
+    @staticmethod
+    def row(variant, ns, wrong=0, decided=9, spread=0.01):
+        return {"variant": variant, "workload": "w", "ns_per_ray": ns, "wrong": wrong, "decided": decided,
+                "ns_per_ray_interval": (ns * (1 - spread), ns * (1 + spread))}
+
+    def test_the_fastest_of_those_that_are_as_exact(self):
+        rows = [self.row("default", 10), self.row("a", 8), self.row("b", 5), self.row("c", 1, wrong=1)]
+        self.assertEqual(beaten_at(rows), [("w", "b", 0.5)])
+
+    def test_neither_noise_nor_wide_intervals_nor_fewer_rays(self):
+        self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 9.5)]), [])
+        self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 8, spread=0.3)]), [])
+        self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 5, decided=8)]), [])
 
 
 if __name__ == "__main__":
