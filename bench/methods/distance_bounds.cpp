@@ -34,7 +34,7 @@ bool is_paraboloid(const double* p) { return p[14] == 0 && p[15] != 0; }
 double slope(const kernel::SolidRecord& record, const double* p) {
     switch (record.type) {
         case SOLID_TGC:
-            return std::hypot(1, p[13]);
+            return p[16] == 0 ? std::hypot(1, p[13]) : 1;
         case SOLID_EHY:
             return std::sqrt(1 + 0.25 / (1 + 2 * p[12]));
         case SOLID_QUADRIC:
@@ -46,6 +46,22 @@ double slope(const kernel::SolidRecord& record, const double* p) {
         default:
             return 1;
     }
+}
+
+/// A cone or cylinder whose semi-axes a(z) and b(z) taper differently, all of it within x^2 + y^2 <= 1. With h the
+/// lesser of the two, g = |(x h / a, y h / b)| - h has the slope 1 across the axis. Along it one of the quotients
+/// changes, by no more than (|a'| + |b'|) / max(a, b), times x or y: so these are taken from the nearest point of the
+/// unit circle. (a and b are never both 0: they would taper alike.)
+double two_tapers(const double* p, double x, double y, double z) {
+    const double rho = std::sqrt(x * x + y * y), within = rho > 1 ? 1 / rho : 1, at = std::clamp(z, -1.0, 1.0);
+    const double a = std::max(0.0, p[12] + p[13] * at), b = std::max(0.0, p[14] + p[15] * at), h = std::min(a, b);
+    const double u = within * x * (h == a ? 1 : h / a), v = within * y * (h == b ? 1 : h / b);
+    // max(a, b) is least at an end, or where a = b.
+    double least = std::min(std::max(p[12] - p[13], p[14] - p[15]), std::max(p[12] + p[13], p[14] + p[15]));
+    const double meet = (p[14] - p[12]) / (p[13] - p[15]);
+    if (std::abs(meet) < 1) least = std::min(least, p[12] + p[13] * meet);
+    const double along = (std::abs(p[13]) + std::abs(p[15])) / least + std::max(std::abs(p[13]), std::abs(p[15]));
+    return std::max((std::sqrt(u * u + v * v) - h) / std::hypot(1, along), rho - 1);
 }
 
 }  // namespace
@@ -65,8 +81,9 @@ double DistanceBounds::local(const kernel::SolidRecord& record, const double* p,
     switch (record.type) {
         case SOLID_ELL:
             return std::sqrt(x * x + y * y + z * z) - 1;
-        case SOLID_TGC:  // the distance from the axis, less the radius there
-            return std::sqrt(x * x + y * y) - (p[12] + p[13] * z);
+        case SOLID_TGC:
+            if (p[16] != 0) return two_tapers(p, x, y, z);
+            return std::sqrt(x * x + y * y) - (p[12] + p[13] * z);  // from the axis, less the radius there
         case SOLID_TOR: {
             const double radial = std::sqrt(x * x + y * y) - 1;
             return std::sqrt(radial * radial + z * z) - p[12];
@@ -138,7 +155,6 @@ std::string type_without_distance(const CompiledScene& scene) {
         if (scene.solid_types >> type & 1) return type_name(type);
     for (const kernel::SolidRecord& record : scene.solids) {
         const double* p = scene.reals.data() + record.first_real;
-        if (record.type == SOLID_TGC && p[16] != 0) return "tgc with two tapers";
         if (record.type == SOLID_SUPERELL && !(p[12] >= 1 && p[14] >= 1)) return "superell with an exponent above 2";
     }
     return "";

@@ -49,8 +49,8 @@ TEST_CASE("a bound changes by no more than the distance moved, and is negative i
 
 TEST_CASE("solids without a bound are named") {
     CHECK(type_without_distance(compile(test::closed_forms(true))) == "hrt");
-    Scene tapers;
-    tapers.objects.emplace_back(test::solid("t", Tgc{{}, {0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0, 0.8, 0}}));
-    tapers.objects.emplace_back(test::region("r", {test::leg("t")}));
-    CHECK(type_without_distance(compile(tapers)) == "tgc with two tapers");
+    Scene star;
+    star.objects.emplace_back(test::solid("s", Superell{{}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2.5, 1}));
+    star.objects.emplace_back(test::region("r", {test::leg("s")}));
+    CHECK(type_without_distance(compile(star)) == "superell with an exponent above 2");
 }
