@@ -64,6 +64,7 @@ public:
                 known_[i].within = in_box(scene.solid_boxes[solids_[i]], ray, domain_);
             }
             signs_.resize(live_.nodes().size());
+            nearest_ = infinity;
             claimed_.clear();
             for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && search(root);
             const double piece = std::ldexp(domain_.to - domain_.from, -static_cast<int>(shared_.levels));
@@ -156,8 +157,11 @@ private:
                 before = sign;
                 is_open = false;
                 if (shared_.first_hits && !inside && !claimed_.empty() && claimed_.back().region == root.region &&
-                    claimed_.back().out > 0)
+                    claimed_.back().out > 0) {
+                    nearest_ = std::min(nearest_, claimed_.back().in + 2 * piece);
                     return true;
+                }
+                if (!inside && to > nearest_) return true;
             }
             ++number;
             while (level > 0 && !(number & 1)) {
@@ -178,6 +182,7 @@ private:
     std::vector<signed char> signs_;
     std::vector<Stretch> claimed_;
     Domain domain_;
+    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
     bool undecided_ = false;
     std::uint64_t asked_ = 0, pieces_ = 0, misses_ = 0, certified_ = 0;
 };

@@ -108,6 +108,7 @@ public:
         epsilon_ = shared_.epsilon / std::hypot(ray.direction.x, ray.direction.y, ray.direction.z);
         steps_ = 0;
         gives_up_ = false;
+        nearest_ = infinity;
         claimed_.clear();
         for (const LiveTrees::Root& root : live_.roots()) walk(root);
         all_steps_ += steps_;
@@ -199,9 +200,13 @@ private:
         while (!gives_up_ && s.next != Next::miss) {
             const Surface behind_it = s.t == infinity ? Surface{} : ask(root.operand, behind(s.t), 0);
             const bool enters = behind_it.next == Next::exit;
+            if (!inside && s.t > nearest_) return;
             if (inside && !enters) {
                 claimed_.push_back({root.region, in, s.t});
-                if (shared_.first_hits && s.t > 0) return;
+                if (shared_.first_hits && s.t > 0) {
+                    nearest_ = std::min(nearest_, in + 2 * epsilon_);
+                    return;
+                }
             }
             if (!inside && enters) in = s.t;
             inside = enters;
@@ -218,6 +223,7 @@ private:
     std::vector<Known> known_;
     std::vector<Stretch> claimed_;
     double epsilon_ = 0;
+    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
     std::uint64_t steps_ = 0, all_steps_ = 0;
     bool gives_up_ = false;
 };

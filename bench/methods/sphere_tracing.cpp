@@ -55,6 +55,7 @@ public:
         within_.clear();
         for (const std::uint32_t solid : solids_) within_.push_back(in_box(scene.solid_boxes[solid], ray, domain_));
         values_.resize(live_.nodes().size());
+        nearest_ = infinity;
         claimed_.clear();
         for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && march(root);
         if (answer.answered) answer.stretches = owners(claimed_, 2 * epsilon_, shared_.first_hits);
@@ -102,7 +103,7 @@ private:
         double t = d.from, f = bound(root, t), in = -infinity;
         bool inside = f < 0;
         std::uint64_t steps = 0;
-        while (t < d.to) {
+        while (t < d.to && (inside || t < nearest_)) {
             if (++steps > most_steps) return false;
             const double next = std::max(t + std::max(std::abs(f), epsilon_), std::nextafter(t, infinity));
             const double g = bound(root, next);
@@ -110,7 +111,10 @@ private:
                 const double at = t + (next - t) * (std::abs(f) / (std::abs(f) + std::abs(g)));
                 if (inside) {
                     claimed_.push_back({root.region, in, at});
-                    if (shared_.first_hits && at > 0) return true;
+                    if (shared_.first_hits && at > 0) {
+                        nearest_ = std::min(nearest_, in + 2 * epsilon_);
+                        return true;
+                    }
                 }
                 in = at;
                 inside = !inside;
@@ -130,6 +134,7 @@ private:
     std::vector<Stretch> claimed_;
     Ray ray_;
     Domain domain_;
+    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
     double speed_ = 1, epsilon_ = 0;
     std::uint64_t all_steps_ = 0;
 };
