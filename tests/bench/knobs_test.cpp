@@ -46,11 +46,23 @@ struct Judged {
     double error_mm = 0;
 };
 
-Judged judge(const Method& method, const Scene& scene, const std::vector<Ray>& rays, const TraceOptions& options) {
-    const std::vector<std::string> objects;
-    const CompiledScene compiled = compile(scene);
-    const std::vector<TrueRay> truth = true_rays(scene, objects, rays);
-    const auto tracer = method.prepare({scene, objects, compiled}, options);
+/// A scene, rays, and what they meet by 113-bit arithmetic.
+struct Trial {
+    Scene scene;
+    std::vector<Ray> rays;
+    std::vector<std::string> objects = {};
+    CompiledScene compiled = compile(scene);
+    std::vector<TrueRay> truth = true_rays(scene, objects, rays);
+
+    std::unique_ptr<Tracer> prepare(const Method& method, const TraceOptions& options) const {
+        return method.prepare({scene, objects, compiled}, options);
+    }
+};
+
+Judged judge(const Method& method, const Trial& trial, const TraceOptions& options) {
+    const std::vector<Ray>& rays = trial.rays;
+    const std::vector<TrueRay>& truth = trial.truth;
+    const auto tracer = trial.prepare(method, options);
     const std::vector<Answer> answers = tracer->trace(rays);
     REQUIRE(answers.size() == rays.size());
     CHECK(tracer->seconds() > 0);
@@ -83,25 +95,24 @@ Judged judge(const Method& method, const Scene& scene, const std::vector<Ray>& r
 }  // namespace
 
 TEST_CASE("with a finer knob a method is right, with a coarser one it is not, and one wrong operator is seen") {
-    const Scene scene = small();
-    const std::vector<Ray> rays = grid();
+    const Trial trial{small(), grid()};
     for (const Method& method : {kensler(), bisection(), sphere_tracing(), depth_buffer()}) {
         CAPTURE(method.name);
         TraceOptions options;
         options.knob = method.knob_values.back();
-        const Judged fine = judge(method, scene, rays, options);
+        const Judged fine = judge(method, trial, options);
         CHECK(fine.decided > 1600);
         CHECK(fine.wrong * 500 <= fine.decided);
-        CHECK(fine.answered == rays.size());
+        CHECK(fine.answered == trial.rays.size());
         CHECK(fine.error_mm < 1e-4);
         options.first_hits = true;
-        CHECK(judge(method, scene, rays, options).wrong * 500 <= fine.decided);
+        CHECK(judge(method, trial, options).wrong * 500 <= fine.decided);
         options.first_hits = false;
         options.planted = true;
-        CHECK(judge(method, scene, rays, options).wrong > 100);
+        CHECK(judge(method, trial, options).wrong > 100);
         options.planted = false;
         options.knob = method.name == "depth buffer" ? 10 : method.knob_values.front();
-        CHECK(judge(method, scene, rays, options).wrong > 100);
+        CHECK(judge(method, trial, options).wrong > 100);
     }
 }
 
@@ -132,12 +143,13 @@ TEST_CASE("every solid with a closed form is met by every method as by the libra
             const Vec3 a = test::point_near(box, random), b = test::point_near(box, random);
             rays.push_back({a, {b.x - a.x, b.y - a.y, b.z - a.z}});
         }
+    const Trial trial{scene, rays};
     for (const Method& method : {kensler(), bisection(), sphere_tracing(), depth_buffer()}) {
         CAPTURE(method.name);
         TraceOptions options;
         options.knob = method.knob_values.back();
-        const Judged fine = judge(method, scene, rays, options);
-        CHECK(fine.answered == rays.size());
+        const Judged fine = judge(method, trial, options);
+        CHECK(fine.answered == trial.rays.size());
         CHECK(fine.wrong == 0);
         CHECK(fine.error_mm < 1e-4);
     }
