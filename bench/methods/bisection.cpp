@@ -132,8 +132,14 @@ private:
             in = t;
             inside = true;
         };
+        bool seen = false;  // a stretch that ends behind the ray's start
+        const auto claim = [&](double since, double t) {
+            if (!(t - since > 2 * piece)) return;
+            claimed_.push_back({root.region, since, t});
+            seen = seen || t > 0;
+        };
         const auto leave = [&](double t) {
-            claimed_.push_back({root.region, in, t});
+            claim(in, t);
             inside = false;
         };
         for (;;) {
@@ -153,11 +159,10 @@ private:
                 const double middle = is_open ? 0.5 * (open_since + from) : from;
                 if (sign < 0 && before > 0) enter(from == domain_.from ? -infinity : middle);
                 if (sign > 0 && before < 0) leave(middle);
-                if (sign > 0 && before > 0 && is_open) claimed_.push_back({root.region, open_since, from});
+                if (sign > 0 && before > 0 && is_open) claim(open_since, from);
                 before = sign;
                 is_open = false;
-                if (shared_.first_hits && !inside && !claimed_.empty() && claimed_.back().region == root.region &&
-                    claimed_.back().out > 0) {
+                if (shared_.first_hits && !inside && seen) {
                     nearest_ = std::min(nearest_, claimed_.back().in + 2 * piece);
                     return true;
                 }

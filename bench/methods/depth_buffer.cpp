@@ -191,8 +191,10 @@ private:
                     found = true;
                 }
             }
-        if (found)
-            claimed_.push_back({root.region, depth == 0 ? -infinity : scale.depth(depth), scale.depth(depth + 1)});
+        if (found) {
+            const double in = depth == 0 ? -infinity : scale.depth(depth);
+            claimed_.push_back({root.region, in, std::max(scale.depth(depth + 1), std::nextafter(in, infinity))});
+        }
         return true;
     }
 

@@ -111,7 +111,7 @@ private:
                 const double at = t + (next - t) * (std::abs(f) / (std::abs(f) + std::abs(g)));
                 if (inside) {
                     claimed_.push_back({root.region, in, at});
-                    if (shared_.first_hits && at > 0) {
+                    if (shared_.first_hits && at > 0 && at - in > 2 * epsilon_) {
                         nearest_ = std::min(nearest_, in + 2 * epsilon_);
                         return true;
                     }

@@ -174,6 +174,31 @@ TEST_CASE("a method that searches refuses a solid without what it needs, by its 
                      "32 bits"));
 }
 
+TEST_CASE("a tree that is too deep for a method's stack, or too long for its normal form, is given up, not wrong") {
+    // ((s0 + s1 - s2) + s3 - s4) ..., all on one ray; the last is a union.
+    constexpr int links = 6001;
+    Scene scene;
+    std::vector<TreeNode> nodes;
+    for (int i = 0; i <= links; ++i) {
+        const std::string name = "s" + std::to_string(i);
+        scene.objects.emplace_back(test::block(name, {static_cast<double>(i), -1, -1}, {i + 1.5, 1, 1}));
+        nodes.push_back(leg(name));
+        if (i > 0) nodes.push_back(i % 2 ? test::either : less);
+    }
+    scene.objects.emplace_back(region("r", nodes));
+    const std::vector<std::string> objects;
+    const CompiledScene compiled = compile(scene);
+    const std::vector<Ray> ray{{{-1, 0, 0}, {1, 0, 0}}};
+    TraceOptions options = with_knob(1e-8);
+    CHECK_FALSE(kensler().prepare({scene, objects, compiled}, options)->trace(ray)[0].answered);
+    options.knob = 32;
+    const Answer layers = depth_buffer().prepare({scene, objects, compiled}, options)->trace(ray)[0];
+    CHECK(layers.answered);
+    CHECK(layers.stretches.size() == (links + 1) / 2);  // each odd one, and s0 before the first
+    options.first_hits = true;
+    CHECK_FALSE(depth_buffer().prepare({scene, objects, compiled}, options)->trace(ray)[0].answered);
+}
+
 TEST_CASE("bisection certifies a miss that it may") {
     const Scene scene = test::scene({ball("b"), region("r", {leg("b")})});
     const std::vector<std::string> objects;
