@@ -77,7 +77,9 @@ public:
         pieces_ += asked_ - asked_before;
     }
     std::map<std::string, std::uint64_t> counts() const {
-        return {{"pieces a ray", pieces_}, {"misses", misses_}, {"certified misses", certified_}};
+        return {{"pieces a ray", pieces_},
+                {"misses, share of rays", misses_},
+                {"certified misses, share of rays", certified_}};
     }
 
 private:

@@ -138,6 +138,7 @@ public:
         const bool starts_within = shared_.first_hits && std::any_of(depths_.begin(), depths_.end(),
                                                                      [&](auto depth) { return scale.kept(0) > depth; });
         answer.answered = !starts_within;
+        starts_within_ += starts_within;
         layers_of_ray_ = 0;
         for (const LiveTrees::Root& root : live_.roots()) {
             if (!answer.answered) return;
@@ -146,7 +147,10 @@ public:
         if (answer.answered) answer.stretches = owners(claimed_, 0, shared_.first_hits);
     }
     std::map<std::string, std::uint64_t> counts() const {
-        return {{"products a ray", products_}, {"layers a ray", layers_}};
+        return {{"products a ray", products_},
+                {"layers a ray", layers_},
+                {"start within the scene, share of rays", starts_within_},
+                {"normal form too long, share of rays", too_long_}};
     }
 
 private:
@@ -177,7 +181,10 @@ private:
     /// Goldfeather: the nearest face of the region's products. How far the region reaches behind it is not known; it
     /// is given one step. False: too many literals.
     bool nearest(const LiveTrees::Root& root, const DepthScale& scale) {
-        if (!normalize(live_.nodes(), root, most_literals, sum_)) return false;
+        if (!normalize(live_.nodes(), root, most_literals, sum_)) {
+            ++too_long_;
+            return false;
+        }
         products_ += sum_.size();
         std::uint64_t depth = 0;
         bool found = root.operand == FULL_SET;
@@ -254,7 +261,7 @@ private:
     std::vector<char> values_;        ///< by node
     std::vector<Product> sum_;
     std::vector<Stretch> claimed_;
-    std::uint64_t products_ = 0, layers_ = 0, layers_of_ray_ = 0;
+    std::uint64_t products_ = 0, layers_ = 0, layers_of_ray_ = 0, starts_within_ = 0, too_long_ = 0;
 };
 
 }  // namespace

@@ -206,7 +206,8 @@ TEST_CASE("bisection certifies a miss that it may") {
     const auto tracer = bisection().prepare({scene, objects, compiled}, with_knob(24));
     const auto certified = [&](double x) {
         tracer->trace({{{x, -5, 0}, {0, 1, 0}}});
-        return std::pair(tracer->figures().at("misses"), tracer->figures().at("certified misses"));
+        return std::pair(tracer->figures().at("misses, share of rays"),
+                         tracer->figures().at("certified misses, share of rays"));
     };
     CHECK(certified(0.5) == std::pair(0.0, 0.0));
     CHECK(certified(1 + 1e-6) == std::pair(1.0, 1.0));
