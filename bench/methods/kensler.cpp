@@ -72,7 +72,7 @@ using namespace kensler_table;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A stack of more levels than this, or more steps, and the ray is given up.
-constexpr int most_levels = 5'000;
+constexpr int most_levels = 2'000;
 constexpr std::uint64_t most_steps = 20'000'000;
 
 struct Surface {
