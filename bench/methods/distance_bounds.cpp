@@ -1,0 +1,163 @@
+#include "distance_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ray_forms.hpp"
+
+namespace csgrt::bench {
+namespace {
+
+/// The largest singular value: the root of the largest eigenvalue of M = L' L, by Cardano's formula in its
+/// trigonometric form, and a little more for its rounding.
+double largest_stretch(const double* l) {
+    double m[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) m[i][k] = l[i] * l[k] + l[3 + i] * l[3 + k] + l[6 + i] * l[6 + k];
+    const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3;
+    const double a = m[0][0] - mean, b = m[1][1] - mean, c = m[2][2] - mean;
+    const double off2 = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
+    const double spread = std::sqrt((a * a + b * b + c * c + 2 * off2) / 6);
+    if (!(spread > 0)) return std::sqrt(mean) * (1 + 1e-9);
+    const double determinant = a * (b * c - m[1][2] * m[1][2]) - m[0][1] * (m[0][1] * c - m[1][2] * m[0][2]) +
+                               m[0][2] * (m[0][1] * m[1][2] - b * m[0][2]);
+    const double cosine = std::clamp(0.5 * determinant / (spread * spread * spread), -1.0, 1.0);
+    // The arc cosine's error near -1 and 1 is the root of its argument's, and the cosine's of a third of it its square.
+    return std::sqrt(mean + 2 * spread * std::cos(std::acos(cosine) / 3)) * (1 + 1e-7);
+}
+
+/// max(|x|, |y|) as the p-norm grows with p; what the norm is at most on the unit circle.
+double norm_slope(double p) { return p >= 2 ? 1 : std::pow(2, 1 / p - 0.5); }
+
+bool is_paraboloid(const double* p) { return p[14] == 0 && p[15] != 0; }
+
+double slope(const kernel::SolidRecord& record, const double* p) {
+    switch (record.type) {
+        case SOLID_TGC:
+            return p[16] == 0 ? std::hypot(1, p[13]) : 1;
+        case SOLID_EHY:
+            return std::sqrt(1 + 0.25 / (1 + 2 * p[12]));
+        case SOLID_QUADRIC:
+            return is_paraboloid(p) ? 2 : std::sqrt(1 - p[14]);
+        case SOLID_ETO:
+            return std::sqrt(0.5 * (p[12] + p[14]) + std::hypot(0.5 * (p[12] - p[14]), p[13]));
+        case SOLID_SUPERELL:
+            return norm_slope(p[12]) * norm_slope(p[14]);
+        default:
+            return 1;
+    }
+}
+
+/// A cone or cylinder whose semi-axes a(z) and b(z) taper differently, all of it within x^2 + y^2 <= 1. With h the
+/// lesser of the two, g = |(x h / a, y h / b)| - h has the slope 1 across the axis. Along it one of the quotients
+/// changes, by no more than (|a'| + |b'|) / max(a, b), times x or y: so these are taken from the nearest point of the
+/// unit circle. (a and b are never both 0: they would taper alike.)
+double two_tapers(const double* p, double x, double y, double z) {
+    const double rho = std::sqrt(x * x + y * y), within = rho > 1 ? 1 / rho : 1, at = std::clamp(z, -1.0, 1.0);
+    const double a = std::max(0.0, p[12] + p[13] * at), b = std::max(0.0, p[14] + p[15] * at), h = std::min(a, b);
+    const double u = within * x * (h == a ? 1 : h / a), v = within * y * (h == b ? 1 : h / b);
+    // max(a, b) is least at an end, or where a = b.
+    double least = std::min(std::max(p[12] - p[13], p[14] - p[15]), std::max(p[12] + p[13], p[14] + p[15]));
+    const double meet = (p[14] - p[12]) / (p[13] - p[15]);
+    if (std::abs(meet) < 1) least = std::min(least, p[12] + p[13] * meet);
+    const double along = (std::abs(p[13]) + std::abs(p[15])) / least + std::max(std::abs(p[13]), std::abs(p[15]));
+    return std::max((std::sqrt(u * u + v * v) - h) / std::hypot(1, along), rho - 1);
+}
+
+}  // namespace
+
+DistanceBounds::DistanceBounds(const CompiledScene& scene) : scene_(scene) {
+    for (const kernel::SolidRecord& record : scene.solids) {
+        if (record.type == SOLID_ARB || record.type == SOLID_HALF) {
+            factor_.push_back(1);
+            continue;
+        }
+        const double* p = scene.reals.data() + record.first_real;
+        factor_.push_back(1 / ((1 + 1e-12) * slope(record, p) * largest_stretch(p + 3)));
+    }
+}
+
+double DistanceBounds::local(const kernel::SolidRecord& record, const double* p, double x, double y, double z) const {
+    switch (record.type) {
+        case SOLID_ELL:
+            return std::sqrt(x * x + y * y + z * z) - 1;
+        case SOLID_TGC:
+            if (p[16] != 0) return two_tapers(p, x, y, z);
+            return std::sqrt(x * x + y * y) - (p[12] + p[13] * z);  // from the axis, less the radius there
+        case SOLID_TOR: {
+            const double radial = std::sqrt(x * x + y * y) - 1;
+            return std::sqrt(radial * radial + z * z) - p[12];
+        }
+        case SOLID_EHY: {  // sqrt(rho^2 + k c^2) - sqrt(k) zeta
+            const double root_k = std::sqrt(1 / (1 + 2 * p[12])), gap = root_k * p[12];
+            return std::sqrt(x * x + y * y + gap * gap) - root_k * (p[12] + 0.5 * (1 - z));
+        }
+        case SOLID_QUADRIC: {
+            const double rho2 = p[12] * x * x + p[13] * y * y;
+            // A paraboloid: the distance from the focus, less that from the directrix, w below the vertex.
+            if (is_paraboloid(p)) {
+                const double w = 1 - z;
+                return std::sqrt(rho2 + (w - 0.25) * (w - 0.25)) - (w + 0.25);
+            }
+            const double root_k = std::sqrt(-p[14]);
+            if (p[12] == 0) {  // hyperbolic cylinder: y^2 + k c^2 - k (z + c)^2, c = linear / (2 qz)
+                const double c = p[15] / (2 * p[14]), gap = root_k * c;
+                return std::sqrt(rho2 + gap * gap) - root_k * std::abs(z + c);
+            }
+            return std::sqrt(rho2) - std::sqrt(-p[14] * z * z - p[16]);  // hyperboloid of one sheet
+        }
+        case SOLID_ETO: {
+            const double radial = std::sqrt(x * x + y * y) - 1;
+            const double form = p[12] * radial * radial + 2 * p[13] * radial * z + p[14] * z * z;
+            return std::sqrt(std::max(0.0, form)) - 1;
+        }
+        case SOLID_PART: {
+            const double rho = std::sqrt(x * x + y * y);
+            const auto ball = [&](double center, double radius) {
+                return std::sqrt(rho * rho + (z - center) * (z - center)) - radius;
+            };
+            if (!(p[18] < p[19])) return std::min(ball(p[12], p[13]), ball(p[14], p[15]));
+            // Along the cone's side, in its section: nearest to one ball, to the side, or to the other.
+            const double secant = std::hypot(1, p[17]), along = (p[17] * rho + z);
+            const auto foot = [&](double at) { return p[17] * (p[16] + p[17] * at) + at; };
+            if (along <= foot(p[18])) return ball(p[12], p[13]);
+            if (along >= foot(p[19])) return ball(p[14], p[15]);
+            return (rho - p[16] - p[17] * z) / secant;
+        }
+        default: {  // SOLID_SUPERELL: a norm, less 1
+            const double q = std::pow(std::pow(std::abs(x), p[12]) + std::pow(std::abs(y), p[12]), p[13]);
+            return std::pow(q + std::pow(std::abs(z), p[14]), 1 / p[14]) - 1;
+        }
+    }
+}
+
+double DistanceBounds::at(std::uint32_t solid, const Vec3& point) const {
+    const kernel::SolidRecord& record = scene_.solids[solid];
+    double f = -HUGE_VAL;
+    if (record.type != SOLID_ARB && record.type != SOLID_HALF) {
+        const double* p = scene_.reals.data() + record.first_real;
+        const double dx = point.x - p[0], dy = point.y - p[1], dz = point.z - p[2];
+        f = factor_[solid] * local(record, p, p[3] * dx + p[4] * dy + p[5] * dz, p[6] * dx + p[7] * dy + p[8] * dz,
+                                   p[9] * dx + p[10] * dy + p[11] * dz);
+    }
+    for (std::uint32_t i = 0; i < record.plane_count; ++i) {
+        const kernel::PlaneRef ref = scene_.words[record.first_plane + i];
+        const kernel::PlaneRecord& plane = scene_.planes[ref >> 1];
+        const double above = plane.nx * point.x + plane.ny * point.y + plane.nz * point.z - plane.d;
+        f = std::max(f, ref & 1 ? -above : above);
+    }
+    return f;
+}
+
+std::string type_without_distance(const CompiledScene& scene) {
+    for (const std::uint32_t type :
+         {SOLID_HRT, SOLID_METABALL, SOLID_MESH, SOLID_PLATE, SOLID_EXTRUDE, SOLID_REVOLVE, SOLID_CROSSED_ETO})
+        if (scene.solid_types >> type & 1) return type_name(type);
+    for (const kernel::SolidRecord& record : scene.solids) {
+        const double* p = scene.reals.data() + record.first_real;
+        if (record.type == SOLID_SUPERELL && !(p[12] >= 1 && p[14] >= 1)) return "superell with an exponent above 2";
+    }
+    return "";
+}
+
+}  // namespace csgrt::bench

@@ -1,0 +1,176 @@
+// Sphere tracing with a Lipschitz bound.
+//
+// Theory: a function that changes by no more than the distance moved keeps its sign within |f| of a point. Union,
+// intersection and complement, as min(f, g), max(f, g) and -f, keep that property, so a tree has such a bound when its
+// solids have (distance_bounds.hpp). From its start in the scene's sphere the ray goes on by |f|, inside a region as
+// well as outside, but never by less than epsilon: there a surface is crossed, and f changes its sign. The end lies
+// where the straight line between the last two values is 0.
+//
+// The sources stop at |f| < epsilon and call that a hit; a sign that changes is the stricter test, and a ray that
+// passes within epsilon of a surface does not meet it. Two changes within one step are not seen.
+//
+// Source: Hart, "Sphere tracing", 1996; Kalra and Barr 1989 for bounds of slopes. Cost: steps, about log(1 / epsilon) a
+// surface that is met at an angle, 1 / epsilon where the ray runs along one. Fails on what is thinner than epsilon;
+// where rays run along surfaces within epsilon it gives up.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "distance_bounds.hpp"
+#include "each_ray.hpp"
+#include "list.hpp"
+#include "ray_domain.hpp"
+#include "region_trees.hpp"
+#include "scene_rays.hpp"
+#include "stretches.hpp"
+
+namespace csgrt::bench {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// More steps than this in one region, and the ray is given up.
+constexpr std::uint64_t most_steps = 50'000;
+
+struct Shared {
+    SceneRays rays;
+    RegionTrees trees;
+    DistanceBounds bounds;
+    double epsilon;  ///< millimetres
+    bool first_hits;
+};
+
+class Worker {
+public:
+    explicit Worker(const Shared& shared) : shared_(shared), live_(shared.trees) {}
+
+    void trace(const Ray& ray, Answer& answer) {
+        shared_.rays.candidates(ray, -infinity, solids_);
+        live_.build(solids_);
+        if (live_.roots().empty()) return;
+        const CompiledScene& scene = shared_.rays.scene();
+        ray_ = ray;
+        speed_ = std::hypot(ray.direction.x, ray.direction.y, ray.direction.z);
+        epsilon_ = shared_.epsilon / speed_;
+        domain_ = search_domain(scene, ray);
+        within_.clear();
+        for (const std::uint32_t solid : solids_) within_.push_back(in_box(scene.solid_boxes[solid], ray, domain_));
+        values_.resize(live_.nodes().size());
+        nearest_ = infinity;
+        claimed_.clear();
+        for (const LiveTrees::Root& root : live_.roots()) answer.answered = answer.answered && march(root);
+        if (answer.answered) answer.stretches = owners(claimed_, 2 * epsilon_, shared_.first_hits);
+    }
+    std::map<std::string, std::uint64_t> counts() const { return {{"steps a ray", all_steps_}}; }
+
+private:
+    double operand_bound(Operand operand) const {
+        if (operand >= EMPTY_SET) return operand == EMPTY_SET ? infinity : -infinity;
+        return operand & 1 ? -values_[operand >> 1] : values_[operand >> 1];
+    }
+
+    /// The bound of the region at t, in units of the ray's parameter.
+    double bound(const LiveTrees::Root& root, double t) {
+        ++all_steps_;
+        const Vec3 &o = ray_.origin, &d = ray_.direction;
+        const Vec3 point{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z};
+        for (std::uint32_t i = root.first; i < root.last; ++i) {
+            const LiveTrees::Node& node = live_.nodes()[i];
+            if (node.gate == Gate::leaf) {
+                values_[i] = shared_.bounds.at(solids_[node.solid], point);
+                continue;
+            }
+            const double a = operand_bound(node.left), b = operand_bound(node.right);
+            values_[i] = node.gate == Gate::union_         ? std::min(a, b)
+                         : node.gate == Gate::intersection ? std::max(a, b)
+                                                           : std::max(std::min(a, b), -std::max(a, b));
+        }
+        return operand_bound(root.operand) / speed_;
+    }
+
+    /// False: too many steps.
+    bool march(const LiveTrees::Root& root) {
+        Domain d{infinity, -infinity};
+        for (std::uint32_t i = root.first; i < root.last; ++i) {
+            const LiveTrees::Node& node = live_.nodes()[i];
+            if (node.gate != Gate::leaf || within_[node.solid].empty()) continue;
+            d = {std::min(d.from, within_[node.solid].from), std::max(d.to, within_[node.solid].to)};
+        }
+        if (root.operand == FULL_SET) d = domain_;
+        if (d.empty()) return true;
+        // One look from the middle: most rays through a region's boxes pass it at a distance.
+        const double half = 0.5 * (d.to - d.from);
+        if (bound(root, d.from + half) > half) return true;
+        double t = d.from, f = bound(root, t), in = -infinity;
+        bool inside = f < 0;
+        std::uint64_t steps = 0;
+        while (t < d.to && (inside || t < nearest_)) {
+            if (++steps > most_steps) return false;
+            const double next = std::max(t + std::max(std::abs(f), epsilon_), std::nextafter(t, infinity));
+            const double g = bound(root, next);
+            if ((g < 0) != inside) {
+                const double at = t + (next - t) * (std::abs(f) / (std::abs(f) + std::abs(g)));
+                if (inside) {
+                    claimed_.push_back({root.region, in, at});
+                    if (shared_.first_hits && at > 0 && at - in > 2 * epsilon_) {
+                        nearest_ = std::min(nearest_, in + 2 * epsilon_);
+                        return true;
+                    }
+                }
+                in = at;
+                inside = !inside;
+            }
+            t = next;
+            f = g;
+        }
+        if (inside) claimed_.push_back({root.region, in, infinity});
+        return true;
+    }
+
+    const Shared& shared_;
+    LiveTrees live_;
+    std::vector<std::uint32_t> solids_;
+    std::vector<Domain> within_;  ///< by candidate: where the ray is in its box
+    std::vector<double> values_;  ///< by node
+    std::vector<Stretch> claimed_;
+    Ray ray_;
+    Domain domain_;
+    double nearest_ = infinity;  ///< first hits: what begins behind it does not matter
+    double speed_ = 1, epsilon_ = 0;
+    std::uint64_t all_steps_ = 0;
+};
+
+}  // namespace
+
+Method sphere_tracing() {
+    Method m;
+    m.name = "sphere tracing";
+    m.source = "Hart 1996";
+    m.about =
+        "Goes on along the ray by a lower bound of the distance to the region's surface, at least by epsilon. For "
+        "speed: the hierarchy's candidates, subtrees without candidates left out, each region only in its solids' "
+        "boxes, "
+        "a look from the middle of them first, and each solid's own bound.";
+    m.breaks =
+        "slivers and degenerate: what is thinner than epsilon is stepped over. tangent, pinch: what is met for less "
+        "than "
+        "epsilon, too. far_origin: points of the ray are rounded. It gives up rays along surfaces (coplanar, "
+        "coincident, "
+        "edges).";
+    m.knob = "epsilon, diameters of the scene's sphere";
+    m.knob_values = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+    m.exact = false;
+    m.prepare = [](const Subject& subject, const TraceOptions& options) -> std::unique_ptr<Tracer> {
+        const std::string missing = type_without_distance(subject.compiled);
+        if (!missing.empty())
+            throw Error(Status::usage,
+                        "sphere tracing: there is no bound of the distance to a solid of type " + missing);
+        const double radius = subject.compiled.radius;
+        auto shared = std::make_unique<Shared>(
+            Shared{SceneRays(subject.compiled), RegionTrees(subject.compiled, options.planted),
+                   DistanceBounds(subject.compiled), options.knob * (radius > 0 ? 2 * radius : 1), options.first_hits});
+        return std::make_unique<EachRay<Shared, Worker>>(std::move(shared), options.threads);
+    };
+    return m;
+}
+
+}  // namespace csgrt::bench
