@@ -1,9 +1,12 @@
 #include "method.hpp"
+#include "registry.hpp"
 
 namespace csgrt::bench {
 
 const std::vector<Method>& methods() {
-    static const std::vector<Method> all = {};
+    static const std::vector<Method> all = {
+        roth(),
+    };
     return all;
 }
 
