@@ -5,7 +5,7 @@ namespace csgrt::bench {
 
 const std::vector<Method>& methods() {
     static const std::vector<Method> all = {
-        roth(),
+        roth(), bit_sequential(), bit_parallel(), status_tree(), blist(), pruning(),
     };
     return all;
 }

@@ -6,5 +6,10 @@
 namespace csgrt::bench {
 
 Method roth();
+Method bit_sequential();
+Method bit_parallel();
+Method status_tree();
+Method blist();
+Method pruning();
 
 }  // namespace csgrt::bench
