@@ -145,7 +145,7 @@ std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& opti
     ListTable leaves = ListTable::of(places);
     DeviceMethod method{
         .name = "bit-parallel",
-        .files = {"covered.h", "bit_parallel.cl", "each_partition.h"},
+        .kernel = "evaluate_bit_parallel",
         .tables = {std::move(firsts), std::move(words), std::move(leaves.firsts), std::move(leaves.values)},
         .figures = {{"words a region", pieces / std::max(regions, 1.0)}}};
     return trace_on_device(subject, options, std::move(method));

@@ -45,7 +45,7 @@ std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& opti
         code.end_list();
     }
     DeviceMethod method{.name = "bit-sequential",
-                        .files = {"covered.h", "bit_sequential.cl", "each_partition.h"},
+                        .kernel = "evaluate_bit_sequential",
                         .tables = {std::move(code.firsts), std::move(code.values)},
                         .figures = {}};
     return trace_on_device(subject, options, std::move(method));

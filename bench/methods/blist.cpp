@@ -110,7 +110,7 @@ std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& opti
         firsts.push_back(placed(turned(first)));
     }
     DeviceMethod method{.name = "Blist",
-                        .files = {"covered.h", "blist.cl", "each_partition.h"},
+                        .kernel = "evaluate_blist",
                         .tables = {std::move(firsts), std::move(words)},
                         .figures = {{"bits a label", static_cast<double>(std::bit_width(most_labels - 1))},
                                     {"leaves in lists", static_cast<double>(leaf_count)}}};

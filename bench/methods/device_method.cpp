@@ -32,12 +32,22 @@ std::string compiling_device(const std::string& method, const std::string& choic
     return std::to_string(chosen);
 }
 
-std::string source_of(const std::vector<std::string>& files) {
-    std::string source;
-    for (const std::string& name : files)
+/// One text for all methods: where a driver keeps what it has compiled, the kernels in front are compiled once.
+std::string source() {
+    std::string text;
+    const auto add = [&](const std::string& name) {
         for (const KernelFile& file : method_kernel_files())
-            if (name == file.name) source += "#line 1 \"bench/methods/kernels/" + name + "\"\n" + file.text;
-    return source;
+            if (name == file.name) text += "#line 1 \"bench/methods/kernels/" + name + "\"\n" + file.text;
+    };
+    add("covered.h");
+    for (const std::string name : {"bit_sequential", "bit_parallel", "blist"}) {
+        add(name + ".cl");
+        text += "#define KERNEL evaluate_" + name + "\n#define REGION_HOLDS " + name + "_holds\n";
+        add("each_partition.h");
+        text += "#undef KERNEL\n#undef REGION_HOLDS\n";
+    }
+    add("status_tree.cl");
+    return text;
 }
 
 /// All tables in one buffer, behind the places where they begin.
@@ -69,7 +79,7 @@ public:
           tables_(device_, "the method's tables", tables_of(scene_, method_)),
           memory_(device_, "the method's memory of rays"),
           batch_(device_),
-          evaluation_{"evaluate_method", source_of(method_.files),
+          evaluation_{method_.kernel, source(),
                       [this](Kernel& kernel, const PartitionPass::Input& input, PartitionMemory& memory,
                              std::uint32_t segments) { return launch(kernel, input, memory, segments); }},
           pass_(device_, scene_, *kernels_, Settings{}, &evaluation_) {

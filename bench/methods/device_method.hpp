@@ -14,7 +14,7 @@ namespace csgrt::bench {
 
 struct DeviceMethod {
     std::string name;                                ///< for messages
-    std::vector<std::string> files;                  ///< of bench/methods/kernels, in order; one has evaluate_method
+    std::string kernel;                              ///< of the files that source() in device_method.cpp joins
     std::vector<std::vector<std::uint32_t>> tables;  ///< the method's own, from table 2 on (kernels/covered.h)
     bool item_a_ray = false;                         ///< else a work-item is a node of kernel 3's lists
     std::size_t ray_words = 0;                       ///< of memory that a ray has, 0 at first

@@ -61,7 +61,7 @@ std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& opti
     const auto words = static_cast<std::uint32_t>(initial.size());
     ListTable places = ListTable::of(leaves);
     DeviceMethod method{.name = "status tree",
-                        .files = {"covered.h", "status_tree.cl"},
+                        .kernel = "evaluate_status_tree",
                         .tables = {std::move(above),
                                    std::move(initial),
                                    std::move(places.firsts),

@@ -17,7 +17,7 @@
 #define PIECE_WORDS 13u
 #define STACK_WORDS 4u
 
-static u32 region_holds(__global const u32* tables, const coverage* c, u32 region) {
+static u32 bit_parallel_holds(__global const u32* tables, const coverage* c, u32 region) {
     __global const u32* const firsts = tables + tables[4];
     __global const u32* const leaves = tables + tables[5];
     const u32 end = tables[tables[2] + region + 1];

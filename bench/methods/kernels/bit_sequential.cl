@@ -2,12 +2,7 @@
 // words in postorder: 2 bits the gate, then for a leaf 1 bit the complement and 29 bits the solid.
 //
 // Operands that hold more leaves come first, so a stack of 32 bits does for 2^31 leaves.
-#define GATE_SHIFT 30
-#define GATE_LEAF 0u
-#define GATE_AND 1u
-#define GATE_OR 2u
-
-static u32 region_holds(__global const u32* tables, const coverage* c, u32 region) {
+static u32 bit_sequential_holds(__global const u32* tables, const coverage* c, u32 region) {
     __global const u32* const firsts = tables + tables[2];
     __global const u32* const words = tables + tables[3];
     const u32 end = firsts[region + 1];

@@ -4,7 +4,7 @@
 #define BLIST_TRUE 0xffffffffu
 #define BLIST_FALSE 0xfffffffeu
 
-static u32 region_holds(__global const u32* tables, const coverage* c, u32 region) {
+static u32 blist_holds(__global const u32* tables, const coverage* c, u32 region) {
     __global const u32* const leaves = tables + tables[3];
     u32 at = tables[tables[2] + region];
     while (at < BLIST_FALSE) {

@@ -6,6 +6,12 @@
 //   2 ...  the method's own
 #define LISTED_SOLIDS 32u
 
+// In the two high bits of a word; any other gate is xor.
+#define GATE_SHIFT 30
+#define GATE_LEAF 0u
+#define GATE_AND 1u
+#define GATE_OR 2u
+
 typedef struct {
     __global const End* ends;
     __global const u32* bits;  // of segments

@@ -10,11 +10,8 @@
 //   5  the leaves' nodes
 //   6  how many words of `memory` a ray has
 //   7  of each region its root
-#define ABOVE_SHIFT 30
 #define ABOVE_MASK 0x3fffffffu
 #define GATE_ROOT 0u
-#define GATE_AND 1u
-#define GATE_OR 2u
 
 typedef struct {
     __global const u32* tables;
@@ -37,7 +34,7 @@ static void flip_solid(status* s, u32 solid) {
         do {
             const u32 above = nodes[node];
             s->state[node >> 5] ^= 1u << (node & 31u);
-            gate = above >> ABOVE_SHIFT;
+            gate = above >> GATE_SHIFT;
             if (gate == GATE_ROOT) {
                 const u32 region = above & ABOVE_MASK;
                 if (status_of(s, node)) {
@@ -103,9 +100,10 @@ static void change(status* s, __global const End* ends, u32 segments, __global c
     }
 }
 
-__kernel void evaluate_method(__global const Frame* frame, __global const RayCount* offsets,
-                              __global const End* all_ends, __global const u32* all_bits,
-                              __global PartitionNode* all_nodes, __global const u32* tables, __global u32* memory) {
+__kernel void evaluate_status_tree(__global const Frame* frame, __global const RayCount* offsets,
+                                   __global const End* all_ends, __global const u32* all_bits,
+                                   __global PartitionNode* all_nodes, __global const u32* tables,
+                                   __global u32* memory) {
     const u32 ray = (u32)get_global_id(0);
     RayCount offset;
     coverage c;
