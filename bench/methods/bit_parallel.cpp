@@ -8,8 +8,8 @@
 // and those that stay deep (a difference in a union in a difference ...) are cut into pieces of at most 5 levels, from
 // the leaves up, a word each. What words lack in width costs a word more, and what they lack in depth a word for
 // each 5 levels.
-// For its speed: leaf bits are set from the covering solids, which know where they stand, instead of asked leaf by
-// leaf; padding is an or with 0 and takes no mask; pieces' results stay in registers.
+// For its speed: leaf bits are set from the covering solids, which know where they stand, or asked leaf by leaf,
+// whichever are fewer; padding is an or with 0 and takes no mask; pieces' results stay in registers.
 // Fails where trees are large: all pieces of a region are evaluated for each partition, whatever covers it.
 #include <algorithm>
 
@@ -20,7 +20,7 @@ namespace csgrt::bench {
 namespace {
 
 // As in kernels/bit_parallel.cl.
-constexpr std::uint32_t piece_words = 13, most_results = 128, most_levels = 5;
+constexpr std::uint32_t piece_words = 15, most_results = 128, most_levels = 5;
 
 /// Cuts one tree into pieces.
 class Pieces {
@@ -43,8 +43,10 @@ public:
             throw Error(Status::usage, "bit-parallel: a tree keeps more than 128 results of its pieces at a time");
     }
 
-    /// Appends the pieces' words, those that are needed first, and the leaves' places to those of their solids.
-    void write(std::vector<std::uint32_t>& words, std::vector<std::vector<std::uint32_t>>& places) const {
+    /// Appends the pieces' words, those that are needed first, the leaves' places to those of their solids, and the
+    /// pieces' solids.
+    void write(std::vector<std::uint32_t>& words, std::vector<std::vector<std::uint32_t>>& places,
+               std::vector<std::uint32_t>& solids) const {
         std::vector<std::uint32_t> order, rest{tree_.root()}, leaves;
         while (!rest.empty()) {  // backwards: a piece, then those it needs from right to left
             order.push_back(rest.back());
@@ -61,6 +63,7 @@ public:
             words.resize(first + piece_words);
             std::uint32_t* const w = words.data() + first;
             w[2] = levels_of(root);
+            w[14] = static_cast<std::uint32_t>(solids.size());
             for_leaves(
                 root,
                 [&](std::uint32_t node, std::uint32_t bit) {
@@ -70,7 +73,9 @@ public:
                         return;
                     }
                     if (leaf.complement) w[0] |= 1u << bit;
+                    w[13] |= 1u << bit;
                     places[leaf.left].push_back(piece << 5 | bit);
+                    solids.push_back(leaf.left);
                 },
                 [&](std::uint32_t node, std::uint32_t bit) {
                     const std::uint32_t level = levels_of(node);
@@ -134,20 +139,20 @@ private:
 };
 
 std::unique_ptr<Tracer> prepare(const Subject& subject, const TraceOptions& options) {
-    std::vector<std::uint32_t> firsts{0}, words;
+    std::vector<std::uint32_t> firsts{0}, words, solids;
     std::vector<std::vector<std::uint32_t>> places(subject.compiled.solids.size());
     for (const PositiveTree& tree : positive_trees(subject.compiled, Grouping::least_height, options.planted)) {
-        if (!tree.nodes.empty()) Pieces(tree).write(words, places);
+        if (!tree.nodes.empty()) Pieces(tree).write(words, places, solids);
         firsts.push_back(static_cast<std::uint32_t>(words.size() / piece_words));
     }
     for (std::vector<std::uint32_t>& list : places) std::sort(list.begin(), list.end());
     const double pieces = firsts.back(), regions = static_cast<double>(firsts.size() - 1);
     ListTable leaves = ListTable::of(places);
-    DeviceMethod method{
-        .name = "bit-parallel",
-        .kernel = "evaluate_bit_parallel",
-        .tables = {std::move(firsts), std::move(words), std::move(leaves.firsts), std::move(leaves.values)},
-        .figures = {{"words a region", pieces / std::max(regions, 1.0)}}};
+    DeviceMethod method{.name = "bit-parallel",
+                        .kernel = "evaluate_bit_parallel",
+                        .tables = {std::move(firsts), std::move(words), std::move(leaves.firsts),
+                                   std::move(leaves.values), std::move(solids)},
+                        .figures = {{"words a region", pieces / std::max(regions, 1.0)}}};
     return trace_on_device(subject, options, std::move(method));
 }
 
@@ -159,7 +164,7 @@ Method bit_parallel() {
             .about =
                 "All gates of a level are evaluated by one operation on words. Chains are flattened first; "
                 "trees that are deeper than 5 levels are cut into words. Leaf bits are set from the covering "
-                "solids, which know their places.",
+                "solids, which know their places, or asked one by one, whichever are fewer.",
             .breaks =
                 "deep_trees: chains of differing operators cannot be flattened, so every partition evaluates a "
                 "word for each 5 nodes. No family makes it wrong.",

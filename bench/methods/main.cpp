@@ -6,10 +6,11 @@
 //
 // SCENE: a file, or stress:FAMILY:SEED with the rays of that scene of the stress suite (bench/stress/README.md).
 // --size: a picture of the scene's view of N x N rays (256). --rays: a file for `csgrt shoot`.
-// Times are those of the fastest of seven runs: whatever else the machine does disturbs the others more.
+// Times are those of the fastest of seven runs or more (a second of them).
 // --compare: how many rays have other regions than the CPU reference; and, for methods with kernels, how long csgrt's
 // own take.
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <limits>
@@ -28,7 +29,13 @@ namespace {
 using namespace csgrt;
 using namespace csgrt::bench;
 
-constexpr int timed_runs = 7;
+/// Calls run() at least seven times, and until a second has passed. Where a machine is shared, the fastest run counts:
+/// whatever else the machine does disturbs the others more, and a run of more than some milliseconds most of all.
+template <class Run>
+void repeat(const Run& run) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 7 || std::chrono::steady_clock::now() - start < std::chrono::seconds(1); ++i) run();
+}
 
 struct Arguments {
     std::string method, scene, rays;
@@ -236,13 +243,12 @@ void print_own_times(const Job& job, const TraceOptions& options) {
     settings.wait_for_device = true;
     Renderer renderer(job.scene, job.objects, settings);
     double before = std::numeric_limits<double>::infinity(), evaluate = before;
-    for (int i = 0; i <= timed_runs; ++i) {
+    repeat([&] {
         renderer.shoot(job.rays);
-        if (i == 0) continue;  // the first call allocates
         const auto& ms = renderer.statistics().ms;
         before = std::min(before, ms.count_hits + ms.scan + ms.store_segments + ms.weave);
         evaluate = std::min(evaluate, ms.evaluate);
-    }
+    });
     std::printf("csgrt on %s: kernel 4 %.4g ms, kernels 1 to 3 %.4g ms\n", renderer.statistics().device.c_str(),
                 evaluate, before);
 }
@@ -264,12 +270,12 @@ Status run(const Arguments& arguments) {
     const std::vector<Answer> answers = tracer->trace(job.rays);  // compiles kernels and allocates
     double seconds = std::numeric_limits<double>::infinity();
     std::map<std::string, double> figures;
-    for (int i = 0; i < timed_runs; ++i) {
+    repeat([&] {
         tracer->trace(job.rays);
-        if (tracer->seconds() >= seconds) continue;
+        if (tracer->seconds() >= seconds) return;
         seconds = tracer->seconds();
         figures = tracer->figures();
-    }
+    });
     std::size_t given_up = 0, stretches = 0;
     for (const Answer& answer : answers) {
         given_up += !answer.answered;

@@ -10,11 +10,13 @@
 //   2  of each region its first piece, and one behind the last; pieces that are needed stand before those that need
 //   them 3  of each piece PIECE_WORDS: complemented leaves, leaves that are pieces' results, levels, then of each level
 //   the
-//      mask of and and of xor; all other bits are or, which is what padding needs: its bits are 0
+//      mask of and and of xor (all other bits are or, which is what padding needs: its bits are 0); leaves that are
+//      solids, and where these begin in table 6
 //   4  of each solid where its leaves begin, and one behind the last
 //   5  the leaves: piece << 5 | bit, ascending
+//   6  of each piece its solids, by ascending bit
 // Results of pieces stand on a stack of bits.
-#define PIECE_WORDS 13u
+#define PIECE_WORDS 15u
 #define STACK_WORDS 4u
 
 static u32 bit_parallel_holds(__global const u32* tables, const coverage* c, u32 region) {
@@ -27,10 +29,16 @@ static u32 bit_parallel_holds(__global const u32* tables, const coverage* c, u32
         const u32 levels = words[2];
         u32 results = words[1], at = 0, solid, level;
         s = 0;
-        while ((solid = next_solid(c, &at)) != NONE) {
-            const u32 last = firsts[solid + 1];
-            u32 leaf = lower_bound(leaves, firsts[solid], last, piece << 5);
-            for (; leaf < last && leaves[leaf] >> 5 == piece; ++leaf) s |= 1u << (leaves[leaf] & 31u);
+        if (c->count < popcount(words[13])) {
+            while ((solid = next_solid(c, &at)) != NONE) {
+                const u32 last = firsts[solid + 1];
+                u32 leaf = lower_bound(leaves, firsts[solid], last, piece << 5);
+                for (; leaf < last && leaves[leaf] >> 5 == piece; ++leaf) s |= 1u << (leaves[leaf] & 31u);
+            }
+        } else {
+            __global const u32* next = tables + tables[6] + words[14];
+            u32 bits = words[13];
+            for (; bits; bits &= bits - 1) s |= solid_covers(c, *next++) << lowest(bits);
         }
         while (results) {  // the last piece's result is that of the highest bit
             const u32 bit = 31u - clz(results);
