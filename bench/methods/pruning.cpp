@@ -149,15 +149,13 @@ public:
     /// `solids`: those that cover, ascending, each once. `by_partition`: subtrees without any are not walked.
     bool holds(const Tree& tree, const std::vector<std::uint32_t>& solids, bool by_partition) {
         if (tree.nodes.empty()) return false;
-        covered_.clear();
-        for (const std::uint32_t solid : solids) {
-            auto at = std::lower_bound(tree.places.begin(), tree.places.end(), std::pair(solid, 0u));
-            for (; at != tree.places.end() && at->first == solid; ++at) covered_.push_back(at->second);
-        }
-        std::sort(covered_.begin(), covered_.end());
+        // A solid may stand in a tree thousands of times: its places are not listed but searched.
         const auto covers = [&](const Tree::Node& node) {
-            const auto at = std::lower_bound(covered_.begin(), covered_.end(), node.first);
-            return at != covered_.end() && *at < node.first + node.leaves;
+            if (node.gate == Gate::leaf) return std::binary_search(solids.begin(), solids.end(), node.left);
+            return std::any_of(solids.begin(), solids.end(), [&](std::uint32_t solid) {
+                const auto at = std::lower_bound(tree.places.begin(), tree.places.end(), std::pair(solid, node.first));
+                return at != tree.places.end() && at->first == solid && at->second < node.first + node.leaves;
+            });
         };
         frames_.clear();
         auto next = static_cast<std::uint32_t>(tree.nodes.size() - 1);
@@ -196,7 +194,6 @@ private:
         std::uint32_t node;
         bool is_right, left;  ///< the right operand is walked, the left one has this value
     };
-    std::vector<std::uint32_t> covered_;
     std::vector<Frame> frames_;
 };
 
@@ -267,15 +264,14 @@ private:
         });
         covering.clear();
         std::size_t next = 0;
-        bool changed = true;
         for (std::uint32_t step = 0; step < events.steps(); ++step) {
-            changed = std::erase_if(covering, [&](const RayEvents::Segment& s) { return s.out <= step; }) > 0;
+            bool changed = std::erase_if(covering, [&](const RayEvents::Segment& s) { return s.out <= step; }) > 0;
             for (; next < order.size() && events.segments[order[next]].in == step; ++next) {
                 covering.push_back(events.segments[order[next]]);
                 changed = true;
             }
-            if (!changed) {  // an event of vanished segments only
-                claimed[step] = claimed[step - 1];
+            if (!changed) {  // only segments shorter than the tolerance ended here
+                if (step > 0) claimed[step] = claimed[step - 1];
                 continue;
             }
             if (covering.empty()) continue;

@@ -118,6 +118,19 @@ Judged where_words_end() {
     return judged("words", std::move(made.scene), std::move(made.objects), false, std::move(made.rays), false);
 }
 
+/// Where a segment is shorter than the tolerance: before, within, behind and without others.
+Judged short_segments() {
+    stress::Builder to("short", 1, 1);
+    to.region(stress::leaf(to.solid(stress::box({0, 0, 0}, {0.5, 9, 9}))));
+    to.region(stress::leaf(to.solid(stress::box({10, 0, 0}, {20, 9, 5}))));
+    to.region(stress::leaf(to.solid(stress::box({15, 0, 0}, {15.5, 9, 9}))));
+    for (const double z : {1.0, 7.0})
+        for (const double way : {1.0, -1.0}) to.ray({10 - 30 * way, 1, z}, {way, 0, 0});
+    stress::StressScene made = to.take();
+    made.scene.tolerance = 1;
+    return judged("short segments", std::move(made.scene), std::move(made.objects), false, std::move(made.rays), false);
+}
+
 TrueRay first_of(TrueRay truth) {
     truth.sequence.resize(std::min<std::size_t>(truth.sequence.size(), 1));
     return truth;
@@ -196,6 +209,7 @@ TEST_CASE("methods of the laboratory have names of their own, say what breaks th
 TEST_CASE("exact methods of the laboratory find the reference's regions", "[methods]") {
     std::vector<Judged> scenes, few;  // few for devices, which take a while for each
     for (const char* family : {"coplanar", "deep_trees", "nested"}) few.push_back(from_family(family, 8, 24));
+    few.push_back(short_segments());
     few.push_back(where_words_end());
     for (const std::string& family : stress::families()) scenes.push_back(from_family(family, 0, 12));
     for (const char* name : {"operators.json", "coplanar.json", "xor.json"}) scenes.push_back(from_file(name, 10));
@@ -207,7 +221,7 @@ TEST_CASE("exact methods of the laboratory find the reference's regions", "[meth
         }
     REQUIRE(2 * decided > rays);
     const std::vector<TrueRay>& words = few.back().truth;
-    REQUIRE(2 * std::count_if(words.begin(), words.end(), [](const TrueRay& t) { return t.sequence.size() > 2; }) >
+    REQUIRE(4 * std::count_if(words.begin(), words.end(), [](const TrueRay& t) { return t.sequence.size() > 2; }) >
             std::ptrdiff_t(words.size()));
     for (const Method& method : methods()) {
         if (!method.exact) continue;
