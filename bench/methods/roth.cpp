@@ -13,11 +13,12 @@
 // into events (ray_events.hpp), once, and the lists hold the events' numbers: equal surfaces have equal numbers.
 // A list is the events at which the status toggles. Overlaps: the region of the least number has the step.
 //
-// Cost: O(nodes + ends) for each region that the ray meets; a chain of n operands that all are hit merges a growing
-// list n times.
+// Cost: O(nodes + ends log ends) for each region that the ray meets; but a chain of binary nodes whose n operands all
+// are hit merges a growing list n times.
 // For its speed: regions of which the ray meets no solid are left out; Roth's early outs (an operand that cannot matter
 // is not walked: the rest of an intersection or a difference whose first operand is empty); an empty operand of a union
-// costs no merge; lists lie in one stack of numbers, without an allocation.
+// costs no merge; the operands of a wide union are merged two by two; lists lie in one stack of numbers, without an
+// allocation.
 // Fails where trees are large: a region of 10^5 nodes is walked whole for one hit solid.
 #include <limits>
 #include <mutex>
@@ -113,10 +114,11 @@ public:
     const std::vector<std::uint32_t>& classify(const std::vector<Node>& tree, const SolidLists& solids) {
         values_.clear();
         frames_.clear();
+        lists_.clear();
         std::uint32_t node = 0;
         for (;;) {
             if (++visited_, tree[node].op != Operator::leaf) {
-                frames_.push_back({node, 0, tree[node].operands, values_.size()});
+                frames_.push_back({node, 0, tree[node].operands, values_.size(), values_.size(), lists_.size()});
                 ++node;
                 continue;
             }
@@ -131,17 +133,19 @@ public:
                 const Operator op = tree[frame.node].op;
                 if (op == Operator::not_) {
                     complement(frame.first);
-                } else if (frame.done == 0) {
-                    frame.second = values_.size();
-                } else if (values_.size() > frame.second || op == Operator::intersection) {
+                } else if (op == Operator::union_ || op == Operator::xor_) {
+                    if (values_.size() > frame.second) lists_.push_back(frame.second);
+                    merge_lists(op, frame.lists, frame.done + 1 == frame.operands);
+                } else if (frame.done > 0 && (values_.size() > frame.second || op == Operator::intersection)) {
                     merge(op, frame.first, frame.second);
-                    frame.second = values_.size();
                 }
+                frame.second = values_.size();
                 ++frame.done;
                 const bool is_empty =
                     values_.size() == frame.first && (op == Operator::intersection || op == Operator::difference);
                 if (frame.done < frame.operands && !is_empty) break;
                 node = tree[frame.node].end;
+                lists_.resize(frame.lists);
                 frames_.pop_back();
             }
         }
@@ -151,8 +155,9 @@ public:
 private:
     struct Frame {
         std::uint32_t node, done, operands;
-        std::size_t first;       ///< where the list of the operands so far begins
-        std::size_t second = 0;  ///< ... and that of the next one
+        std::size_t first;   ///< where the lists of the operands so far begin
+        std::size_t second;  ///< ... and that of the next one
+        std::size_t lists;   ///< union, xor: the first of its lists among `lists_`
     };
 
     /// An event before all others toggles the status from the ray's very begin.
@@ -181,6 +186,18 @@ private:
         }
     }
 
+    /// The lists of a union's or a xor's operands so far, from number `from` on: the newest ones while they are no
+    /// shorter than half of those before them, or all. So a list of n operands is not merged n times.
+    void merge_lists(Operator op, std::size_t from, bool all) {
+        while (lists_.size() >= from + 2) {
+            const std::size_t first = lists_[lists_.size() - 2], second = lists_.back();
+            if (!all && 2 * (values_.size() - second) < second - first) return;
+            merge(op, first, second);
+            lists_.pop_back();
+            if (values_.size() == first) lists_.pop_back();
+        }
+    }
+
     /// Roth's combination: merged in order, classified, neighbours joined.
     void merge(Operator op, std::size_t first, std::size_t second) {
         merged_.clear();
@@ -201,6 +218,7 @@ private:
     }
 
     std::vector<std::uint32_t> values_, merged_;
+    std::vector<std::size_t> lists_;  ///< where they begin in `values_`, of operands that are not merged yet
     std::vector<Frame> frames_;
     std::uint64_t visited_ = 0;
 };
