@@ -149,9 +149,23 @@ public:
     /// `solids`: those that cover, ascending, each once. `by_partition`: subtrees without any are not walked.
     bool holds(const Tree& tree, const std::vector<std::uint32_t>& solids, bool by_partition) {
         if (tree.nodes.empty()) return false;
-        // A solid may stand in a tree thousands of times: its places are not listed but searched.
+        // Where the covering solids stand. One may stand in a tree thousands of times: then places are searched
+        // instead.
+        constexpr std::size_t few = 64;
+        covered_.clear();
+        for (std::size_t i = 0; by_partition && i < solids.size() && covered_.size() <= few; ++i) {
+            auto at = std::lower_bound(tree.places.begin(), tree.places.end(), std::pair(solids[i], 0u));
+            for (; at != tree.places.end() && at->first == solids[i] && covered_.size() <= few; ++at)
+                covered_.push_back(at->second);
+        }
+        const bool is_listed = covered_.size() <= few;
+        if (is_listed) std::sort(covered_.begin(), covered_.end());
         const auto covers = [&](const Tree::Node& node) {
             if (node.gate == Gate::leaf) return std::binary_search(solids.begin(), solids.end(), node.left);
+            if (is_listed) {
+                const auto at = std::lower_bound(covered_.begin(), covered_.end(), node.first);
+                return at != covered_.end() && *at < node.first + node.leaves;
+            }
             return std::any_of(solids.begin(), solids.end(), [&](std::uint32_t solid) {
                 const auto at = std::lower_bound(tree.places.begin(), tree.places.end(), std::pair(solid, node.first));
                 return at != tree.places.end() && at->first == solid && at->second < node.first + node.leaves;
@@ -194,6 +208,7 @@ private:
         std::uint32_t node;
         bool is_right, left;  ///< the right operand is walked, the left one has this value
     };
+    std::vector<std::uint32_t> covered_;
     std::vector<Frame> frames_;
 };
 
