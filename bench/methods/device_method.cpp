@@ -71,7 +71,6 @@ class DeviceTracer final : public Tracer {
 public:
     DeviceTracer(const Subject& subject, const TraceOptions& options, DeviceMethod method)
         : scene_(subject.compiled),
-          options_(options),
           method_(std::move(method)),
           kernels_(make_kernels(scene_, Precision::double_, Quartic::bracketed)),
           device_(compiling_device(method_.name, options.device)),
@@ -113,7 +112,8 @@ public:
         std::map<std::string, double> figures = method_.figures;
         figures["kernel 4 ms"] = counts_.evaluate;
         figures["kernels 1 to 3 ms"] = before_ms();
-        figures["kernel 4 ns a partition"] = 1e6 * counts_.evaluate / static_cast<double>(std::max(partitions_, 1ul));
+        figures["kernel 4 ns a partition"] =
+            1e6 * counts_.evaluate / static_cast<double>(std::max<std::uint64_t>(partitions_, 1));
         figures["tables MB"] = 1e-6 * static_cast<double>(tables_.size());
         if (method_.ray_words) figures["bytes a ray"] = static_cast<double>(method_.ray_words) * sizeof(std::uint32_t);
         return figures;
@@ -169,9 +169,8 @@ private:
     double before_ms() const { return counts_.count_hits + counts_.scan + counts_.store_segments + counts_.weave; }
 
     const CompiledScene& scene_;
-    TraceOptions options_;
     DeviceMethod method_;
-    std::unique_ptr<ReferenceKernels> kernels_;
+    std::unique_ptr<ReferenceKernels> kernels_;  ///< for the tables' and buffers' formats alone
     Device device_;
     SceneTables scene_tables_;
     Buffer tables_, memory_;
