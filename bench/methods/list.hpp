@@ -5,6 +5,12 @@
 
 namespace csgrt::bench {
 
+Method roth();
+Method bit_sequential();
+Method bit_parallel();
+Method status_tree();
+Method blist();
+Method pruning();
 Method kensler();
 Method bisection();
 Method sphere_tracing();

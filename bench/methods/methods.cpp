@@ -1,15 +1,11 @@
-#include "method.hpp"
-
 #include "list.hpp"
 
 namespace csgrt::bench {
 
 const std::vector<Method>& methods() {
     static const std::vector<Method> all = {
-        kensler(),
-        bisection(),
-        sphere_tracing(),
-        depth_buffer(),
+        roth(),    bit_sequential(), bit_parallel(), status_tree(),    blist(),
+        pruning(), kensler(),        bisection(),    sphere_tracing(), depth_buffer(),
     };
     return all;
 }

@@ -1,6 +1,9 @@
 #include "scene_rays.hpp"
 
+#include <algorithm>
+
 #include "compile/frame.hpp"
+#include "compile/linear.hpp"
 #include "compile/tables.hpp"
 
 namespace csgrt::bench {
@@ -12,8 +15,14 @@ kernel::ray3 to_kernel(const Ray& ray) {
 
 }  // namespace
 
+double tolerance_of(const CompiledScene& scene) {
+    if (scene.tolerance > 0) return scene.tolerance;
+    return std::max(rounding_tolerance(Precision::double_) * 2 * scene.radius,
+                    coordinate_rounding * largest_coordinate(scene.center, scene.radius));
+}
+
 SceneRays::SceneRays(const CompiledScene& scene)
-    : scene_(scene), geometry_(tables(scene)), frame_(prepare_rays(scene, 1).frame) {}
+    : scene_(scene), geometry_(tables(scene)), frame_(prepare_rays(scene, 1, tolerance_of(scene)).frame) {}
 
 void SceneRays::candidates(const Ray& ray, double t_min, std::vector<std::uint32_t>& solids) const {
     solids.clear();

@@ -10,6 +10,9 @@
 
 namespace csgrt::bench {
 
+/// How close ends are one surface, in millimetres: as Tolerance::length has it, which is the reference's default.
+double tolerance_of(const CompiledScene& scene);
+
 class SceneRays {
 public:
     /// `scene` must outlive it.
@@ -21,7 +24,7 @@ public:
     void append_ends(std::uint32_t solid, const Ray& ray, double t_min, std::vector<kernel::End>& ends) const;
     /// The ends of all segments along the ray, by ascending solid, as the kernels store them.
     void ends(const Ray& ray, double t_min, std::vector<kernel::End>& ends) const;
-    /// How far along the ray's parameter ends are one surface: the frame's tolerance, by the length of the direction.
+    /// How far along the ray's parameter ends are one surface: tolerance_of(), by the length of the direction.
     double tolerance(const Ray& ray) const;
     /// The outward unit normal at an end.
     kernel::vec3 normal(const Ray& ray, const kernel::End& end) const;

@@ -87,7 +87,7 @@ Judged judge(const Method& method, const Trial& trial, const TraceOptions& optio
     if (!options.first_hits) {
         j.decided = all.decided;
         j.wrong = all.wrong;
-        j.error_mm = quantile(all.error_mm, 0.5);
+        j.error_mm = all.error_mm.quantile(0.5);
     }
     return j;
 }

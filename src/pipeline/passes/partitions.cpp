@@ -17,10 +17,11 @@ std::vector<std::string> files_of(bool packets) {
 }  // namespace
 
 PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels,
-                             const Settings& settings)
+                             const Settings& settings, const Evaluation* other)
     : device_(device),
       kernels_(kernels),
-      program_(device, assemble_program(files_of(traces_packets(device, settings))),
+      other_evaluation_(other),
+      program_(device, assemble_program(files_of(traces_packets(device, settings))) + (other ? other->source : ""),
                program_options(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
@@ -32,7 +33,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       store_segments_(program_.kernel("store_segments")),
       order_ends_(program_.kernel("order_ends")),
       weave_(program_.kernel("weave")),
-      evaluate_(program_.kernel("evaluate")),
+      evaluate_(program_.kernel(other ? other->name : "evaluate")),
       shade_(program_.kernel("shade")),
       memory_(device, kernels),
       no_buffer_(device, "nothing"),
@@ -169,8 +170,9 @@ void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates
         weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.ends(),
                       memory_.partitions(), memory_.bits(), memory_.ray_tallies()));
     add(&PipelineCounts::evaluate,
-        evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), memory_.offsets(), memory_.ends(),
-                         memory_.bits(), memory_.partitions()));
+        other_evaluation_ ? other_evaluation_->launch(evaluate_, input, memory_, segments)
+                          : evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), memory_.offsets(),
+                                             memory_.ends(), memory_.bits(), memory_.partitions()));
 }
 
 TracedPartitions PartitionPass::read(std::uint32_t rays) {

@@ -7,7 +7,9 @@
 // the rays need more than the capacity that their frame states; the batch's report says what they need.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "device/queued.hpp"
@@ -20,9 +22,6 @@ namespace csgrt {
 
 class PartitionPass {
 public:
-    /// Compiles its kernels. Throws Error (device_fault).
-    PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
-
     /// What the kernels are run for. The batch's frame and lists are uploaded.
     struct Input {
         const SceneTables& scene;
@@ -30,6 +29,16 @@ public:
         Work work;
         std::uint32_t rays;
     };
+    /// A kernel in place of kernel 4, for the laboratory of methods (bench/methods).
+    struct Evaluation {
+        std::string name, source;  ///< the source stands behind all kernels', and may use theirs
+        /// Queues it for the rays' `segments`.
+        std::function<Event(Kernel&, const Input&, PartitionMemory&, std::uint32_t segments)> launch;
+    };
+
+    /// Compiles its kernels. `other`: in place of kernel 4; it must outlive the pass. Throws Error (device_fault).
+    PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
+                  const Evaluation* other = nullptr);
 
     /// Kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns what the rays need;
     /// nothing if that does not fit the memory: then the caller takes a smaller batch.
@@ -77,6 +86,7 @@ private:
 
     Device& device_;
     const HostKernels& kernels_;
+    const Evaluation* other_evaluation_;
     Program program_;
     CullPass cull_;
     struct PacketCandidates {

@@ -1,0 +1,83 @@
+#include "ray_events.hpp"
+
+#include <chrono>
+#include <limits>
+#include <numeric>
+
+#include "base/parallel.hpp"
+
+namespace csgrt::bench {
+
+void RayEvents::find(const SceneRays& rays, const Ray& ray) {
+    rays.ends(ray, -std::numeric_limits<double>::infinity(), ends_);
+    at.clear();
+    segments.clear();
+    marked = false;
+    if (ends_.empty()) return;
+    const double tolerance = rays.tolerance(ray);
+    order_.resize(ends_.size());
+    event_of_.resize(ends_.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return ends_[a].t < ends_[b].t || (ends_[a].t == ends_[b].t && a < b);
+    });
+    double first = 0;
+    for (const std::uint32_t end : order_) {
+        const double t = ends_[end].t;
+        if (at.empty() || !(t == first || t - first <= tolerance)) at.push_back(first = t);
+        event_of_[end] = static_cast<std::uint32_t>(at.size() - 1);
+    }
+    for (std::size_t i = 0; i < ends_.size(); i += 2) {
+        if (event_of_[i] >= event_of_[i + 1]) continue;
+        const std::uint32_t missed = ends_[i].surface & MISSED;
+        segments.push_back({ends_[i].solid, event_of_[i], event_of_[i + 1], missed});
+        marked = marked || missed;
+    }
+}
+
+void append(Sequence& stretches, const Stretch& next) {
+    if (!stretches.empty() && stretches.back().region == next.region && stretches.back().out == next.in)
+        stretches.back().out = next.out;
+    else
+        stretches.push_back(next);
+}
+
+Sequence stretches_of(const RayEvents& events, const std::vector<std::uint32_t>& region_of_step) {
+    Sequence stretches;
+    for (std::uint32_t step = 0; step < events.steps(); ++step)
+        if (region_of_step[step] != NONE)
+            append(stretches, {region_of_step[step], events.at[step], events.at[step + 1]});
+    return stretches;
+}
+
+void keep_first_hit(Sequence& stretches) {
+    const auto hit = std::find_if(stretches.begin(), stretches.end(), [](const Stretch& s) { return s.out > 0; });
+    if (hit == stretches.end())
+        stretches.clear();
+    else
+        stretches = {*hit};
+}
+
+std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& scene) {
+    std::vector<std::vector<std::uint32_t>> lists(scene.solids.size());
+    for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
+        for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
+            if (node.op != Operator::leaf) continue;
+            std::vector<std::uint32_t>& list = lists[node.solid];
+            if (list.empty() || list.back() != region) list.push_back(region);
+        }
+    return lists;
+}
+
+double trace_in_pieces(const TraceOptions& options, std::size_t piece, std::vector<Answer>& answers,
+                       const std::function<void(std::size_t first, std::size_t last)>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    for_chunks(answers.size(), piece, options.threads,
+               [&](std::size_t first, std::size_t last, std::size_t) { work(first, last); });
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (options.first_hits)
+        for (Answer& answer : answers) keep_first_hit(answer.stretches);
+    return seconds;
+}
+
+}  // namespace csgrt::bench
