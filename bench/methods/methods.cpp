@@ -1,9 +1,13 @@
 #include "method.hpp"
 
+#include "list.hpp"
+
 namespace csgrt::bench {
 
 const std::vector<Method>& methods() {
-    static const std::vector<Method> all = {};
+    static const std::vector<Method> all = {
+        meshes(),
+    };
     return all;
 }
 
