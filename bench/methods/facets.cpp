@@ -24,6 +24,7 @@ using Curve = std::function<Vec3(double)>;
 using Corner = std::array<std::uint32_t, 3>;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(Status::usage, why); }
+[[noreturn]] void refuse_size() { throw Error(Status::out_of_memory, "more triangles than there may be"); }
 
 double distance_to_chord(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;
@@ -54,7 +55,7 @@ std::vector<double> steps(const std::vector<Curve>& curves, double from, double 
         for (double b; (b = bends(at, at + step)) > chord;) step *= std::clamp(0.99 * std::sqrt(chord / b), 0.2, 0.95);
         at = to - at <= step ? to : at + step;
         greedy.push_back(at);
-        if (greedy.size() > most) refuse("more than " + std::to_string(most) + " triangles");
+        if (greedy.size() > most) refuse_size();
     }
     // The last step is shorter. As many equal ones do as well on a circle, and make equal cylinders equal meshes.
     const std::size_t count = greedy.size() - 1;
@@ -129,7 +130,7 @@ private:
 
     void check_size() const {
         if (static_cast<double>(s_.size()) * static_cast<double>(t_.size()) * 2 > static_cast<double>(options_.most))
-            refuse("more than " + std::to_string(options_.most) + " triangles");
+            refuse_size();
     }
 
     static std::vector<double> samples(const std::vector<double>& breaks, int each) {
@@ -541,7 +542,7 @@ Triangles box_facets(const Box& box) { return Polyhedron(box).mesh(); }
 
 Triangles facets(const Shape& shape, const Matrix& matrix, const FacetOptions& options) {
     Triangles mesh = std::visit(Faceter{matrix, options}, static_cast<const Shape::variant&>(shape));
-    if (mesh.faces.size() > options.most) refuse("more than " + std::to_string(options.most) + " triangles");
+    if (mesh.faces.size() > options.most) refuse_size();
     if (volume(mesh) < 0)
         for (Corner& face : mesh.faces) std::swap(face[1], face[2]);
     return mesh;

@@ -18,8 +18,8 @@ struct FacetOptions {
 
 /// The surface of a solid that `matrix` places. Vertices lie on it. The mesh is closed: every edge has two triangles,
 /// which run along it in opposite directions; their corners are counterclockwise when seen from outside.
-/// Throws Error (usage), with words: solids of this type, or this one, cannot be told by such a mesh; more triangles
-/// than `most`.
+/// Throws Error: usage, with words, if solids of this type, or this one, cannot be told by such a mesh; out_of_memory
+/// if that takes more triangles than `most`.
 Triangles facets(const Shape& shape, const Matrix& matrix, const FacetOptions& options);
 
 /// A box, as such a mesh.

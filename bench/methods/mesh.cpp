@@ -118,6 +118,8 @@ private:
                 for (const Plane& plane : cuts_of(flat, instance))
                     parts.push_back(add(name, facets(Half{plane}, *instance.matrix, facet_)));
             } catch (const Error& error) {
+                if (error.status() == Status::out_of_memory)
+                    refuse("more than " + std::to_string(most_triangles_of_all) + " triangles");
                 refuse(name + ": " + error.what());
             }
         }

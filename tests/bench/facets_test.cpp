@@ -153,5 +153,5 @@ TEST_CASE("what cannot be a mesh is refused in words") {
         facets(Bot{Bot::Mode::surface, {}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, identity, to(1)),
         ContainsSubstring("without an inside"));
     CHECK_THROWS_WITH(facets(Ell{{}, {50, 0, 0}, {0, 50, 0}, {0, 0, 50}}, identity, to(1e-6)),
-                      ContainsSubstring("more than 1000000 triangles"));
+                      ContainsSubstring("more triangles than there may be"));
 }
