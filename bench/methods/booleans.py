@@ -11,7 +11,6 @@ joins the last N operands. MEGABYTES is a limit of memory. Manifold computes in 
 
 import importlib.metadata
 import json
-import os
 import resource
 import sys
 import time
@@ -30,7 +29,7 @@ def main():
     vertices = numpy.fromfile(folder + "/solids.vertices", numpy.float64).reshape(-1, 3)
     triangles = numpy.fromfile(folder + "/solids.triangles", numpy.uint32).reshape(-1, 3).astype(numpy.uint64)
 
-    start = time.perf_counter()
+    start, start_cpu = time.perf_counter(), time.process_time()
     solids, first_vertex, first_triangle = [], 0, 0
     for solid in model["solids"]:
         last_vertex, last_triangle = first_vertex + solid["vertices"], first_triangle + solid["triangles"]
@@ -69,7 +68,7 @@ def main():
         all_vertices.append(numpy.asarray(mesh.vert_properties, numpy.float64)[:, :3])
         all_triangles.append(numpy.asarray(mesh.tri_verts).astype(numpy.uint32))
         found.append({"vertices": len(all_vertices[-1]), "triangles": len(all_triangles[-1])})
-    seconds = time.perf_counter() - start
+    seconds, cpu_seconds = time.perf_counter() - start, time.process_time() - start_cpu
 
     numpy.concatenate(all_vertices).tofile(folder + "/regions.vertices")
     numpy.concatenate(all_triangles).tofile(folder + "/regions.triangles")
@@ -77,12 +76,12 @@ def main():
         "manifold3d": importlib.metadata.version("manifold3d"),
         "numpy": numpy.__version__,
         "seconds": seconds,
+        "cpu_seconds": cpu_seconds,
         "peak_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
         "regions": found,
     }
-    with open(folder + "/regions.part", "w") as file:
+    with open(folder + "/regions.json", "w") as file:
         json.dump(told, file)
-    os.rename(folder + "/regions.part", folder + "/regions.json")  # last: where it stands, all is there
 
 
 if __name__ == "__main__":

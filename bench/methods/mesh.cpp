@@ -11,11 +11,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
+#include <system_error>
+
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -45,7 +48,8 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 /// Regions as meshes, and what they took.
 struct Model {
     std::vector<Triangles> regions;
-    double seconds = 0, megabytes = 0;  ///< to make them; at most at a time
+    double seconds = 0, cpu_seconds = 0;  ///< to make them: by the clock, of processors
+    double megabytes = 0;                 ///< the most at a time
     std::size_t triangles = 0;
 };
 
@@ -70,6 +74,7 @@ public:
 
     void write(const std::filesystem::path& folder) {
         const Clock::time_point start = Clock::now();
+        const std::clock_t start_cpu = std::clock();
         const FlatScene flat =
             flatten(subject_.scene, subject_.objects.empty() ? top_objects(subject_.scene) : subject_.objects, false);
         if (flat.regions.size() != subject_.compiled.regions.size())
@@ -84,7 +89,10 @@ public:
             regions.push_back(tree(flat, flat.regions[i].tree));
         }
         std::ofstream(folder / "solids.json")
-            << Json{{"seconds", since(start)}, {"solids", solids_}, {"regions", regions}};
+            << Json{{"seconds", since(start)},
+                    {"cpu_seconds", static_cast<double>(std::clock() - start_cpu) / CLOCKS_PER_SEC},
+                    {"solids", solids_},
+                    {"regions", regions}};
         if (!vertices_.flush() || !triangles_.flush())
             throw Error(Status::file, folder.string() + ": cannot be written");
     }
@@ -190,10 +198,19 @@ Model model_of(const Subject& subject, const TraceOptions& options) {
                   options.knob, options.planted ? "-planted" : "");
     const fs::path folder =
         fs::path(environment("CSGRT_MESHES", (fs::temp_directory_path() / "csgrt_meshes").string())) / name;
-    if (!fs::exists(folder / "regions.json")) {
-        fs::create_directories(folder);
-        ModelWriter(subject, options).write(folder);
-        make_regions(folder);
+    if (!fs::exists(folder)) {
+        const fs::path unfinished = folder.string() + "." + std::to_string(getpid());
+        try {
+            fs::create_directories(unfinished);
+            ModelWriter(subject, options).write(unfinished);
+            make_regions(unfinished);
+        } catch (...) {
+            fs::remove_all(unfinished);
+            throw;
+        }
+        std::error_code is_there;  // made by another process meanwhile
+        fs::rename(unfinished, folder, is_there);
+        if (is_there) fs::remove_all(unfinished);
     }
     const Json solids = Json::parse(std::ifstream(folder / "solids.json"));
     const Json regions = Json::parse(std::ifstream(folder / "regions.json"));
@@ -201,6 +218,7 @@ Model model_of(const Subject& subject, const TraceOptions& options) {
     const auto faces = read_all<std::array<std::uint32_t, 3>>(folder / "regions.triangles");
     Model model;
     model.seconds = solids["seconds"].get<double>() + regions["seconds"].get<double>();
+    model.cpu_seconds = solids["cpu_seconds"].get<double>() + regions["cpu_seconds"].get<double>();
     model.megabytes = regions["peak_mb"];
     model.triangles = faces.size();
     auto vertex = vertices.begin();
@@ -255,6 +273,7 @@ public:
             refuse("Embree cannot build its scene");
         }
         figures_ = {{"meshing s", model.seconds},
+                    {"meshing CPU s", model.cpu_seconds},
                     {"meshing MB", model.megabytes},
                     {"triangles", static_cast<double>(model.triangles)},
                     {"mesh MB", static_cast<double>(memory_) / 1e6},
