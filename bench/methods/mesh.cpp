@@ -81,7 +81,7 @@ public:
             Gatherer context;
             for (std::size_t i = first; i < last; i += lanes) {
                 const std::size_t count = std::min(lanes, last - i);
-                if (options_.first_hits && first_hits(&rays[i], count, &counts[i], found[number])) continue;
+                if (options_.first_hits && first_hits(&rays[i], count, context, &counts[i], found[number])) continue;
                 for (std::size_t k = i; k < i + count; ++k) {
                     counts[k] = every_partition(rays[k], context, found[number]);
                     if (options_.first_hits) keep_first(counts[k], found[number]);
@@ -145,7 +145,8 @@ private:
     }
 
     /// The nearest hits of rays that start before the scene; false if one does not.
-    bool first_hits(const Ray* rays, std::size_t count, std::uint32_t* counts, std::vector<Stretch>& found) const {
+    bool first_hits(const Ray* rays, std::size_t count, Gatherer& context, std::uint32_t* counts,
+                    std::vector<Stretch>& found) const {
         alignas(32) int valid[lanes] = {};
         RTCRayHit8 packet;
         Start starts[lanes];
@@ -165,13 +166,20 @@ private:
             packet.ray.flags[k] = 0;
             packet.hit.geomID[k] = packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
         }
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect8(valid, scene_, &context, &packet);
+        RTCIntersectContext coherent;
+        rtcInitIntersectContext(&coherent);
+        coherent.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        rtcIntersect8(valid, scene_, &coherent, &packet);
         for (std::size_t k = 0; k < count; ++k) {
             counts[k] = packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
             if (!counts[k]) continue;
+            const float along = packet.hit.Ng_x[k] * packet.ray.dir_x[k] + packet.hit.Ng_y[k] * packet.ray.dir_y[k] +
+                                packet.hit.Ng_z[k] * packet.ray.dir_z[k];
+            if (along >= 0) {  // it leaves what it did not enter: it touches an edge, or runs in a face
+                counts[k] = every_partition(rays[k], context, found);
+                keep_first(counts[k], found);
+                continue;
+            }
             const double t = starts[k].t + static_cast<double>(packet.ray.tfar[k]) / length(rays[k].direction);
             found.push_back({packet.hit.geomID[k], t, std::numeric_limits<double>::infinity()});
         }
