@@ -15,5 +15,6 @@ Method kensler();
 Method bisection();
 Method sphere_tracing();
 Method depth_buffer();
+Method meshes();
 
 }  // namespace csgrt::bench

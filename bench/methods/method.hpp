@@ -36,7 +36,9 @@ struct TraceOptions {
 /// What a method says of one ray.
 struct Answer {
     bool answered = true;  ///< false: the method gives this ray up. It is counted, and not judged
-    Sequence stretches;    ///< of regions, in order of distance, without gaps. The judge joins neighbours that touch
+    /// Of regions, in order of distance, without gaps. The judge joins neighbours that touch. Of first hits one, whose
+    /// `out` may be infinite: methods need not look for it.
+    Sequence stretches;
 };
 
 /// A method, prepared for one subject and one value of its knob.
