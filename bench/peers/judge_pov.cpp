@@ -275,11 +275,17 @@ std::vector<std::uint32_t> regions_in(const std::string& path, int size) {
     return regions;
 }
 
-Row judge(const ChartWorkload& workload, const Options& options, double& ours) {
+/// `ours`: csgrt's own row, timed in turn with POV-Ray's. Its rays are not judged.
+Row judge(const ChartWorkload& workload, const Options& options, Row& ours) {
     Row row;
-    row.variant = "POV-Ray 3.7";
+    row.mode = Mode::first_hits;
+    row.variant = row.method = "POV-Ray 3.7";
+    row.laboratory = true;
     row.workload = workload.name;
     row.family = workload.family;
+    ours = row;
+    ours.variant = ours.method = "default";
+    ours.laboratory = false;
     const Task& task = workload.tasks.front();
     const CompiledScene compiled = compile(task.scene, task.objects);
     try {
@@ -289,13 +295,12 @@ Row judge(const ChartWorkload& workload, const Options& options, double& ours) {
         const std::vector<std::uint32_t> regions = regions_in(options.folder + "/scene.ppm", side);
         const std::vector<TrueRay> truth = true_rays(task.scene, task.objects, task.rays);
         for (std::size_t i = 0; i < truth.size(); ++i) {
-            ++row.accuracy.rays;
-            row.accuracy.ties += truth[i].verdict == TrueRay::Verdict::tie;
-            row.accuracy.rule += truth[i].verdict == TrueRay::Verdict::rule;
-            if (truth[i].verdict != TrueRay::Verdict::decided) continue;
-            ++row.accuracy.decided;
+            // A picture tells the region alone, so no distance is judged: the true one stands for it.
             const auto& sequence = truth[i].sequence;
-            row.accuracy.wrong += regions[i] != (sequence.empty() ? Stretch::gap : sequence.front().region);
+            const bool hits = regions[i] != Stretch::gap;
+            Stretch seen{regions[i], 1, 2};
+            if (!sequence.empty()) seen = {regions[i], sequence.front().in, sequence.front().out};
+            row.accuracy.add(truth[i], hits ? Sequence{seen} : Sequence{}, Mode::first_hits);
         }
 
         Settings settings;
@@ -318,9 +323,15 @@ Row judge(const ChartWorkload& workload, const Options& options, double& ours) {
             frames.push_back(renderer.statistics().ms.frame);
         }
         const double pixels = static_cast<double>(options.size) * options.size;
-        row.frame_ms = std::min(quantile(theirs[0], 0.5), quantile(theirs[1], 0.5));
-        row.ns_per_ray = 1e6 * row.frame_ms / pixels;
-        ours = 1e6 * quantile(frames, 0.5) / pixels;
+        const auto time = [&](Row& timed, const std::vector<double>& ms) {
+            timed.frame_ms = quantile(ms, 0.5);
+            timed.ns_per_ray = 1e6 * timed.frame_ms / pixels;
+            timed.ns = median_interval(ms);
+            timed.ns.low *= 1e6 / pixels;
+            timed.ns.high *= 1e6 / pixels;
+        };
+        time(row, quantile(theirs[0], 0.5) < quantile(theirs[1], 0.5) ? theirs[0] : theirs[1]);
+        time(ours, frames);
     } catch (const Error& error) {
         row.error = error.what();
     }
@@ -386,10 +397,11 @@ int main(int argc, char** argv) {
             options.folder = name;
         }
         std::filesystem::create_directories(options.folder);
-        Report report{"processors", "cpu", version(), options.size, options.rounds, options.sample.rays, 0, {}, {}};
-        for (const ChartWorkload& workload : chart_workloads(options.sample)) {
-            double ours = 0;
-            const Row row = judge(workload, options, ours);
+        Report report{"processors", "cpu", version(), options.size, options.rounds, options.sample.rays, 0, {}, {}, {}};
+        for (const WorkloadMaker& workload : chart_workloads(options.sample)) {
+            Row ours;
+            const Row row = judge(workload.make(), options, ours);
+            report.rows.push_back(ours);
             report.rows.push_back(row);
             if (!row.error.empty())
                 std::printf("%-16s %s\n", row.workload.c_str(), row.error.c_str());
@@ -398,7 +410,7 @@ int main(int argc, char** argv) {
                     "%-16s %zu wrong of %zu decided pixels, %zu ties, %zu rule; %.0f ns a ray, csgrt %.0f, "
                     "ratio %.1f\n",
                     row.workload.c_str(), row.accuracy.wrong, row.accuracy.decided, row.accuracy.ties,
-                    row.accuracy.rule, row.ns_per_ray, ours, row.ns_per_ray / ours);
+                    row.accuracy.rule, row.ns_per_ray, ours.ns_per_ray, row.ns_per_ray / ours.ns_per_ray);
             std::fflush(stdout);
         }
         if (!is_kept) std::filesystem::remove_all(options.folder);

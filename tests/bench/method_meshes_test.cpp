@@ -105,13 +105,13 @@ TEST_CASE("rays meet in meshes what they meet in solids, up to the chord error")
         if (!fine) return;
         CHECK(fine->decided > 500);
         CHECK(fine->wrong <= 3);
-        CHECK(quantile(fine->error_mm, 0.9) < 0.01);
-        CHECK(quantile(fine->error_mm, 0.9) > 1e-6);
+        CHECK(fine->error_mm.quantile(0.9) < 0.01);
+        CHECK(fine->error_mm.quantile(0.9) > 1e-6);
 
         options.knob = 0.3;
         const std::optional<Accuracy> coarse = setting.accuracy(options);
         CHECK(coarse->wrong > fine->wrong);
-        CHECK(quantile(coarse->error_mm, 0.9) > 10 * quantile(fine->error_mm, 0.9));
+        CHECK(coarse->error_mm.quantile(0.9) > 10 * fine->error_mm.quantile(0.9));
 
         options.planted = true;
         CHECK(setting.accuracy(options)->wrong > coarse->wrong + 50);
