@@ -23,8 +23,9 @@ FN u32 segments_of(GLOBAL const Frame* f, GLOBAL const RayCount* offsets) {
 }
 
 // A ray of more segments than this is deep: its ends are sorted by merging, and its partitions evaluated one after the
-// other, by what changes from one to the next (3_deep_rays.cl). For fewer, kernels 3 and 4 take less time.
-#define DEEP_SEGMENTS 128u
+// other, by what changes from one to the next (3_deep_rays.cl). On processors that pays from 40 segments on; but a GPU
+// runs a batch again that has a deep ray, and havoc's rays have up to 70.
+#define DEEP_SEGMENTS 96u
 // Words of bit arrays in counts that are to tell that there is a deep ray: no buffer holds as many.
 #define DEEP_WORDS 0x80000000u
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "compile/regions/status_tree.hpp"
 #include "pipeline/passes/program_options.hpp"
 
 namespace csgrt {
@@ -16,14 +15,13 @@ constexpr cl_uint field_in_end = 0, field_next = 2;  // of kernel::PartitionNode
 constexpr std::uint64_t copies = 3;  // of a ray's status: as it is, and moved above and below the faces it runs in
 }  // namespace
 
-DeepRayPass::Tree::Tree(Device& device, const CompiledScene& scene)
+DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t regions)
     : links(device, "status tree"),
       outside(device, "status outside"),
       first_leaves(device, "solids' places in the status tree"),
       leaves(device, "leaves of the status tree") {
-    const StatusTree tree = make_status_tree(scene);
     cluster_words = static_cast<std::uint32_t>(tree.outside.size());
-    words = cluster_words + kernel::words_of_set(static_cast<std::uint32_t>(scene.regions.size()));
+    words = cluster_words + kernel::words_of_set(regions);
     for (const auto& [buffer, values] : {std::pair{&links, &tree.links},
                                          {&outside, &tree.outside},
                                          {&first_leaves, &tree.first_leaves},
@@ -46,6 +44,18 @@ DeepRayPass::DeepRayPass(Device& device, const Program& program, const CompiledS
       segments_(device, "segments of deep rays"),
       status_(device, "status of deep rays") {}
 
+bool DeepRayPass::has_tree(std::uint64_t spoken_for) {
+    if (tree_) return true;
+    if (!made_) made_ = make_status_tree(scene_);
+    std::uint64_t words = 0;
+    for (const auto* list : {&made_->links, &made_->outside, &made_->first_leaves, &made_->leaves})
+        words += list->size();
+    if (words * sizeof(std::uint32_t) + spoken_for > device_.available()) return false;
+    tree_.emplace(device_, *made_, static_cast<std::uint32_t>(scene_.regions.size()));
+    made_.reset();
+    return true;
+}
+
 bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uint64_t spoken_for) {
     listed_.clear();
     groups_.clear();
@@ -63,7 +73,7 @@ bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uin
     }
     if (listed_.empty()) return true;
     listed_.push_back(next);
-    if (!tree_) tree_.emplace(device_, scene_);
+    if (!has_tree(spoken_for)) return false;
 
     segments_.release();  // as large as these rays need
     status_.release();

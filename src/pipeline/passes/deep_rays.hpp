@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "compile/regions/status_tree.hpp"
 #include "device/queued.hpp"
 #include "pipeline/counts.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
 #include "pipeline/passes/partition_memory.hpp"
-#include "compile/compiled_scene.hpp"
 
 namespace csgrt {
 
@@ -36,7 +36,7 @@ public:
 private:
     /// The scene's, on the device.
     struct Tree {
-        Tree(Device& device, const CompiledScene& scene);
+        Tree(Device& device, const StatusTree& tree, std::uint32_t regions);
         Buffer links, outside, first_leaves, leaves;
         std::uint32_t cluster_words, words;  ///< of a ray's status: functions of clusters; and the set of regions
     };
@@ -44,12 +44,15 @@ private:
     struct Group {
         std::uint32_t first, count, most_ends;
     };
+    /// Makes the status tree, unless it is there. False: the device has no room for it now.
+    bool has_tree(std::uint64_t spoken_for);
     void sort(PartitionMemory& memory, TimedKernels& timed);
 
     Device& device_;
     const CompiledScene& scene_;
     Kernel sort_blocks_, merge_runs_, clear_status_, sweep_;
     std::optional<Tree> tree_;
+    std::optional<StatusTree> made_;  ///< not on the device yet
     Buffer rays_, segments_, status_;
     std::vector<kernel::DeepRay> listed_;  ///< and one behind, for the sums
     std::vector<Group> groups_;
