@@ -27,6 +27,7 @@ void require_answers(const Scene& scene, const std::vector<Ray>& rays, std::size
     CHECK(device.statistics().partitions_used == reference.statistics().partitions_used);
     CHECK(device.statistics().overlaps == reference.statistics().overlaps);
     CHECK(device.statistics().overlaps >= least_overlaps);
+    CHECK(device.statistics().segments > rays.size() * most / 2);  // or few of them were deep
 }
 
 }  // namespace
@@ -68,4 +69,10 @@ TEST_CASE("device and reference agree on deep rays through many regions, in thei
 
 TEST_CASE("device and reference agree on pictures of deep parts", "[agreement]") {
     test::require_agreement(test::deep_parts(7, 3 * most, 60), {}, 32, 40);
+}
+
+TEST_CASE("device and reference agree on deep rays in single precision", "[agreement]") {
+    Settings settings = test::on_compiling_device();
+    settings.precision = Precision::single;
+    test::require_agreement(test::nested_balls(2 * most, {Operator::xor_}, test::Form::list), {}, 16, 60, settings);
 }
