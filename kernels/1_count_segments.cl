@@ -66,9 +66,10 @@ __kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __globa
         intersect_candidate(frame, GEOMETRY, rays, listed, candidates + id, found + 2 * (size_t)id);
 }
 
-// Adds up each ray's counts, and gives each candidate its place among the ray's segments.
+// Adds up each ray's counts, and gives each candidate its place among the ray's segments. `deep_words`: of the bit
+// arrays of a deep ray, which needs none: DEEP_WORDS if the sum is to tell that there is one, else 0.
 __kernel void sum_segments(__global const Frame* frame, __global const CandidateCount* places,
-                           __global Candidate* candidates, __global RayCount* counts) {
+                           __global Candidate* candidates, u32 deep_words, __global RayCount* counts) {
     u32 id = (u32)get_global_id(0), i;
     RayCount count;
     if (id >= frame->ray_count) return;
@@ -81,7 +82,7 @@ __kernel void sum_segments(__global const Frame* frame, __global const Candidate
         candidates[i].before = count.segments;
         count.segments += candidates[i].count;
     }
-    // 2 n x n / 32 passes 2^32 from n = 2^18 on.
-    count.words = count.segments < (1u << 18) ? partitions_of(count.segments) * words_of(count.segments) : COUNT_MAX;
+    count.words =
+        count.segments > DEEP_SEGMENTS ? deep_words : partitions_of(count.segments) * words_of(count.segments);
     counts[id] = count;
 }

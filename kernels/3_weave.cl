@@ -24,6 +24,7 @@ static void order_end(u32 id, u32 ray, __global const RayCount* offsets, __globa
     const real t = ends[number].t;
     u32 i, place = 0;
     all_nodes[id].owner = ray;
+    if (count > 2 * DEEP_SEGMENTS) return;
     for (i = 0; i < count; ++i) place += ends[i].t < t || (ends[i].t == t && i < number);
     all_nodes[base + place].next = number;
 }
@@ -53,6 +54,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     tally.partitions = tally.overlaps = 0;
     offset = offsets[id];
     segment_count = offsets[id + 1].segments - offset.segments;
+    if (segment_count > DEEP_SEGMENTS) return;
     if (segment_count == 0 || !ray_of(frame, rays, number_of(frame, listed, id), &r)) {
         tallies[id] = tally;
         return;

@@ -31,10 +31,13 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
 __kernel void evaluate(__global const Frame* frame, EVALUATION_ARGS, __global const RayCount* offsets,
                        __global const End* all_ends, __global const u32* all_bits, __global PartitionNode* nodes) {
     const u32 id = (u32)get_global_id(0);
+    u32 ray;
     cover c;
     if (id >= 2 * segments_of(frame, offsets) || nodes[id].in_end == NONE) return;
+    ray = nodes[id].owner;
+    if (offsets[ray + 1].segments - offsets[ray].segments > DEEP_SEGMENTS) return;
     c.solids = solids;
     c.starts = starts;
     c.trees = trees;
-    nodes[id].owner = owner_of(frame->rank_ends, c, id, nodes[id].owner, offsets, all_ends, all_bits);
+    nodes[id].owner = owner_of(frame->rank_ends, c, id, ray, offsets, all_ends, all_bits);
 }

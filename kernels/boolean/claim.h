@@ -288,11 +288,12 @@ FN SolidFilter all_solids(void) {
 
 // Evaluates the terms that start at the segments of `starting`, which are some of c.bits. `ranks`: Frame.rank_ends,
 // or 0 if `other` is not wanted. `changed`: if no region claimed before these solids came or went, only a term that has
-// one of them can claim now.
+// one of them can claim now. Of a term that several of them start, as a xor, each would find the same: what was false
+// just now is not looked at again.
 FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* list, GLOBAL const u32* ranks,
                     SolidFilter changed) {
     claim found;
-    u32 word, words = words_of(c.segments);
+    u32 word, words = words_of(c.segments), refuted = NONE;
     found.least = found.other = NONE;
     for (word = 0; word < words; ++word) {
         u32 bits = starting[word];
@@ -304,10 +305,13 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
                 const u32 region = start.region, precedes = region < found.least;
                 const u32 wanted = precedes || (ranks && found.other == NONE && region != found.least &&
                                                 same_rank(ranks, region, found.least));
-                if (wanted && meet(start.solids, changed) && term_holds(c, list, start)) {
+                if (!wanted || start.first_word == refuted || !meet(start.solids, changed)) continue;
+                if (term_holds(c, list, start)) {
                     const u32 later = precedes ? found.least : region;
                     if (precedes) found.least = region;
                     found.other = ranks && later != NONE && same_rank(ranks, later, found.least) ? later : NONE;
+                } else {
+                    refuted = start.first_word;
                 }
             }
         }

@@ -22,4 +22,13 @@ FN u32 segments_of(GLOBAL const Frame* f, GLOBAL const RayCount* offsets) {
     return segments_fit(f, offsets) ? offsets[f->ray_count].segments : 0;
 }
 
+// A ray of more segments than this is deep: its ends are sorted by merging, and its partitions evaluated one after the
+// other, by what changes from one to the next (3_deep_rays.cl). On processors that pays from 40 segments on; but a GPU
+// runs a batch again that has a deep ray, and havoc's rays have up to 70.
+#ifndef DEEP_SEGMENTS
+#define DEEP_SEGMENTS 96u
+#endif
+// Words of bit arrays in counts that are to tell that there is a deep ray: no buffer holds as many.
+#define DEEP_WORDS 0x80000000u
+
 #endif

@@ -150,6 +150,38 @@ typedef struct {
 #define PLAIN_WORDS 16u     // of a term; a larger one has a table of roles
 #define SCANNED_WORDS 256u  // of a term; a larger one is walked, by its covered leaves
 
+// ---- Status trees: regions' trees for deep rays (boolean/status_tree.h) ----
+// Clusters are numbered in pairs, each with its parent after it: 29 low bits a word of `links` the pair's parent, 3
+// high bits what becomes of the parent's function. Of a pair that is a region's: REGION_LINK, and the region.
+#define RAKE_NONE 0u     // nothing: the parent is part of the same path
+#define RAKE_UNION 1u    // the parent is the union with what stays of the tree
+#define RAKE_COMMON 2u   // the intersection
+#define RAKE_MINUEND 3u  // the difference, from it
+#define RAKE_REMOVED 4u  // the difference, of it
+#define RAKE_XOR 5u
+#define REGION_LINK 7u
+
+// A deep ray (capacity.h), and how far it is swept: places among its sorted ends.
+typedef struct {
+    u32 ray;
+    u32 block, segment;   // blocks of ends to sort, and segments, of those before it
+    u32 event, at;        // the event that is passed, and the one behind it
+    u32 changed;          // before this, segments have been opened and closed
+    u32 in_end, out_end;  // of the event: see weave
+    u32 open, last;       // nodes: see weave
+    u32 open_segments;
+    u32 partitions;  // woven
+    u32 sides;       // 3: some segment has MISSED_... set; else 1
+} DeepRay;
+#define DEEP_BLOCK 32u  // ends that a work-item sorts, or merges
+
+// A segment of a deep ray.
+typedef struct {
+    u32 first;      // the first segment of its solid
+    u32 is_open;    // bit 0: now; bit 1: before the event
+    u32 covers[3];  // of a solid's first segment: how many of the solid's are open, as met, and above and below
+} DeepSegment;
+
 typedef struct {
     float r, g, b;
     float specular, diffuse, ambient;

@@ -31,6 +31,8 @@ static_assert(sizeof(RayTally) == sizeof(RayCount) && sizeof(CandidateCount) == 
 static_assert(sizeof(Pixel) == 52);
 static_assert(sizeof(RayRecord) == 48);
 static_assert(sizeof(TileNode) == 8);
+static_assert(sizeof(DeepRay) == 52);
+static_assert(sizeof(DeepSegment) == 20);
 static_assert(sizeof(ChannelValues) == sizeof(Pixel));
 
 }  // namespace csgrt::kernel

@@ -2,15 +2,18 @@
 // a sanitizer sees here, a device would do silently.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
+#include "compile/regions/status_tree.hpp"
 #include "kernel_host/geometry.hpp"
 #include "pipeline/readback/picture.hpp"
 
@@ -34,6 +37,7 @@ using std::size_t;
 #include "../kernels/2_store_segments.cl"
 #include "../kernels/3_weave.cl"
 #include "../kernels/4_evaluate.cl"
+#include "../kernels/3_deep_rays.cl"
 #include "../kernels/5_shade.cl"
 #define CSGRT_SOLIDS 0xffffffffu
 inline u32 atomic_inc(u32* place) { return (*place)++; }
@@ -101,6 +105,46 @@ inline HostTiles cull(const CompiledScene& scene, const kernel::Frame& frame) {
     return tiles;
 }
 
+/// Sorts and sweeps the rays that are listed as src/pipeline/passes/deep_rays.cpp has it done, one at a time, whether
+/// they are deep or not. `limit`: ends that a launch passes.
+inline void sweep_rays(const CompiledScene& scene, const kernel::Frame& frame, const kernel::RayRecord* rays,
+                       const std::uint32_t* listed, const std::vector<std::uint32_t>& deep,
+                       const std::vector<kernel::RayCount>& offsets, std::vector<kernel::End>& ends,
+                       std::vector<kernel::PartitionNode>& nodes, std::vector<kernel::RayTally>& tallies,
+                       std::uint32_t limit) {
+    using namespace kernel;
+    const csgrt::StatusTree tree = make_status_tree(scene);
+    const auto regions = static_cast<u32>(scene.regions.size()), cluster_words = static_cast<u32>(tree.outside.size()),
+               words = cluster_words + words_of_set(regions);
+    std::vector<u32> status(3 * std::size_t{words}, 0xdeadbeefu);
+    for (global_id = 0; global_id < status.size(); ++global_id)
+        clear_status(tree.outside.data(), cluster_words, words, static_cast<u32>(status.size()), status.data());
+    const std::vector<u32> clear = status;
+    for (const u32 ray : deep) {
+        const u32 segments = offsets[ray + 1].segments - offsets[ray].segments,
+                  blocks = (2 * segments + DEEP_BLOCK - 1) / DEEP_BLOCK;
+        DeepRay one{};
+        one.ray = ray;
+        one.open = one.last = NONE;
+        u32 field = FIELD_NEXT;
+        for (u32 run = DEEP_BLOCK; run < 2 * segments; run *= 2) field ^= FIELD_NEXT ^ FIELD_IN_END;
+        for (global_id = 0; global_id <= blocks; ++global_id)
+            sort_deep_blocks(&one, 1, blocks, offsets.data(), ends.data(), nodes.data(), field);
+        for (u32 run = DEEP_BLOCK; run < 2 * segments; run *= 2) {
+            for (global_id = 0; global_id <= blocks; ++global_id)
+                merge_deep_runs(&one, 1, blocks, offsets.data(), ends.data(), nodes.data(), field, run);
+            field ^= FIELD_NEXT ^ FIELD_IN_END;
+        }
+        std::vector<DeepSegment> of_segments(segments);
+        for (u32 passed = 0; passed < 2 * segments; passed += limit)
+            for (global_id = 0; global_id < 2; ++global_id)
+                sweep_deep_rays(&frame, rays, listed, &one, 0, 0, 1, offsets.data(), ends.data(), nodes.data(),
+                                of_segments.data(), status.data(), cluster_words, regions, tree.links.data(),
+                                tree.first_leaves.data(), tree.leaves.data(), limit, tallies.data());
+        if (status != clear) throw std::logic_error("a ray left its status behind");
+    }
+}
+
 /// Runs all kernels; `rays` empty: the frame's camera.
 inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prepared,
                            const std::vector<kernel::RayRecord>& rays = {}) {
@@ -144,11 +188,11 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
-    each([&] { sum_segments(&frame, places.data(), candidates.data(), run.offsets.data()); });
+    each([&] { sum_segments(&frame, places.data(), candidates.data(), 0, run.offsets.data()); });
     const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());
-    run.bits.resize(sum.words);
+    run.bits.resize(std::max<std::size_t>(sum.words, run.ends.size()));
     run.tallies.resize(count);
     std::vector<float> values(13 * count);
     each_of(candidates.size(), [&] {
@@ -166,6 +210,11 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.trees.data(), run.offsets.data(),
                  run.ends.data(), run.bits.data(), run.nodes.data());
     });
+    std::vector<u32> deep;
+    for (u32 ray = 0; ray < count; ++ray)
+        if (run.offsets[ray + 1].segments - run.offsets[ray].segments > DEEP_SEGMENTS) deep.push_back(ray);
+    if (!deep.empty())
+        sweep_rays(scene, frame, rays.data(), listed, deep, run.offsets, run.ends, run.nodes, run.tallies, 1000);
     if (rays.empty()) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),

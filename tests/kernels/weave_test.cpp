@@ -1,8 +1,10 @@
-// Kernel 3 against the reference's weaving, on ends that a scene would have to be searched for: ties, chains of near
-// ties, segments shorter than the tolerance, infinite ends, up to hundreds of segments on a ray.
+// Kernel 3, and the sweep of deep rays, against the reference's weaving, on ends that a scene would have to be searched
+// for: ties, chains of near ties, segments shorter than the tolerance, infinite ends, up to hundreds of segments on a
+// ray.
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "catch.hpp"
 #include "kernels/host_kernels.hpp"
@@ -17,24 +19,92 @@ struct Woven {
     std::vector<WovenPartition> partitions;
 };
 
+/// Of one ray along z.
+struct Along {
+    explicit Along(std::uint32_t segments, double tolerance) : offsets{{0, 0}, {segments, 0}} {
+        frame.ray_count = 1;
+        frame.work = WORK_RAYS;
+        frame.tolerance = tolerance;
+        frame.segment_capacity = frame.word_capacity = COUNT_MAX;
+    }
+    kernel::Frame frame{};
+    kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
+    std::vector<kernel::RayCount> offsets;
+};
+
+/// Each solid a region of its own, the first half of one rank, the others of the next.
+CompiledScene solids_alone(std::uint32_t count) {
+    CompiledScene scene;
+    scene.solids.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        scene.trees.push_back(OP_LEAF << TREE_SHIFT | i);
+        scene.regions.push_back({i, 1, REGION_UNION_ONLY});
+    }
+    for (std::uint32_t rank = 0; rank < RANKS; ++rank) scene.rank_ends[rank] = rank == 0 ? count / 2 : count;
+    return scene;
+}
+
+/// Who claims a partition in such a scene, as PartitionNode.owner.
+std::uint32_t owner_among(const std::vector<kernel::End>& ends, const std::vector<std::uint32_t>& segments,
+                          std::uint32_t half) {
+    const auto side = [&](std::uint32_t missed) {
+        std::set<std::uint32_t> regions;
+        for (const std::uint32_t segment : segments)
+            if (!(ends[2 * segment].surface & missed)) regions.insert(ends[2 * segment].solid);
+        return regions;
+    };
+    const std::set<std::uint32_t> touched = side(0), above = side(MISSED_ABOVE), below = side(MISSED_BELOW);
+    std::uint32_t least = NONE, overlap = 0;
+    for (const auto& regions : {above, below}) {
+        if (regions.empty()) continue;
+        least = std::min(least, *regions.begin());
+        if (regions.size() > 1 && (*regions.begin() < half) == (*std::next(regions.begin()) < half)) overlap = OVERLAP;
+    }
+    return (least == NONE ? *touched.begin() : least) | overlap;
+}
+
+/// The partitions of the sweep, and whether their owners are those that they ought to have.
+Woven weave_by_sweep(std::vector<kernel::End> ends, double tolerance, std::uint32_t limit) {
+    const auto segments = static_cast<std::uint32_t>(ends.size() / 2);
+    Along along(segments, tolerance);
+    const std::uint32_t solids = ends[ends.size() - 1].solid + 1;
+    std::vector<kernel::PartitionNode> nodes(ends.size(), {1, 2, 3, 4});
+    std::vector<kernel::RayTally> tallies(1);
+    along.frame.rank_ends[0] = solids / 2;
+    for (std::uint32_t rank = 1; rank < RANKS; ++rank) along.frame.rank_ends[rank] = solids;
+    test::sweep_rays(solids_alone(solids), along.frame, &along.ray, nullptr, {0}, along.offsets, ends, nodes, tallies,
+                     limit);
+    Woven woven;
+    for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
+        WovenPartition p;
+        p.in_end = nodes[n].in_end;
+        p.out_end = nodes[n].out_end;
+        p.in = ends[p.in_end].t;
+        p.out = ends[p.out_end].t;
+        for (std::uint32_t s = 0; s < segments; ++s)
+            if (ends[2 * s].t <= p.in && p.in < ends[2 * s + 1].t) p.segments.push_back(s);
+        REQUIRE(nodes[n].owner == owner_among(ends, p.segments, solids / 2));
+        woven.partitions.push_back(p);
+    }
+    REQUIRE(woven.partitions.size() == tallies[0].partitions);
+    woven.ends = std::move(ends);
+    return woven;
+}
+
 Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     const auto segments = static_cast<std::uint32_t>(ends.size() / 2);
     const std::uint32_t words = kernel::words_of(segments);
-    kernel::Frame frame{};
-    frame.ray_count = 1;
-    frame.work = WORK_RAYS;
-    const kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
-    frame.tolerance = tolerance;
-    frame.segment_capacity = frame.word_capacity = COUNT_MAX;
-    const std::vector<kernel::RayCount> offsets = {{0, 0}, {segments, kernel::partitions_of(segments) * words}};
+    Along along(segments, tolerance);
+    std::vector<kernel::RayCount>& offsets = along.offsets;
+    offsets[1].words = kernel::partitions_of(segments) * words;
     std::vector<kernel::PartitionNode> nodes(ends.size());
     std::vector<std::uint32_t> bits(offsets[1].words, 0xdeadbeefu);  // memory comes as it was left
     kernel::RayTally tally{};
     const std::vector<std::uint32_t> rays(ends.size());
     for (kernel::global_id = 0; kernel::global_id < ends.size(); ++kernel::global_id)
-        kernel::order_ends(&frame, offsets.data(), ends.data(), rays.data(), nodes.data());
+        kernel::order_ends(&along.frame, offsets.data(), ends.data(), rays.data(), nodes.data());
     kernel::global_id = 0;
-    kernel::weave(&frame, &ray, nullptr, offsets.data(), ends.data(), nodes.data(), bits.data(), &tally);
+    kernel::weave(&along.frame, &along.ray, nullptr, offsets.data(), ends.data(), nodes.data(), bits.data(), &tally);
     Woven woven;
     for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
         WovenPartition p;
@@ -57,17 +127,22 @@ std::vector<WovenPartition> weave_by_reference(const std::vector<kernel::End>& e
     return {partitions.begin(), partitions.end()};
 }
 
-void require_equal(const std::vector<kernel::End>& ends, double tolerance) {
-    const Woven a = weave_by_kernel(ends, tolerance);
-    const std::vector<WovenPartition> b = weave_by_reference(ends, tolerance);
-    REQUIRE(a.partitions.size() == b.size());
+void require_equal(const std::vector<WovenPartition>& a, const std::vector<WovenPartition>& b) {
+    REQUIRE(a.size() == b.size());
     for (std::size_t i = 0; i < b.size(); ++i) {
-        REQUIRE(a.partitions[i].in == b[i].in);
-        REQUIRE(a.partitions[i].out == b[i].out);
-        REQUIRE(a.partitions[i].in_end == b[i].in_end);
-        REQUIRE(a.partitions[i].out_end == b[i].out_end);
-        REQUIRE(a.partitions[i].segments == b[i].segments);
+        REQUIRE(a[i].in == b[i].in);
+        REQUIRE(a[i].out == b[i].out);
+        REQUIRE(a[i].in_end == b[i].in_end);
+        REQUIRE(a[i].out_end == b[i].out_end);
+        REQUIRE(a[i].segments == b[i].segments);
     }
+}
+
+void require_equal(const std::vector<kernel::End>& ends, double tolerance) {
+    const std::vector<WovenPartition> expected = weave_by_reference(ends, tolerance);
+    if (ends.size() <= 2 * DEEP_SEGMENTS) require_equal(weave_by_kernel(ends, tolerance).partitions, expected);
+    for (const std::uint32_t limit : {1u, 7u, 1000u})
+        require_equal(weave_by_sweep(ends, tolerance, limit).partitions, expected);
 }
 
 }  // namespace
@@ -104,12 +179,13 @@ TEST_CASE("a segment shorter than the tolerance vanishes", "[weave]") {
     require_equal(ends, 0.0005);
 }
 
-TEST_CASE("kernel 3 weaves as the reference does", "[weave]") {
+TEST_CASE("kernel 3 weaves as the reference does, and so does the sweep of deep rays", "[weave]") {
     std::mt19937 random(20171);
     const double infinity = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 4000; ++round) {
         const int segments = round < 3900 ? static_cast<int>(random() % 12) + 1 : static_cast<int>(random() % 300) + 1;
         const int grid = static_cast<int>(random() % 40) + 2;  // few places: many ties
+        const bool marked = random() % 2 == 0;
         const double jitter = random() % 3 == 0 ? 0.0 : 3e-4;
         std::uniform_real_distribution<double> unit(0, 1);
         std::vector<kernel::End> ends;
@@ -122,8 +198,29 @@ TEST_CASE("kernel 3 weaves as the reference does", "[weave]") {
             double out = in + some() + 1e-9;
             if (random() % 40 == 0) in = -infinity;
             if (random() % 40 == 0) out = infinity;
-            ends.push_back({in, static_cast<std::uint32_t>(s), 0});
-            ends.push_back({out, static_cast<std::uint32_t>(s), 0});
+            const std::uint32_t surface = random() % 5 == 0 ? random() % 2 ? MISSED_ABOVE : MISSED_BELOW : 0u;
+            ends.push_back({in, static_cast<std::uint32_t>(s), marked ? surface : 0u});
+            ends.push_back({out, static_cast<std::uint32_t>(s), marked ? surface : 0u});
+        }
+        INFO("round " << round);
+        require_equal(ends, random() % 2 ? 0.0005 : 0.0);
+    }
+}
+
+TEST_CASE("a solid's segments that abut or overlap are one to the sweep of deep rays", "[weave]") {
+    std::mt19937 engine(20172);
+    const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+    for (int round = 0; round < 300; ++round) {
+        std::vector<kernel::End> ends;
+        const std::uint32_t solids = random() % 20 + 1;
+        for (std::uint32_t solid = 0; solid < solids; ++solid) {
+            double in = static_cast<double>(random() % 20);
+            for (std::uint32_t k = random() % 9; k < 9; ++k) {
+                const double out = in + 1 + static_cast<double>(random() % 3);
+                ends.push_back({in, solid, 0});
+                ends.push_back({out, solid, 0});
+                in = out + static_cast<double>(random() % 3) - (random() % 4 == 0 ? 0.5 : 0.0);
+            }
         }
         INFO("round " << round);
         require_equal(ends, random() % 2 ? 0.0005 : 0.0);

@@ -19,12 +19,15 @@ std::vector<std::uint32_t> claimants_of(const CompiledScene& scene, const kernel
     kernel::covered_solids covered;
     kernel::list_covered(cover, &covered);
     std::vector<std::uint32_t> claimants;
+    std::uint32_t known = NONE;  // the term that was looked at last: several solids may start it
     for (std::uint32_t segment = 0; segment < cover.segments; ++segment) {
         if (!kernel::covers(cover, segment)) continue;
         const kernel::SolidRecord& solid = scene.solids[cover.ends[2 * segment].solid];
         for (std::uint32_t i = 0; i < solid.start_count; ++i) {
             const kernel::StartRecord& start = scene.starts[solid.first_start + i];
-            if (kernel::term_holds(cover, &covered, start)) claimants.push_back(start.region);
+            if (start.first_word != std::exchange(known, start.first_word) &&
+                kernel::term_holds(cover, &covered, start))
+                claimants.push_back(start.region);
         }
     }
     std::sort(claimants.begin(), claimants.end());
@@ -36,10 +39,14 @@ std::vector<std::uint32_t> claimants_of(const CompiledScene& scene, const kernel
 }
 
 /// The same for a partition that several regions claim, which are found again on the host: on one side at least of a
-/// contact.
+/// contact. `in`: where it begins. Weaving has given all ends of an event the same distance.
 std::vector<std::uint32_t> all_claimants(const CompiledScene& scene, const kernel::End* ends, std::uint32_t segments,
-                                         const std::uint32_t* bits) {
-    kernel::cover cover{ends, bits, segments, 0, 1, scene.solids.data(), scene.starts.data(), scene.trees.data()};
+                                         double in) {
+    std::vector<std::uint32_t> bits(kernel::words_of(segments));
+    for (std::uint32_t segment = 0; segment < segments; ++segment)
+        if (ends[2 * segment].t <= in && in < ends[2 * segment + 1].t) bits[segment / 32] |= 1u << segment % 32;
+    kernel::cover cover{
+        ends, bits.data(), segments, 0, 1, scene.solids.data(), scene.starts.data(), scene.trees.data()};
     std::vector<std::uint32_t> all;
     for (const std::uint32_t missed : {MISSED_ABOVE, MISSED_BELOW}) {
         cover.missed = missed;
@@ -71,9 +78,7 @@ std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, con
         claim.in_leaves = partition.in_end % 2 == 1;
         claim.out_enters = partition.out_end % 2 == 0;
         claim.region = region;
-        if (partition.owner & OVERLAP)
-            claim.claimants = all_claimants(scene, ends, segments,
-                                            traced.bits.data() + begin.words + node * kernel::words_of(segments));
+        if (partition.owner & OVERLAP) claim.claimants = all_claimants(scene, ends, segments, claim.in.t);
         claims.push_back(std::move(claim));
     }
     return claims;

@@ -14,7 +14,6 @@ struct TracedPartitions {
     std::vector<kernel::RayCount> offsets;  ///< one a ray and one behind
     std::vector<kernel::End> ends;
     std::vector<kernel::PartitionNode> nodes;
-    std::vector<std::uint32_t> bits;
 };
 
 /// The claimed partitions of one of the rays, in order along it, each with all regions that claim it if several do.

@@ -55,7 +55,9 @@ bool PartitionMemory::reserve_candidates(std::uint32_t candidates) {
 
 bool PartitionMemory::reserve_segments(const kernel::RayCount& total) {
     if (total.segments >= NONE / 2 || total.words == COUNT_MAX) return false;
-    const Wanted wanted[] = {{&ends_, total.segments * segment_bytes()}, {&bits_, total.words * sizeof(std::uint32_t)}};
+    const std::uint64_t words =
+        std::max<std::uint64_t>(total.words, 2 * std::uint64_t{total.segments});  // an end's ray
+    const Wanted wanted[] = {{&ends_, total.segments * segment_bytes()}, {&bits_, words * sizeof(std::uint32_t)}};
     const std::uint64_t partitions = partition_bytes(total.segments),
                         more = partitions > found_.size() ? partitions : 0;
     std::uint64_t needed = more, grown = more, held = 0;

@@ -41,7 +41,7 @@ public:
     Buffer& found() { return found_; }                  ///< two kernel::End a candidate
     Buffer& partitions() { return found_; }             ///< two kernel::PartitionNode a segment
     Buffer& ends() { return ends_; }                    ///< two kernel::End a segment
-    Buffer& bits() { return bits_; }                    ///< words
+    Buffer& bits() { return bits_; }                    ///< words; 2 a segment at least
     Buffer& tally_sums() { return tally_sums_; }        ///< kernel::RayTally, one a scan block
 
     /// Bytes of a ray whatever it hits.
@@ -54,6 +54,11 @@ public:
     bool reserve_segments(const kernel::RayCount& total);
     /// After kernel 2, once it is queued: the memory of what it found becomes that of partitions.
     void reserve_partitions(std::uint32_t segments) { found_.reserve(partition_bytes(segments)); }
+
+    /// Bytes that reserve_partitions() will take.
+    std::uint64_t to_reserve(std::uint32_t segments) const {
+        return partition_bytes(segments) > found_.size() ? partition_bytes(segments) : 0;
+    }
 
     bool holds_rays(std::uint32_t rays) const;
     PartitionSizes capacity() const;

@@ -4,14 +4,26 @@
 #include <utility>
 
 namespace csgrt {
+namespace kernel {
+#include "../kernels/shared/capacity.h"
+}  // namespace kernel
+
 namespace {
 
 std::vector<std::string> files_of(bool packets) {
     std::vector<std::string> files = {CullPass::file};
     if (packets) files.push_back("1_packet_candidates.cl");
     files.insert(files.end(), {"1_count_segments.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl",
-                               "5_shade.cl"});
+                               "3_deep_rays.cl", "5_shade.cl"});
     return files;
+}
+
+// Another evaluation takes all rays: none is deep. Bit arrays of more segments have more words than can be counted.
+std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings,
+                                     bool other) {
+    std::vector<std::string> options = program_options(device, scene, settings);
+    if (other) options.push_back("-DDEEP_SEGMENTS=0x3ffffu");
+    return options;
 }
 
 }  // namespace
@@ -22,7 +34,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       kernels_(kernels),
       other_evaluation_(other),
       program_(device, assemble_program(files_of(traces_packets(device, settings))) + (other ? other->source : ""),
-               program_options(device, scene, settings), settings.precision != Precision::double_),
+               options_for(device, scene, settings, other != nullptr), settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
       count_segments_(program_.kernel("count_segments")),
@@ -36,6 +48,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       evaluate_(program_.kernel(other ? other->name : "evaluate")),
       shade_(program_.kernel("shade")),
       memory_(device, kernels),
+      deep_rays_(device, program_, scene),
       no_buffer_(device, "nothing"),
       scan_sums_buffer_(device, "sums of counts"),
       read_(device, "sums of tallies"),
@@ -76,24 +89,37 @@ std::optional<PartitionSizes> PartitionPass::trace_counted(const Input& input, T
     if (auto sizes = try_counted(input, timed)) return sizes;
     for (const auto& [time, kernel] : timed) wait_for(kernel);  // throws if a fault, and not the memory, is the reason
     memory_.release_counted();                                  // a smaller batch needs it
+    deep_rays_.release();
     return {};
 }
 
 std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, TimedKernels& timed) {
     PartitionSizes sizes;
+    deep_rays_.release();  // other rays come first
     if (!memory_.reserve_rays(input.rays)) return {};
     place_candidates(input, timed);
     sizes.candidates = read_total(memory_.candidate_places(), input.rays, timed).segments;
     if (!memory_.reserve_candidates(sizes.candidates)) return {};
     count_segments(input, sizes.candidates, timed);
-    sizes.total = counted_ = read_total(memory_.offsets(), input.rays, timed);
+    sizes.total = read_total(memory_.offsets(), input.rays, timed);
+    // Or much else, and the list of deep rays will be empty.
+    has_deep_rays_ = !other_evaluation_ && sizes.total.words >= DEEP_WORDS;
+    if (has_deep_rays_) {
+        sum_segments(input, 0, timed);
+        sizes.total = read_total(memory_.offsets(), input.rays, timed);
+    }
+    counted_ = sizes.total;
     if (!memory_.reserve_segments(sizes.total)) return {};
+    if (has_deep_rays_ && !deep_rays_.prepare(memory_.offsets().read<kernel::RayCount>(std::size_t{input.rays} + 1),
+                                              memory_.to_reserve(sizes.total.segments)))
+        return {};
     make_partitions(input, sizes.candidates, sizes.total.segments, timed);
+    if (has_deep_rays_) deep_rays_.launch(input.batch, input.work, memory_, timed);
     return sizes;
 }
 
 std::optional<PartitionSizes> PartitionPass::capacity_for(std::uint32_t rays) const {
-    if (!memory_.holds_rays(rays)) return {};
+    if (!memory_.holds_rays(rays) || has_deep_rays_) return {};
     // The larger of two: a picture may well have two batches that differ.
     const auto expected = [&](double Average::*what) {
         return static_cast<std::uint64_t>(std::max(average_.*what, average_before_.*what) * rays);
@@ -146,8 +172,13 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
     device_.flush();
     add(count_segments_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
                                memory_.candidate_places(), memory_.candidates(), memory_.found()));
-    add(sum_segments_.launch(input.rays, work_group, batch.frame, memory_.candidate_places(), memory_.candidates(),
-                             memory_.offsets()));
+    sum_segments(input, DEEP_WORDS, timed);
+}
+
+void PartitionPass::sum_segments(const Input& input, std::uint32_t deep_words, TimedKernels& timed) {
+    timed.emplace_back(&PipelineCounts::count_hits,
+                       sum_segments_.launch(input.rays, work_group, input.batch.frame, memory_.candidate_places(),
+                                            memory_.candidates(), cl_uint{deep_words}, memory_.offsets()));
     scan(memory_.offsets(), input.rays, timed);
 }
 
@@ -179,8 +210,7 @@ TracedPartitions PartitionPass::read(std::uint32_t rays) {
     const std::size_t ends = 2 * std::size_t{counted_.segments};
     return {.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1),
             .ends = kernels_.ends(memory_.ends().read<std::byte>(ends * kernels_.end_bytes())),
-            .nodes = memory_.partitions().read<kernel::PartitionNode>(ends),
-            .bits = memory_.bits().read<std::uint32_t>(counted_.words)};
+            .nodes = memory_.partitions().read<kernel::PartitionNode>(ends)};
 }
 
 void PartitionPass::shade(const Input& input, const Buffer& picture, TimedKernels& timed) {

@@ -4,7 +4,8 @@
 //
 // Either the host reads what the rays need between the kernels and allocates exactly that (trace_counted), or all
 // kernels are queued at once into the buffers at hand (trace_queued). In the second case the kernels write nothing if
-// the rays need more than the capacity that their frame states; the batch's report says what they need.
+// the rays need more than the capacity that their frame states, or if one of them is deep; the batch's report says what
+// they need. Deep rays take kernels of their own in place of 3 and 4 (deep_rays.hpp), when their number is known.
 #pragma once
 
 #include <functional>
@@ -16,6 +17,7 @@
 #include "pipeline/counts.hpp"
 #include "pipeline/passes/claims.hpp"
 #include "pipeline/passes/cull.hpp"
+#include "pipeline/passes/deep_rays.hpp"
 #include "pipeline/passes/partition_memory.hpp"
 
 namespace csgrt {
@@ -66,8 +68,12 @@ public:
     TracedPartitions read(std::uint32_t rays);
 
     CullPass& cull() { return cull_; }
-    std::uint64_t held() const { return memory_.held(); }
-    void release() { memory_.release(); }
+    DeepRayPass& deep_rays() { return deep_rays_; }
+    std::uint64_t held() const { return memory_.held() + deep_rays_.held(); }
+    void release() {
+        memory_.release();
+        deep_rays_.release();
+    }
 
 private:
     /// What a ray needs on average.
@@ -76,6 +82,8 @@ private:
     };
     void place_candidates(const Input& input, TimedKernels& timed);
     void count_segments(const Input& input, std::uint32_t candidates, TimedKernels& timed);
+    /// `deep_words`: see kernels/1_count_segments.cl.
+    void sum_segments(const Input& input, std::uint32_t deep_words, TimedKernels& timed);
     void make_partitions(const Input& input, std::uint32_t candidates, std::uint32_t segments, TimedKernels& timed);
     std::optional<PartitionSizes> try_counted(const Input& input, TimedKernels& timed);
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
@@ -96,9 +104,11 @@ private:
     Kernel find_candidates_, count_segments_, sum_segments_, scan_blocks_, scan_sums_, scan_add_, store_segments_,
         order_ends_, weave_, evaluate_, shade_;
     PartitionMemory memory_;
+    DeepRayPass deep_rays_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;
     kernel::RayCount counted_{};        ///< by the last trace_counted
+    bool has_deep_rays_ = false;        ///< perhaps, the same
     Average average_, average_before_;  ///< of the last rays whose sizes are known, and of those before
     std::size_t tally_count_ = 0;       ///< of sums
     QueuedRead read_, read_total_;

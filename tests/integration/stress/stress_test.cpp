@@ -174,6 +174,24 @@ TEST_CASE("a tree of 100,000 nodes, and 10,000 segments on a ray", "[stress]") {
     require_right(stress::make("depth", 28), 0, 10'000);             // a comb, one solid
 }
 
+TEST_CASE("a device answers rays of up to 100,000 segments rightly", "[stress]") {
+    for (std::uint64_t seed = 84; seed < 104; ++seed) {
+        if ((seed - 84) % 5 == 4 && (seed > 90 || test::sanitized)) continue;  // 10^5 sheets: once will do
+        if (test::sanitized && seed >= 94) break;
+        const stress::StressScene made = stress::make("depth", seed);
+        INFO("seed " << made.seed);
+        const std::vector<Expected> expected = expected_of(made);
+        const std::vector<RayPartitions> found =
+            shoot(made.scene, made.objects, made.objects, made.rays, on_device()).found;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            INFO("ray " << i);
+            const Sequence sequence = sequence_of(found[i]);
+            REQUIRE(same_regions(sequence, expected[i].sequence));
+            CHECK(worst_end(sequence, expected[i].sequence, 0) <= 1);
+        }
+    }
+}
+
 TEST_CASE("the device and the reference agree on stress scenes", "[.long]") {
     for (const std::string& family : stress::families())
         for (const std::uint64_t seed : {1u, 8u, 24u}) {

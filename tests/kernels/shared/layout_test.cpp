@@ -48,6 +48,11 @@ using namespace csgrt;
     FIELD(Candidate, ray) FIELD(Candidate, solid) FIELD(Candidate, count) FIELD(Candidate, before) RECORD(End) \
     FIELD(End, t) FIELD(End, solid) FIELD(End, surface) RECORD(PartitionNode) FIELD(PartitionNode, in_end) \
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
+    RECORD(DeepRay) FIELD(DeepRay, ray) FIELD(DeepRay, block) FIELD(DeepRay, segment) FIELD(DeepRay, event) \
+    FIELD(DeepRay, at) FIELD(DeepRay, changed) FIELD(DeepRay, in_end) FIELD(DeepRay, out_end) \
+    FIELD(DeepRay, open) FIELD(DeepRay, last) FIELD(DeepRay, open_segments) FIELD(DeepRay, partitions) \
+    FIELD(DeepRay, sides) RECORD(DeepSegment) FIELD(DeepSegment, first) FIELD(DeepSegment, is_open) \
+    FIELD(DeepSegment, covers) \
     RECORD(RayTally) FIELD(RayTally, partitions) FIELD(RayTally, overlaps) RECORD(Pixel) \
     FIELD(Pixel, rgba) FIELD(Pixel, z) FIELD(Pixel, normal) FIELD(Pixel, region) FIELD(Pixel, solid) \
     FIELD(Pixel, depth) FIELD(Pixel, partitions) FIELD(Pixel, overlap) RECORD(ChannelValues) FIELD(ChannelValues, of)

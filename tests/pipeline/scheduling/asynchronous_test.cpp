@@ -13,6 +13,7 @@
 #include "pipeline/passes/first_hits.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/scheduling/device_group.hpp"
+#include "integration/deep_scenes.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"
@@ -208,6 +209,19 @@ TEST_CASE("asynchronous: few channels, of batches that run beside each other, in
         lined.channels = channel::distance;
         lined.draw(400, 400, false, 1 << 20);
     }
+}
+
+// Batches without deep rays are queued into the buffers at hand; one that has some is traced again, counted.
+TEST_CASE("asynchronous: deep rays beside others, in little memory and in much") {
+    const Scene scene = test::nested_balls(300, {Operator::xor_}, test::Form::list);
+    std::uint64_t retried = 0;
+    for (const std::uint64_t room : {0, 3'000'000, 700'000}) {
+        INFO("room " << room);
+        Lined lined(scene, room, 1024);
+        retried += lined.draw(140, 120, true, 1 << 20).retried;
+        lined.draw(140, 120, false, 1 << 20);
+    }
+    CHECK(retried > 0);
 }
 
 TEST_CASE("a picture in place after a list of rays, in little memory") {

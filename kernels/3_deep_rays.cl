@@ -1,0 +1,267 @@
+// Kernels 3 and 4 for deep rays: a ray of n segments takes n log n steps, where weave and evaluate take n^2 and more.
+//
+//   sort blocks -> merge, merge, ... -> sweep, sweep, ...
+//
+// The ends are sorted as order_ends sorts them: in blocks, which are merged two by two. The order stands in the nodes:
+// in `next`, or in `in_end` before the other merges. Then one work-item a ray passes the events from front to back.
+// Partitions and their nodes are those of weave. In place of their bits, a count of each solid's open segments and a
+// status tree (boolean/status_tree.h) of the regions are kept, which change by a few words where a solid begins or ends
+// to cover. A launch passes a limited number of ends, so that it is short, and the next goes on.
+#include "traversal/camera.h"
+#include "boolean/status_tree.h"
+
+#define FIELD_IN_END 0u
+#define FIELD_NEXT 2u
+// The number in that place of a ray's order.
+static __global u32* in_order(__global PartitionNode* nodes, u32 field, u32 place) {
+    return (__global u32*)(nodes + place) + field;
+}
+
+// The deep ray that a block is of.
+static u32 deep_ray_of(__global const DeepRay* deep, u32 count, u32 block) {
+    u32 low = 0, high = count;  // deep[low].block <= block < deep[high].block
+    while (high - low > 1) {
+        const u32 middle = (low + high) >> 1;
+        if (deep[middle].block <= block) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static int ends_before(__global const End* ends, u32 a, u32 b) {
+    const real t_a = ends[a].t, t_b = ends[b].t;
+    return t_a < t_b || (t_a == t_b && a < b);
+}
+
+// One work-item a block.
+__kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
+                               __global const End* all_ends, __global PartitionNode* all_nodes, u32 field) {
+    const u32 id = (u32)get_global_id(0);
+    u32 order[DEEP_BLOCK], k, first, size;
+    DeepRay ray;
+    RayCount offset;
+    __global const End* ends;
+    __global PartitionNode* nodes;
+    if (id >= blocks) return;
+    ray = deep[deep_ray_of(deep, count, id)];
+    offset = offsets[ray.ray];
+    ends = all_ends + 2 * (size_t)offset.segments;
+    nodes = all_nodes + 2 * (size_t)offset.segments;
+    first = DEEP_BLOCK * (id - ray.block);
+    size = 2 * (offsets[ray.ray + 1].segments - offset.segments) - first;
+    if (size > DEEP_BLOCK) size = DEEP_BLOCK;
+    for (k = 0; k < size; ++k) {
+        u32 place = k;
+        for (; place > 0 && ends_before(ends, first + k, order[place - 1]); --place) order[place] = order[place - 1];
+        order[place] = first + k;
+    }
+    for (k = 0; k < size; ++k) *in_order(nodes, field, first + k) = order[k];
+}
+
+// Merges runs of `run` ends, two by two. One work-item a block of the result, whose ends come from both runs: how many
+// from the left one is found by bisection.
+__kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
+                              __global const End* all_ends, __global PartitionNode* all_nodes, u32 field, u32 run) {
+    const u32 id = (u32)get_global_id(0), to = field == FIELD_NEXT ? FIELD_IN_END : FIELD_NEXT;
+    u32 ends_count, place, last, left, left_end, right, right_end, low, high, before;
+    DeepRay ray;
+    RayCount offset;
+    __global const End* ends;
+    __global PartitionNode* nodes;
+    if (id >= blocks) return;
+    ray = deep[deep_ray_of(deep, count, id)];
+    offset = offsets[ray.ray];
+    ends = all_ends + 2 * (size_t)offset.segments;
+    nodes = all_nodes + 2 * (size_t)offset.segments;
+    ends_count = 2 * (offsets[ray.ray + 1].segments - offset.segments);
+    place = DEEP_BLOCK * (id - ray.block);
+    last = place + DEEP_BLOCK < ends_count ? place + DEEP_BLOCK : ends_count;
+    left = place - place % (2 * run);
+    left_end = right = left + run < ends_count ? left + run : ends_count;
+    right_end = right + run < ends_count ? right + run : ends_count;
+    before = place - left;  // as many of both runs are in blocks before this one
+    low = before > right_end - right ? before - (right_end - right) : 0;
+    high = before < left_end - left ? before : left_end - left;
+    while (low < high) {
+        const u32 middle = (low + high) >> 1;
+        if (ends_before(ends, *in_order(nodes, field, left + middle),
+                        *in_order(nodes, field, right + before - middle - 1))) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    left += low;
+    right += before - low;
+    for (; place < last; ++place) {
+        int takes_left = right == right_end;
+        if (left < left_end && right < right_end)
+            takes_left = ends_before(ends, *in_order(nodes, field, left), *in_order(nodes, field, right));
+        *in_order(nodes, to, place) = *in_order(nodes, field, takes_left ? left++ : right++);
+    }
+}
+
+// Status trees of rays, each three times, where no solid covers: functions of clusters, then the set of regions.
+__kernel void clear_status(__global const u32* outside, u32 cluster_words, u32 words, u32 count, __global u32* status) {
+    const u32 id = (u32)get_global_id(0);
+    if (id < count) status[id] = id % words < cluster_words ? outside[id % words] : 0;
+}
+
+// A scene's status tree, and its size.
+typedef struct {
+    __global const u32* links;
+    __global const u32* first_leaves;  // one a solid and one behind: its leaves
+    __global const u32* leaves;        // cluster << 2 | what changes of its function where the solid covers
+    u32 cluster_words, regions;
+} status_tree;
+
+// Opens or closes a segment: its solid begins or ends to cover, if it is the only open one.
+static void change_cover(status_tree tree, u32 solid, u32 opens, __global u32* covers, __global u32* status) {
+    const u32 count = *covers;
+    *covers = opens ? count + 1 : count - 1;
+    if (count == !opens) {
+        u32 leaf;
+        for (leaf = tree.first_leaves[solid]; leaf < tree.first_leaves[solid + 1]; ++leaf) {
+            const u32 region = change_leaf(status, tree.links, tree.leaves[leaf] >> 2, tree.leaves[leaf] & 3u);
+            if (region != NONE) toggle(status + tree.cluster_words, tree.regions, region);
+        }
+    }
+}
+
+// As evaluate: PartitionNode.owner of what is open.
+static u32 deep_owner(status_tree tree, __global const u32* ranks, __global const u32* status, u32 words, u32 sides) {
+    u32 side, least = NONE, touched = NONE, overlap = 0;
+    for (side = 0; side < sides; ++side) {
+        __global const u32* const set = status + side * words + tree.cluster_words;
+        const u32 first = member_from(set, tree.regions, 0);
+        if (side == 0) touched = first;
+        if (sides == 1 || side > 0) {
+            if (first < least) least = first;
+            if (first != NONE && !overlap) {
+                const u32 other = member_from(set, tree.regions, first + 1);
+                if (other != NONE && same_rank(ranks, first, other)) overlap = OVERLAP;
+            }
+        }
+    }
+    return (least != NONE ? least : touched) | overlap;
+}
+
+// Before the first event: no segment is open.
+static u32 start_deep_ray(__global const End* ends, u32 count, __global DeepSegment* of_segment) {
+    u32 i, first = 0, solid = NONE, marked = 0;
+    for (i = 0; i < count; ++i) {
+        const End end = ends[2 * i];
+        DeepSegment s;
+        if (end.solid != solid) {
+            first = i;
+            solid = end.solid;
+        }
+        marked |= end.surface & MISSED;
+        s.first = first;
+        s.is_open = s.covers[0] = s.covers[1] = s.covers[2] = 0;
+        of_segment[i] = s;
+    }
+    return marked ? 3 : 1;
+}
+
+// Passes over the ends of the next event, from swept.at on: its segments will change sides at once.
+static void find_event(DeepRay* swept, u32 end_count, real tolerance, __global End* ends,
+                       __global const PartitionNode* list, __global DeepSegment* of_segment) {
+    u32 at = swept->at, e = list[at].next, i;
+    real t_e = ends[e].t;
+    const real t = t_e;
+    do {
+        of_segment[e >> 1].is_open ^= 1u;
+        if (++at == end_count) break;
+        e = list[at].next;
+        t_e = ends[e].t;
+    } while (t_e == t || t_e - t <= tolerance);
+    swept->event = swept->at;
+    swept->in_end = swept->out_end = NONE;
+    for (i = swept->event; i < at; ++i) {
+        const u32 ended = list[i].next, is_open = of_segment[ended >> 1].is_open;
+        if (i != swept->event) ends[ended].t = t;
+        if (!(ended & 1u) && (is_open & 1u) && swept->in_end == NONE) swept->in_end = ended;
+        if ((ended & 1u) && is_open == 2u && swept->out_end == NONE) swept->out_end = ended;
+    }
+    swept->at = at;
+}
+
+// One work-item a deep ray from `first_ray` on. `limit`: how many ends a launch takes at most, each of which may change
+// all of the status tree that stands above it. `status`: of clear_status, for the ray as it is and moved above and
+// below the faces that it runs in; when a ray is through, it is as it was, for the next ray.
+__kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
+                              __global DeepRay* deep, u32 first_ray, u32 first_segment, u32 count,
+                              __global const RayCount* offsets, __global End* all_ends,
+                              __global PartitionNode* all_nodes, __global DeepSegment* all_segments,
+                              __global u32* all_status, u32 cluster_words, u32 regions, __global const u32* links,
+                              __global const u32* first_leaves, __global const u32* leaves, u32 limit,
+                              __global RayTally* tallies) {
+    const u32 id = (u32)get_global_id(0), words = cluster_words + words_of_set(regions);
+    u32 end_count, stop;
+    DeepRay swept;
+    RayCount offset;
+    status_tree tree;
+    ray3 r;
+    real tolerance;
+    __global End* ends;
+    __global PartitionNode* list;
+    __global DeepSegment* of_segment;
+    __global u32* status;
+    if (id >= count) return;
+    swept = deep[first_ray + id];
+    offset = offsets[swept.ray];
+    end_count = 2 * (offsets[swept.ray + 1].segments - offset.segments);
+    if (swept.changed == end_count || !ray_of(frame, rays, number_of(frame, listed, swept.ray), &r)) return;
+    tolerance = tolerance_along(frame, r);
+    ends = all_ends + 2 * (size_t)offset.segments;
+    list = all_nodes + 2 * (size_t)offset.segments;
+    of_segment = all_segments + (swept.segment - first_segment);
+    status = all_status + 3 * (size_t)id * words;
+    tree.links = links;
+    tree.first_leaves = first_leaves;
+    tree.leaves = leaves;
+    tree.cluster_words = cluster_words;
+    tree.regions = regions;
+    if (swept.changed == 0) swept.sides = start_deep_ray(ends, end_count / 2, of_segment);
+    stop = end_count - swept.changed > limit ? swept.changed + limit : end_count;
+    while (swept.changed < stop) {
+        if (swept.changed == swept.at) find_event(&swept, end_count, tolerance, ends, list, of_segment);
+        for (; swept.changed < swept.at && swept.changed < stop; ++swept.changed) {
+            const u32 segment = list[swept.changed].next >> 1, is_open = of_segment[segment].is_open;
+            list[swept.changed].in_end = NONE;
+            if (is_open == 1u || is_open == 2u) {  // not what vanishes
+                const End end = ends[2 * segment];
+                __global u32* const covers = of_segment[of_segment[segment].first].covers;
+                u32 side;
+                of_segment[segment].is_open = is_open == 1u ? 3u : 0u;
+                swept.open_segments = is_open == 1u ? swept.open_segments + 1 : swept.open_segments - 1;
+                for (side = 0; side < swept.sides; ++side)
+                    if (!(side == 1 ? end.surface & MISSED_ABOVE : side == 2 ? end.surface & MISSED_BELOW : 0u))
+                        change_cover(tree, end.solid, is_open == 1u, covers + side, status + side * words);
+            }
+        }
+        if (swept.changed < swept.at || (swept.in_end == NONE && swept.out_end == NONE)) continue;
+        if (swept.open != NONE) list[swept.open].out_end = swept.out_end != NONE ? swept.out_end : swept.in_end;
+        if (swept.open_segments) {
+            list[swept.event].in_end = swept.in_end != NONE ? swept.in_end : swept.out_end;
+            list[swept.event].owner = deep_owner(tree, frame->rank_ends, status, words, swept.sides);
+            if (swept.last != NONE) list[swept.last].next = swept.event;
+            swept.last = swept.open = swept.event;
+            ++swept.partitions;
+        } else {
+            swept.open = NONE;
+        }
+    }
+    if (swept.changed == end_count) {
+        RayTally tally;
+        if (swept.last != NONE) list[swept.last].next = NONE;
+        tally.partitions = swept.partitions;
+        tally.overlaps = 0;
+        tallies[swept.ray] = tally;
+    }
+    deep[first_ray + id] = swept;
+}

@@ -1,0 +1,80 @@
+// Deep rays in small groups, and in many launches, against the reference; and without memory for them.
+#include "pipeline/passes/deep_rays.hpp"
+
+#include "catch.hpp"
+#include "integration/deep_scenes.hpp"
+#include "integration/same_answers.hpp"
+#include "kernel_host/geometry.hpp"
+#include "pipeline/passes/on_device.hpp"
+#include "pipeline/passes/partitions.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+struct Shot {
+    explicit Shot(const Scene& scene) : on(scene), pass(on.device, on.compiled, *on.kernels, on.settings) {
+        on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(rays));
+        prepared.frame.ray_count = count();
+        on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(prepared.frame));
+    }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(rays.size()); }
+    std::optional<PartitionSizes> trace() {
+        TimedKernels timed;
+        return pass.trace_counted({on.tables, on.batch, Work::rays, count()}, timed);
+    }
+    std::vector<RayPartitions> answers() {
+        const TracedPartitions traced = pass.read(count());
+        std::vector<RayPartitions> found;
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            found.push_back(
+                to_partitions(*on.kernels, prepared.frame, rays[i], claimed_partitions(on.compiled, traced, i)));
+        return found;
+    }
+    std::vector<RayPartitions> expected() {
+        const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
+        ReferenceCounts counts;
+        return Reference(on.compiled, *to_run, 0).shoot(prepared, rays, nullptr, counts);
+    }
+
+    test::OnDevice on;
+    PartitionPass pass;
+    std::vector<Ray> rays = test::rays_along_grid();
+    PreparedFrame prepared = prepare_rays(on.compiled, count());
+};
+
+}  // namespace
+
+TEST_CASE("deep rays have the same answers in groups of any size and in any number of launches") {
+    Shot shot(test::deep_parts(3, 400, 40));
+    const std::vector<RayPartitions> expected = shot.expected();
+    const std::uint32_t usual_rays = shot.pass.deep_rays().rays_at_a_time,
+                        usual_ends = shot.pass.deep_rays().ends_a_launch;
+    for (const auto& [rays, ends] :
+         {std::pair{usual_rays, usual_ends}, {7u, usual_ends}, {1u, 100u}, {usual_rays, 1u}, {64u, 37u}}) {
+        INFO(rays << " rays at a time, " << ends << " ends a launch");
+        shot.pass.deep_rays().rays_at_a_time = rays;
+        shot.pass.deep_rays().ends_a_launch = ends;
+        REQUIRE(shot.trace());
+        test::require_same(shot.answers(), expected);
+    }
+}
+
+TEST_CASE("deep rays that do not fit the memory are told, and those that fit one by one are traced") {
+    Shot shot(test::deep_parts(4, 400, 40));
+    REQUIRE(shot.trace());
+    const std::vector<RayPartitions> expected = shot.answers();
+    const auto offsets = [&] { return shot.pass.read(shot.count()).offsets; }();
+    DeepRayPass& deep = shot.pass.deep_rays();
+    const std::uint64_t whole = deep.held();
+    REQUIRE(whole > 0);
+    deep.release();
+    CHECK(deep.held() == 0);
+    const std::uint64_t available = shot.on.device.available();
+    CHECK_FALSE(deep.prepare(offsets, available));
+    CHECK_FALSE(deep.prepare(offsets, available - 2'000));
+    REQUIRE(deep.prepare(offsets, available - whole / 4));
+    CHECK(deep.held() <= whole / 4);
+    REQUIRE(deep.prepare(offsets, 0));
+    CHECK(deep.held() == whole);
+}
