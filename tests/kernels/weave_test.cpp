@@ -38,7 +38,7 @@ CompiledScene solids_alone(std::uint32_t count) {
     scene.solids.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         scene.trees.push_back(OP_LEAF << TREE_SHIFT | i);
-        scene.regions.push_back({i, 1, REGION_UNION_ONLY});
+        scene.regions.push_back({i, 1});
     }
     for (std::uint32_t rank = 0; rank < RANKS; ++rank) scene.rank_ends[rank] = rank == 0 ? count / 2 : count;
     return scene;

@@ -22,7 +22,7 @@ std::vector<std::string> files_of(bool packets) {
 std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings,
                                      bool other) {
     std::vector<std::string> options = program_options(device, scene, settings);
-    if (other) options.push_back("-DDEEP_SEGMENTS=0x3ffffu");
+    if (other) options.push_back("DEEP_SEGMENTS=0x3ffffu");
     return options;
 }
 

@@ -27,7 +27,7 @@ CompiledScene scene_of(const std::vector<FlatTree>& trees, std::uint32_t solids)
     scene.solids.resize(solids);
     for (const FlatTree& tree : trees) {
         const LinearTree linear = linearize(tree, scene.trees);
-        scene.regions.push_back({linear.first_word, linear.word_count, 0});
+        scene.regions.push_back({linear.first_word, linear.word_count});
         scene.flat_trees.push_back(tree);
     }
     return scene;
