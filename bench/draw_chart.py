@@ -64,7 +64,8 @@ class Measured:
         self.results = [r for r in data["results"] if r["mode"] == mode and "error" not in r and r["decided"]]
         competing = {n: t for n, t in self.totals.items() if t.get("of_default") and n != JUDGE}
         most = judged_on_all(self.totals)
-        competing = {n: t for n, t in competing.items() if n in most and t["answered_share"] >= WHOLE}
+        self.whole = {n for n, t in self.totals.items() if n in most and t["answered_share"] >= WHOLE}
+        competing = {n: t for n, t in competing.items() if n in self.whole}
         self.front = front({n: (t["of_default"], t["wrong_ppm"]) for n, t in competing.items()})
 
 
@@ -86,7 +87,7 @@ def scatter(axes, measured):
         xs, ys = [t["of_default"] for t in of], [height(t) for t in of]
         bars = [[max(0, y - t["wrong_ppm_interval"][0]) * 0.99 if t["wrong"] else 0 for t, y in zip(of, ys)],
                 [max(0, t["wrong_ppm_interval"][1] - y) for t, y in zip(of, ys)]]
-        whole = all(t["answered_share"] >= WHOLE for t in of)
+        whole = all(t["variant"] in measured.whole for t in of)
         axes.errorbar(xs, ys, yerr=bars, label=method + ("" if whole else " (part of the rays)"), color=color,
                       marker="*" if method == "default" else "os^Dvp"[index % 6],
                       markersize=13 if method == "default" else 5, markerfacecolor=color if whole else "white",
@@ -94,11 +95,15 @@ def scatter(axes, measured):
     steps = sorted((drawn[n]["of_default"], height(drawn[n])) for n in measured.front)
     axes.step([x for x, _ in steps], [y for _, y in steps], where="post", color="black", linestyle="--", linewidth=1.2,
               zorder=2, label="front")
+    times = [t["of_default"] for t in drawn.values()]
+    wide = max(times) > 3 * min(times)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.axhline(floor, color="0.85", linewidth=0.8, zorder=0)
     axes.text(0.99, floor, "none wrong", transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=7,
               color="0.4")
+    axes.xaxis.set_major_locator(
+        ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7) if wide else (1, 1.1, 1.2, 1.5, 6, 7, 8, 9)))
     axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
     axes.xaxis.set_minor_formatter(ticker.NullFormatter())
     axes.tick_params(labelsize=8)
