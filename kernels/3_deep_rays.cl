@@ -31,6 +31,25 @@ static u32 deep_ray_of(__global const DeepRay* deep, u32 count, u32 block) {
     return low;
 }
 
+// A block of a deep ray's order: its ends are in the places from `first` on.
+typedef struct {
+    __global const End* ends;       // all of the ray
+    __global PartitionNode* nodes;  // the same
+    u32 ends_count, first;
+} deep_block;
+
+static deep_block block_at(__global const DeepRay* deep, u32 count, u32 id, __global const RayCount* offsets,
+                           __global const End* all_ends, __global PartitionNode* all_nodes) {
+    const DeepRay ray = deep[deep_ray_of(deep, count, id)];
+    const RayCount offset = offsets[ray.ray];
+    deep_block b;
+    b.ends = all_ends + 2 * (size_t)offset.segments;
+    b.nodes = all_nodes + 2 * (size_t)offset.segments;
+    b.ends_count = 2 * (offsets[ray.ray + 1].segments - offset.segments);
+    b.first = DEEP_BLOCK * (id - ray.block);
+    return b;
+}
+
 static int ends_before(__global const End* ends, u32 a, u32 b) {
     const real t_a = ends[a].t, t_b = ends[b].t;
     return t_a < t_b || (t_a == t_b && a < b);
@@ -40,25 +59,18 @@ static int ends_before(__global const End* ends, u32 a, u32 b) {
 __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
                                __global const End* all_ends, __global PartitionNode* all_nodes, u32 field) {
     const u32 id = (u32)get_global_id(0);
-    u32 order[DEEP_BLOCK], k, first, size;
-    DeepRay ray;
-    RayCount offset;
-    __global const End* ends;
-    __global PartitionNode* nodes;
+    u32 order[DEEP_BLOCK], k, size;
+    deep_block b;
     if (id >= blocks) return;
-    ray = deep[deep_ray_of(deep, count, id)];
-    offset = offsets[ray.ray];
-    ends = all_ends + 2 * (size_t)offset.segments;
-    nodes = all_nodes + 2 * (size_t)offset.segments;
-    first = DEEP_BLOCK * (id - ray.block);
-    size = 2 * (offsets[ray.ray + 1].segments - offset.segments) - first;
-    if (size > DEEP_BLOCK) size = DEEP_BLOCK;
+    b = block_at(deep, count, id, offsets, all_ends, all_nodes);
+    size = b.ends_count - b.first < DEEP_BLOCK ? b.ends_count - b.first : DEEP_BLOCK;
     for (k = 0; k < size; ++k) {
         u32 place = k;
-        for (; place > 0 && ends_before(ends, first + k, order[place - 1]); --place) order[place] = order[place - 1];
-        order[place] = first + k;
+        for (; place > 0 && ends_before(b.ends, b.first + k, order[place - 1]); --place)
+            order[place] = order[place - 1];
+        order[place] = b.first + k;
     }
-    for (k = 0; k < size; ++k) *in_order(nodes, field, first + k) = order[k];
+    for (k = 0; k < size; ++k) *in_order(b.nodes, field, b.first + k) = order[k];
 }
 
 // Merges runs of `run` ends, two by two. One work-item a block of the result, whose ends come from both runs: how many
@@ -66,29 +78,22 @@ __kernel void sort_deep_blocks(__global const DeepRay* deep, u32 count, u32 bloc
 __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 blocks, __global const RayCount* offsets,
                               __global const End* all_ends, __global PartitionNode* all_nodes, u32 field, u32 run) {
     const u32 id = (u32)get_global_id(0), to = field == FIELD_NEXT ? FIELD_IN_END : FIELD_NEXT;
-    u32 ends_count, place, last, left, left_end, right, right_end, low, high, before;
-    DeepRay ray;
-    RayCount offset;
-    __global const End* ends;
-    __global PartitionNode* nodes;
+    u32 place, last, left, left_end, right, right_end, low, high, before;
+    deep_block b;
     if (id >= blocks) return;
-    ray = deep[deep_ray_of(deep, count, id)];
-    offset = offsets[ray.ray];
-    ends = all_ends + 2 * (size_t)offset.segments;
-    nodes = all_nodes + 2 * (size_t)offset.segments;
-    ends_count = 2 * (offsets[ray.ray + 1].segments - offset.segments);
-    place = DEEP_BLOCK * (id - ray.block);
-    last = place + DEEP_BLOCK < ends_count ? place + DEEP_BLOCK : ends_count;
+    b = block_at(deep, count, id, offsets, all_ends, all_nodes);
+    place = b.first;
+    last = place + DEEP_BLOCK < b.ends_count ? place + DEEP_BLOCK : b.ends_count;
     left = place - place % (2 * run);
-    left_end = right = left + run < ends_count ? left + run : ends_count;
-    right_end = right + run < ends_count ? right + run : ends_count;
+    left_end = right = left + run < b.ends_count ? left + run : b.ends_count;
+    right_end = right + run < b.ends_count ? right + run : b.ends_count;
     before = place - left;  // as many of both runs are in blocks before this one
     low = before > right_end - right ? before - (right_end - right) : 0;
     high = before < left_end - left ? before : left_end - left;
     while (low < high) {
         const u32 middle = (low + high) >> 1;
-        if (ends_before(ends, *in_order(nodes, field, left + middle),
-                        *in_order(nodes, field, right + before - middle - 1))) {
+        if (ends_before(b.ends, *in_order(b.nodes, field, left + middle),
+                        *in_order(b.nodes, field, right + before - middle - 1))) {
             low = middle + 1;
         } else {
             high = middle;
@@ -99,8 +104,8 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     for (; place < last; ++place) {
         int takes_left = right == right_end;
         if (left < left_end && right < right_end)
-            takes_left = ends_before(ends, *in_order(nodes, field, left), *in_order(nodes, field, right));
-        *in_order(nodes, to, place) = *in_order(nodes, field, takes_left ? left++ : right++);
+            takes_left = ends_before(b.ends, *in_order(b.nodes, field, left), *in_order(b.nodes, field, right));
+        *in_order(b.nodes, to, place) = *in_order(b.nodes, field, takes_left ? left++ : right++);
     }
 }
 

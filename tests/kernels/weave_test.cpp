@@ -63,6 +63,25 @@ std::uint32_t owner_among(const std::vector<kernel::End>& ends, const std::vecto
     return (least == NONE ? *touched.begin() : least) | overlap;
 }
 
+/// The list that weaving left, from front to back. `covers(node, segment, partition)`: is it one of its segments?
+template <class Covers>
+std::vector<WovenPartition> listed(const std::vector<kernel::PartitionNode>& nodes,
+                                   const std::vector<kernel::End>& ends, const Covers& covers) {
+    const auto segments = static_cast<std::uint32_t>(ends.size() / 2);
+    std::vector<WovenPartition> partitions;
+    for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
+        WovenPartition p;
+        p.in_end = nodes[n].in_end;
+        p.out_end = nodes[n].out_end;
+        p.in = ends[p.in_end].t;
+        p.out = ends[p.out_end].t;
+        for (std::uint32_t s = 0; s < segments; ++s)
+            if (covers(n, s, p)) p.segments.push_back(s);
+        partitions.push_back(p);
+    }
+    return partitions;
+}
+
 /// The partitions of the sweep, and whether their owners are those that they ought to have.
 Woven weave_by_sweep(std::vector<kernel::End> ends, double tolerance, std::uint32_t limit) {
     const auto segments = static_cast<std::uint32_t>(ends.size() / 2);
@@ -75,16 +94,13 @@ Woven weave_by_sweep(std::vector<kernel::End> ends, double tolerance, std::uint3
     test::sweep_rays(solids_alone(solids), along.frame, &along.ray, nullptr, {0}, along.offsets, ends, nodes, tallies,
                      limit);
     Woven woven;
-    for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
-        WovenPartition p;
-        p.in_end = nodes[n].in_end;
-        p.out_end = nodes[n].out_end;
-        p.in = ends[p.in_end].t;
-        p.out = ends[p.out_end].t;
-        for (std::uint32_t s = 0; s < segments; ++s)
-            if (ends[2 * s].t <= p.in && p.in < ends[2 * s + 1].t) p.segments.push_back(s);
+    woven.partitions = listed(nodes, ends, [&](std::uint32_t, std::uint32_t segment, const WovenPartition& p) {
+        return ends[2 * segment].t <= p.in && p.in < ends[2 * segment + 1].t;
+    });
+    std::uint32_t n = kernel::first_partition(nodes.data(), segments);
+    for (const WovenPartition& p : woven.partitions) {
         REQUIRE(nodes[n].owner == owner_among(ends, p.segments, solids / 2));
-        woven.partitions.push_back(p);
+        n = nodes[n].next;
     }
     REQUIRE(woven.partitions.size() == tallies[0].partitions);
     woven.ends = std::move(ends);
@@ -106,16 +122,9 @@ Woven weave_by_kernel(std::vector<kernel::End> ends, double tolerance) {
     kernel::global_id = 0;
     kernel::weave(&along.frame, &along.ray, nullptr, offsets.data(), ends.data(), nodes.data(), bits.data(), &tally);
     Woven woven;
-    for (std::uint32_t n = kernel::first_partition(nodes.data(), segments); n != NONE; n = nodes[n].next) {
-        WovenPartition p;
-        p.in_end = nodes[n].in_end;
-        p.out_end = nodes[n].out_end;
-        p.in = ends[p.in_end].t;
-        p.out = ends[p.out_end].t;
-        for (std::uint32_t s = 0; s < segments; ++s)
-            if (bits[n * words + s / 32] >> (s % 32) & 1u) p.segments.push_back(s);
-        woven.partitions.push_back(p);
-    }
+    woven.partitions = listed(nodes, ends, [&](std::uint32_t node, std::uint32_t segment, const WovenPartition&) {
+        return bits[node * words + segment / 32] >> (segment % 32) & 1u;
+    });
     REQUIRE(woven.partitions.size() == tally.partitions);
     woven.ends = std::move(ends);
     return woven;

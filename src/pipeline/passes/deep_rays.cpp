@@ -16,20 +16,12 @@ constexpr std::uint64_t copies = 3;  // of a ray's status: as it is, and moved a
 }  // namespace
 
 DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t regions)
-    : links(device, "status tree"),
-      outside(device, "status outside"),
-      first_leaves(device, "solids' places in the status tree"),
-      leaves(device, "leaves of the status tree") {
-    cluster_words = static_cast<std::uint32_t>(tree.outside.size());
-    words = cluster_words + kernel::words_of_set(regions);
-    for (const auto& [buffer, values] : {std::pair{&links, &tree.links},
-                                         {&outside, &tree.outside},
-                                         {&first_leaves, &tree.first_leaves},
-                                         {&leaves, &tree.leaves}}) {
-        buffer->reserve(values->size() * sizeof(std::uint32_t));
-        buffer->upload(*values);
-    }
-}
+    : links(device, "status tree", tree.links),
+      outside(device, "status outside", tree.outside),
+      first_leaves(device, "solids' places in the status tree", tree.first_leaves),
+      leaves(device, "leaves of the status tree", tree.leaves),
+      cluster_words(static_cast<std::uint32_t>(tree.outside.size())),
+      words(cluster_words + kernel::words_of_set(regions)) {}
 
 // Processors take few rays at a time: what these change stays in their caches.
 DeepRayPass::DeepRayPass(Device& device, const Program& program, const CompiledScene& scene)
