@@ -12,19 +12,18 @@
 // if not, the exit status is 8.
 // --only: workloads whose names begin so. `first` is the time from a loaded scene to the first picture.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <tuple>
 
 #include <csgrt/csgrt.hpp>
 
+#include "base/clock.hpp"
 #include "cli/cache_folder.hpp"
 #include "figures.hpp"
 #include "floors.hpp"
+#include "options.hpp"
 #include "parts.hpp"
 #include "workloads.hpp"
 
@@ -39,11 +38,6 @@ struct Options {
     int size = 1024, frames = 20, orbit = 0;
     bool every_partition = true, first_hits = false, floors = false, color = false;
 };
-
-using Clock = std::chrono::steady_clock;
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 double kernels(const Times& ms) {
     double sum = 0;
@@ -121,21 +115,6 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     return f;
 }
 
-int whole(const std::string& name, const std::string& value, int least) {
-    char* end = nullptr;
-    const long number = std::strtol(value.c_str(), &end, 10);
-    if (end == value.c_str() || *end != 0 || number < least || number > 1'000'000)
-        throw Error(Status::usage, name + ": needs a whole number from " + std::to_string(least) + " on, not " + value);
-    return static_cast<int>(number);
-}
-
-std::vector<std::string> split(const std::string& list) {
-    std::vector<std::string> parts;
-    std::istringstream in(list);
-    for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-    return parts;
-}
-
 Options parse(int argc, char** argv) {
     Options options;
     for (int i = 1; i < argc; ++i) {
@@ -164,13 +143,13 @@ Options parse(int argc, char** argv) {
         } else if (name == "--json") {
             options.json = value;
         } else if (name == "--size") {
-            options.size = whole(name, value, 1);
+            options.size = parse_number(name, value, 1, 1'000'000);
         } else if (name == "--frames") {
-            options.frames = whole(name, value, 0);
+            options.frames = parse_number(name, value, 0, 1'000'000);
         } else if (name == "--orbit") {
-            options.orbit = whole(name, value, 1);
+            options.orbit = parse_number(name, value, 1, 1'000'000);
         } else if (name == "--only") {
-            options.only = split(value);
+            options.only = split_list(value);
         } else if (name == "--compare") {
             if (i + 1 == argc) throw Error(Status::usage, "--compare needs two files");
             options.compare = {value, argv[++i]};

@@ -11,17 +11,16 @@
 // else may be as of csgrt.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
 #include <csgrt/csgrt.hpp>
 
+#include "base/clock.hpp"
 #include "bench/chart/report.hpp"
+#include "bench/options.hpp"
 #include "cli/cache_folder.hpp"
 #include "tally.hpp"
 #include "verify/answers.hpp"
@@ -30,7 +29,6 @@ namespace {
 
 using namespace csgrt;
 using namespace csgrt::campaign;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t batch = 16'384;     ///< rays of a call
 constexpr std::size_t on_reference = 64;  ///< of these, shot there, too; an eighth of a small batch
@@ -49,7 +47,6 @@ double processor_seconds() {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// One item, until its rays or its time are used up.
 Sums run(const Item& item, const Options& options, std::size_t planned, double seconds, Tally& tally,
@@ -73,13 +70,13 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
         settings.device.clear();
         Renderer reference(subject->scene(), subject->objects(), settings);
         subject->prepare(device, planned);
-        sums.build = since(start);
-        while (sums.rays < planned && (sums.rays == 0 || since(start) < seconds)) {
+        sums.build = seconds_since(start);
+        while (sums.rays < planned && (sums.rays == 0 || seconds_since(start) < seconds)) {
             const Clock::time_point begun = Clock::now();
             const std::vector<Ray> rays = subject->rays(std::min<std::size_t>(batch, planned - sums.rays));
             if (rays.empty()) break;
             std::vector<RayPartitions> found = device.shoot(rays);
-            sums.shoot += since(begun);
+            sums.shoot += seconds_since(begun);
             const double judging = processor_seconds();
             const std::size_t some = std::min(on_reference, 1 + rays.size() / 8);
             const std::vector<Ray> few(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(some));
@@ -91,7 +88,7 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
                     tally.add_wrong(item, few[i], "device and reference differ");
                 }
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                if (sums.rays > 0 && since(start) > seconds) break;
+                if (sums.rays > 0 && seconds_since(start) > seconds) break;
                 const Verdict verdict = subject->judge(i, found[i]);
                 ++sums.rays;
                 sums.hits += !found[i].partitions.empty();
@@ -109,14 +106,6 @@ Sums run(const Item& item, const Options& options, std::size_t planned, double s
     return sums;
 }
 
-double number(const std::string& name, const std::string& value) {
-    char* end = nullptr;
-    const double x = std::strtod(value.c_str(), &end);
-    if (end == value.c_str() || *end != 0 || !(x >= 1 && x <= 1e12))
-        throw Error(Status::usage, name + ": needs a number from 1 to 1e12, not " + value);
-    return x;
-}
-
 Options parse(int argc, char** argv) {
     Options options;
     for (int i = 1; i < argc; i += 2) {
@@ -124,16 +113,15 @@ Options parse(int argc, char** argv) {
         if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
         const std::string value = argv[i + 1];
         if (name == "--rays") {
-            options.rays = number(name, value);
+            options.rays = bench::parse_number(name, value, 1.0, 1e12);
         } else if (name == "--seconds") {
-            options.seconds = number(name, value);
+            options.seconds = bench::parse_number(name, value, 1.0, 1e12);
         } else if (name == "--threads") {
-            options.threads = static_cast<unsigned>(std::min(number(name, value), 1024.0));
+            options.threads = static_cast<unsigned>(std::min(bench::parse_number(name, value, 1.0, 1e12), 1024.0));
         } else if (name == "--device") {
             options.device = value;
         } else if (name == "--only") {
-            std::istringstream in(value);
-            for (std::string part; std::getline(in, part, ',');) options.choice.only.push_back(part);
+            options.choice.only = bench::split_list(value);
         } else if (name == "--models") {
             options.choice.models = value;
         } else if (name == "--scenes") {
@@ -173,16 +161,16 @@ int run_all(const Options& options) {
     const auto work = [&] {
         for (std::size_t i; (i = next.fetch_add(1)) < all.size();) {
             const auto planned = static_cast<std::size_t>(std::ceil(options.rays * all[i].share / shares));
-            const double left =
-                (options.seconds - since(start)) * options.threads * std::min(1.0, 1.5 * all[i].work() / work_left[i]);
+            const double left = (options.seconds - seconds_since(start)) * options.threads *
+                                std::min(1.0, 1.5 * all[i].work() / work_left[i]);
             std::string name;
-            tally.add(all[i],
-                      run(all[i], options, planned, std::min(left, options.seconds - since(start)), tally, name));
+            tally.add(all[i], run(all[i], options, planned, std::min(left, options.seconds - seconds_since(start)),
+                                  tally, name));
             const std::lock_guard lock(mutex);
             if (!name.empty()) device = name;
             if (i % 64 == 63)
-                std::fprintf(stderr, "%zu of %zu, %.0f s, %.3g rays, %llu wrong\n", i + 1, all.size(), since(start),
-                             static_cast<double>(tally.total().rays),
+                std::fprintf(stderr, "%zu of %zu, %.0f s, %.3g rays, %llu wrong\n", i + 1, all.size(),
+                             seconds_since(start), static_cast<double>(tally.total().rays),
                              static_cast<unsigned long long>(tally.total().wrong));
         }
     };
@@ -193,8 +181,8 @@ int run_all(const Options& options) {
     const Sums total = tally.total();
     std::printf("%llu wrong of %llu decided rays, %llu different bits, %.0f s\n",
                 static_cast<unsigned long long>(total.wrong), static_cast<unsigned long long>(total.decided),
-                static_cast<unsigned long long>(total.bit_differences), since(start));
-    bench::write_whole(tally.to_json(device, options.threads, since(start)), options.json);
+                static_cast<unsigned long long>(total.bit_differences), seconds_since(start));
+    bench::write_whole(tally.to_json(device, options.threads, seconds_since(start)), options.json);
     return tally.passed() ? 0 : static_cast<int>(Status::differs);
 }
 

@@ -5,7 +5,7 @@
 
 namespace csgrt::bench {
 
-Interval share_interval(std::size_t wrong, std::size_t all) {
+ConfidenceInterval share_interval(std::size_t wrong, std::size_t all) {
     if (all == 0) return {0, 1};
     constexpr double z = 1.959963984540054, z2 = z * z;  // of the normal distribution, 2.5 % lie above
     const double n = static_cast<double>(all), p = static_cast<double>(wrong) / n;
@@ -14,7 +14,7 @@ Interval share_interval(std::size_t wrong, std::size_t all) {
     return {wrong == 0 ? 0.0 : middle - half, wrong == all ? 1.0 : middle + half};
 }
 
-Interval median_interval(std::vector<double> measured) {
+ConfidenceInterval median_interval(std::vector<double> measured) {
     if (measured.empty()) return {};
     std::sort(measured.begin(), measured.end());
     // As many are left out on either side as are below the median with 2.5 % at most: of n measurements k are, with

@@ -6,16 +6,15 @@
 // device's very bits; only contraction, which it has not, goes to the device.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <sstream>
 
 #include <csgrt/csgrt.hpp>
 
+#include "base/clock.hpp"
+#include "bench/options.hpp"
 #include "bench/workloads.hpp"
 #include "cli/cache_folder.hpp"
 #include "report.hpp"
@@ -41,10 +40,6 @@ struct Options {
 
 constexpr int more_is_left = 75;  ///< exit status if --minutes ended the call (EX_TEMPFAIL of sysexits.h)
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 void print(const Row& row) {
     const Accuracy& a = row.accuracy;
     std::printf("  %-26s %-15s ", row.variant.c_str(), name_of(row.mode));
@@ -53,8 +48,7 @@ void print(const Row& row) {
     else
         std::printf(
             "%7zu decided %5zu ties %4zu rule %6zu given up %6zu wrong %6zu misplaced %10.3g ulp (99.9 %%) %10.3g "
-            "worst %10.1f "
-            "ns/ray\n",
+            "worst %10.1f ns/ray\n",
             a.decided, a.ties, a.rule, a.unanswered, a.wrong, a.misplaced, a.error_ulp.quantile(0.999),
             a.error_ulp.worst(), row.ns_per_ray);
     std::fflush(stdout);
@@ -73,32 +67,9 @@ std::vector<Anchor> anchors() {
     return all;
 }
 
-std::vector<std::string> split(const std::string& list) {
-    std::vector<std::string> parts;
-    std::istringstream in(list);
-    for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-    return parts;
-}
-
-double number(const std::string& name, const std::string& value, double least, double most) {
-    char* end = nullptr;
-    const double number = std::strtod(value.c_str(), &end);
-    if (end == value.c_str() || *end != 0 || !(number >= least && number <= most)) {
-        char range[64];
-        std::snprintf(range, sizeof range, "%g to %g", least, most);
-        throw Error(Status::usage, name + ": needs a number from " + range + ", not " + value);
-    }
-    return number;
-}
-int whole(const std::string& name, const std::string& value) {
-    const double x = number(name, value, 1, 1e7);
-    if (x != std::floor(x)) throw Error(Status::usage, name + ": needs a whole number, not " + value);
-    return static_cast<int>(x);
-}
-
 std::vector<Mode> modes_of(const std::string& name, const std::string& value) {
     std::vector<Mode> modes;
-    for (const std::string& part : split(value)) {
+    for (const std::string& part : split_list(value)) {
         if (part == name_of(Mode::first_hits))
             modes.push_back(Mode::first_hits);
         else if (part == name_of(Mode::every_partition))
@@ -124,39 +95,39 @@ Options parse(int argc, char** argv) {
         } else if (name == "--json") {
             options.json = value;
         } else if (name == "--rays") {
-            options.sample.rays = static_cast<std::size_t>(whole(name, value));
+            options.sample.rays = parse_number<std::size_t>(name, value, 1, 10'000'000);
         } else if (name == "--truth") {
             options.truth = value;
         } else if (name == "--minutes") {
-            options.minutes = number(name, value, 0.001, 1e6);
+            options.minutes = parse_number<double>(name, value, 0.001, 1e6);
         } else if (name == "--size") {
-            options.trial.size = static_cast<int>(number(name, value, 1, 32768));
+            options.trial.size = parse_number(name, value, 1, 32768);
         } else if (name == "--deep-size") {
-            options.trial.deep_size = static_cast<int>(number(name, value, 1, 32768));
+            options.trial.deep_size = parse_number(name, value, 1, 32768);
         } else if (name == "--frames") {
-            options.frames = whole(name, value);
+            options.frames = parse_number(name, value, 1, 10'000'000);
         } else if (name == "--device-scenes") {
-            options.trial.device_scenes = static_cast<std::size_t>(whole(name, value));
+            options.trial.device_scenes = parse_number<std::size_t>(name, value, 1, 10'000'000);
         } else if (name == "--method-seconds") {
-            options.trial.method_seconds = number(name, value, 0, 1e6);
+            options.trial.method_seconds = parse_number<double>(name, value, 0, 1e6);
         } else if (name == "--method-frame") {
-            options.trial.method_frame = number(name, value, 0, 1e6);
+            options.trial.method_frame = parse_number<double>(name, value, 0, 1e6);
         } else if (name == "--modes") {
             options.trial.modes = modes_of(name, value);
         } else if (name == "--deep") {
             options.sample.deep.clear();
-            for (const std::string& size : split(value))
-                options.sample.deep.push_back(static_cast<std::uint32_t>(number(name, size, 2, 1e6)));
+            for (const std::string& size : split_list(value))
+                options.sample.deep.push_back(parse_number<std::uint32_t>(name, size, 2, 1'000'000));
         } else if (name == "--models") {
             options.sample.models = value;
         } else if (name == "--scenes") {
             options.sample.scenes = value;
         } else if (name == "--workloads") {
-            options.sample.only = split(value);
+            options.sample.only = split_list(value);
         } else if (name == "--variants") {
-            options.variants = split(value);
+            options.variants = split_list(value);
         } else if (name == "--methods") {
-            options.methods = split(value);
+            options.methods = split_list(value);
         } else {
             throw Error(Status::usage, name + ": unknown option");
         }
@@ -211,7 +182,6 @@ std::vector<std::unique_ptr<Trial>> trials_of(const std::vector<Variant>& varian
 
 /// Makes what there is not yet, until the time is over.
 int make_truth(const Options& options) {
-    using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto end =
         options.minutes > 0

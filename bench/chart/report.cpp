@@ -50,7 +50,7 @@ Json json_of(const Row& row) {
     json["rule"] = a.rule;
     json["wrong"] = a.wrong;
     json["wrong_ppm"] = ppm(a.wrong, a.decided);
-    const Interval wrong = share_interval(a.wrong, a.decided);
+    const ConfidenceInterval wrong = share_interval(a.wrong, a.decided);
     json["wrong_ppm_interval"] = {1e6 * wrong.low, 1e6 * wrong.high};
     json["misplaced"] = a.misplaced;
     json["misplaced_ppm"] = ppm(a.misplaced, a.decided);

@@ -24,7 +24,7 @@ struct Row {
     Accuracy accuracy;
     /// Median of warm frames: of all kernels together, by ray, and its interval. 0: not timed.
     double ns_per_ray = 0;
-    Interval ns;
+    ConfidenceInterval ns;
     double frame_ms = 0;                          ///< of the whole frame
     std::size_t timed_rays = 0;                   ///< of a frame
     std::map<std::string, std::size_t> refusals;  ///< why scenes were refused, and how many rays they have

@@ -7,15 +7,12 @@
 
 #include <csgrt/framebuffer.hpp>
 
+#include "base/clock.hpp"
 #include "base/parallel.hpp"
 #include "pipeline/passes/program_options.hpp"
 
 namespace csgrt::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Times of frames, as a row has them.
 struct Times {
@@ -24,7 +21,7 @@ struct Times {
         if (kernels.empty()) return;
         const double ns = 1e6 / static_cast<double>(row.timed_rays);
         row.ns_per_ray = ns * quantile(kernels, 0.5);
-        const Interval interval = median_interval(kernels);
+        const ConfidenceInterval interval = median_interval(kernels);
         row.ns = {ns * interval.low, ns * interval.high};
         row.frame_ms = quantile(frames, 0.5);
     }

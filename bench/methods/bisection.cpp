@@ -38,11 +38,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// More pieces than this, and the ray is given up.
 constexpr std::uint64_t most_pieces = std::uint64_t{1} << 18;
 
-struct Shared {
-    SceneRays rays;
-    RegionTrees trees;
+struct Shared : SharedScene {
     unsigned levels;
-    bool first_hits;
 };
 
 class Worker {
@@ -202,14 +199,13 @@ Method bisection() {
     m.source = "Hijazi et al. 2010, Knoll et al. 2009";
     m.about =
         "Halves the ray where the range of f, by interval arithmetic, has 0 in it, down to 2^-k of its length in the "
-        "scene. For speed: the hierarchy's candidates, subtrees without candidates left out, polynomials along the ray "
-        "in "
-        "centred form, signs only, no stack, and a solid whose sign is known on a piece is not asked within it.";
+        "scene. For speed: the hierarchy's candidates, subtrees without candidates left out, polynomials along the "
+        "ray in centred form, signs only, no stack, and a solid whose sign is known on a piece is not asked within "
+        "it.";
     m.breaks =
         "tangent: a ray that passes within 2^-k of a surface meets it. coincident and coplanar: where an operand and "
-        "what "
-        "is taken from it share a face, f is 0 there and a skin is left. pinch, slivers: likewise. deep_trees costs "
-        "much: every piece walks the tree.";
+        "what is taken from it share a face, f is 0 there and a skin is left. pinch, slivers: likewise. deep_trees "
+        "costs much: every piece walks the tree.";
     m.knob = "k, bits of the ray's length";
     m.knob_values = {8, 12, 16, 20, 24};
     m.exact = false;
@@ -220,10 +216,8 @@ Method bisection() {
                         "interval bisection: there is no implicit function of a solid of type " + missing);
         if (!(options.knob >= 1 && options.knob <= 48))
             throw Error(Status::usage, "interval bisection: needs from 1 to 48 bits");
-        auto shared =
-            std::make_unique<Shared>(Shared{SceneRays(subject.compiled), RegionTrees(subject.compiled, options.planted),
-                                            static_cast<unsigned>(options.knob), options.first_hits});
-        return std::make_unique<EachRay<Shared, Worker>>(std::move(shared), options.threads);
+        return trace_each_ray<Worker>(Shared{SharedScene(subject, options), static_cast<unsigned>(options.knob)},
+                                      options);
     };
     return m;
 }

@@ -79,8 +79,8 @@ public:
                 },
                 [&](std::uint32_t node, std::uint32_t bit) {
                     const std::uint32_t level = levels_of(node);
-                    if (tree_.nodes[node].gate == Gate::conjunction) w[1 + 2 * level] |= 1u << bit;
-                    if (tree_.nodes[node].gate == Gate::parity) w[2 + 2 * level] |= 1u << bit;
+                    if (tree_.nodes[node].gate == Gate::intersection) w[1 + 2 * level] |= 1u << bit;
+                    if (tree_.nodes[node].gate == Gate::xor_) w[2 + 2 * level] |= 1u << bit;
                 });
         }
     }

@@ -44,9 +44,9 @@ public:
     std::uint32_t write(std::uint32_t number, std::uint32_t on_true, std::uint32_t on_false) {
         while (tree_.nodes[number].gate != Gate::leaf) {
             const PositiveTree::Node& node = tree_.nodes[number];
-            if (node.gate == Gate::conjunction) {
+            if (node.gate == Gate::intersection) {
                 on_true = write(node.right, on_true, on_false);
-            } else if (node.gate == Gate::disjunction) {
+            } else if (node.gate == Gate::union_) {
                 on_false = write(node.right, on_true, on_false);
             } else {
                 const std::uint32_t same = write(node.right, on_true, on_false);

@@ -114,11 +114,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_literals = 200'000;
 constexpr std::uint64_t most_layers = 20'000;
 
-struct Shared {
-    SceneRays rays;
-    RegionTrees trees;
+struct Shared : SharedScene {
     unsigned bits;
-    bool first_hits;
 };
 
 class Worker {
@@ -277,11 +274,9 @@ Method depth_buffer() {
     m.source = "Goldfeather et al. 1986, Hable and Rossignac 2005";
     m.about =
         "Rounds the exact depths of all surfaces to a buffer's bits, linear between the scene's near and far plane, "
-        "and "
-        "compares nothing else: products of the normal form for first hits (Goldfeather), layers for every partition "
-        "(Blister). For speed: the hierarchy's candidates, each solid intersected once a ray, and a normal form of "
-        "what "
-        "the ray may meet only.";
+        "and compares nothing else: products of the normal form for first hits (Goldfeather), layers for every "
+        "partition (Blister). For speed: the hierarchy's candidates, each solid intersected once a ray, and a normal "
+        "form of what the ray may meet only.";
     m.breaks =
         "slivers and degenerate: what is thinner than a step of the buffer vanishes. depth, overlaps and nested at 16 "
         "bits: several surfaces lie in one step. deep_trees: a normal form that is too long is given up. coplanar and "
@@ -292,10 +287,8 @@ Method depth_buffer() {
     m.prepare = [](const Subject& subject, const TraceOptions& options) -> std::unique_ptr<Tracer> {
         if (!(options.knob >= 1 && options.knob <= 32))
             throw Error(Status::usage, "depth buffer: needs from 1 to 32 bits");
-        auto shared =
-            std::make_unique<Shared>(Shared{SceneRays(subject.compiled), RegionTrees(subject.compiled, options.planted),
-                                            static_cast<unsigned>(options.knob), options.first_hits});
-        return std::make_unique<EachRay<Shared, Worker>>(std::move(shared), options.threads);
+        return trace_each_ray<Worker>(Shared{SharedScene(subject, options), static_cast<unsigned>(options.knob)},
+                                      options);
     };
     return m;
 }

@@ -5,13 +5,32 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
 #include "method.hpp"
+#include "region_trees.hpp"
+#include "scene_rays.hpp"
 
 namespace csgrt::bench {
+
+/// What these methods share among threads; each adds its own.
+struct SharedScene {
+    SharedScene(const Subject& subject, const TraceOptions& options)
+        : rays(subject.compiled), trees(subject.compiled, options.planted), first_hits(options.first_hits) {}
+
+    SceneRays rays;
+    RegionTrees trees;
+    bool first_hits;
+};
+
+/// A knob in diameters of the scene's sphere, in millimetres; in a scene without one it is millimetres itself.
+inline double knob_length(const Subject& subject, const TraceOptions& options) {
+    const double radius = subject.compiled.radius;
+    return options.knob * (radius > 0 ? 2 * radius : 1);
+}
 
 /// Worker: made from `const Shared&`; void trace(const Ray&, Answer&) has its own memory; counts() are summed over the
 /// workers of a trace and given as means of all rays.
@@ -39,7 +58,7 @@ public:
             const std::lock_guard lock(mutex);
             idle.push_back(std::move(worker));
         });
-        seconds_ = milliseconds_since(start) / 1e3;
+        seconds_ = seconds_since(start);
         figures_.clear();
         for (const auto& worker : idle)
             for (const auto& [name, count] : worker->counts())
@@ -55,5 +74,11 @@ private:
     double seconds_ = 0;
     std::map<std::string, double> figures_;
 };
+
+template <class Worker, class Shared>
+std::unique_ptr<Tracer> trace_each_ray(Shared shared, const TraceOptions& options) {
+    return std::make_unique<EachRay<Shared, Worker>>(std::make_unique<const Shared>(std::move(shared)),
+                                                     options.threads);
+}
 
 }  // namespace csgrt::bench

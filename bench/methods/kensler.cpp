@@ -87,11 +87,8 @@ Surface complement(Surface s) {
     return {Next::enter, s.t};
 }
 
-struct Shared {
-    SceneRays rays;
-    RegionTrees trees;
+struct Shared : SharedScene {
     double epsilon;  ///< millimetres
-    bool first_hits;
 };
 
 class Worker {
@@ -241,17 +238,12 @@ Method kensler() {
     m.breaks =
         "slivers: shells and plates thinner than epsilon are not seen. far_origin at the fine end: epsilon is below "
         "the rounding of t. coincident, edges: surfaces that are one within rounding are met in either order. depth "
-        "and "
-        "deep_trees should hold, but cost.";
+        "and deep_trees should hold, but cost.";
     m.knob = "epsilon, diameters of the scene's sphere";
     m.knob_values = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
     m.exact = false;
     m.prepare = [](const Subject& subject, const TraceOptions& options) -> std::unique_ptr<Tracer> {
-        const double radius = subject.compiled.radius;
-        auto shared =
-            std::make_unique<Shared>(Shared{SceneRays(subject.compiled), RegionTrees(subject.compiled, options.planted),
-                                            options.knob * (radius > 0 ? 2 * radius : 1), options.first_hits});
-        return std::make_unique<EachRay<Shared, Worker>>(std::move(shared), options.threads);
+        return trace_each_ray<Worker>(Shared{SharedScene(subject, options), knob_length(subject, options)}, options);
     };
     return m;
 }

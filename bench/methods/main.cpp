@@ -9,7 +9,6 @@
 // Times are those of the fastest of seven runs or more (a second of them).
 // --compare: how many rays have other regions than the CPU reference; and, for methods with kernels, how long csgrt's
 // own take.
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -18,6 +17,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "bench/options.hpp"
 #include "cli/cache_folder.hpp"
 #include "compile/compiled_scene.hpp"
 #include "device/choice.hpp"
@@ -53,18 +53,6 @@ struct Job {
     std::vector<Ray> rays;
 };
 
-template <class Number>
-Number number(const std::string& option, const std::string& text, Number least, Number most) {
-    Number value{};
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (fault != std::errc() || end != text.data() + text.size() || !(value >= least && value <= most)) {
-        char range[80];
-        std::snprintf(range, sizeof range, "%g to %g", static_cast<double>(least), static_cast<double>(most));
-        throw Error(Status::usage, option + ": needs a number from " + range + ", not \"" + text + "\"");
-    }
-    return value;
-}
-
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
     std::vector<std::string> words;
@@ -90,16 +78,16 @@ Arguments parse(int argc, char** argv) {
         const std::string value = argv[++i];
         if (word == "--knob") {
             constexpr double most = std::numeric_limits<double>::max();
-            arguments.trace.knob = number(word, value, -most, most);
+            arguments.trace.knob = parse_number(word, value, -most, most);
             arguments.has_knob = true;
         } else if (word == "--size") {
-            arguments.size = number(word, value, 1, 8192);
+            arguments.size = parse_number(word, value, 1, 8192);
         } else if (word == "--rays") {
             arguments.rays = value;
         } else if (word == "--device") {
             arguments.trace.device = value;
         } else {
-            arguments.trace.threads = number(word, value, 1u, 1024u);
+            arguments.trace.threads = parse_number(word, value, 1u, 1024u);
         }
     }
     if (words.size() < 2) throw Error(Status::usage, "run: needs the name of a method and a scene");
@@ -139,7 +127,8 @@ Job job_of(const Arguments& arguments) {
         const std::size_t colon = arguments.scene.find(':', 7);
         if (colon == std::string::npos || !arguments.objects.empty())
             throw Error(Status::usage, arguments.scene + ": a scene of the stress suite is stress:FAMILY:SEED, alone");
-        const auto seed = number("SEED", arguments.scene.substr(colon + 1), std::uint64_t{0}, std::uint64_t{1} << 53);
+        const auto seed =
+            parse_number("SEED", arguments.scene.substr(colon + 1), std::uint64_t{0}, std::uint64_t{1} << 53);
         stress::StressScene made = stress::make(arguments.scene.substr(7, colon - 7), seed);
         job = {std::move(made.scene), std::move(made.objects), made.air, std::move(made.rays)};
     } else {

@@ -6,9 +6,9 @@
 #include "list.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
+#include "base/clock.hpp"
 #include "base/parallel.hpp"
 #include "region_meshes.hpp"
 #include "scene/vector.hpp"
@@ -20,10 +20,6 @@
 namespace csgrt::bench {
 #ifdef CSGRT_EMBREE
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Hit {
     float t;
@@ -66,7 +62,7 @@ public:
                     {"meshing MB", model.megabytes},
                     {"triangles", static_cast<double>(model.triangles)},
                     {"mesh MB", static_cast<double>(memory_) / 1e6},
-                    {"BVH s", since(start)}};
+                    {"BVH s", seconds_since(start)}};
     }
     ~MeshTracer() override { release(); }
     MeshTracer(const MeshTracer&) = delete;
@@ -88,7 +84,7 @@ public:
                 }
             }
         });
-        seconds_ = since(start);
+        seconds_ = seconds_since(start);
         std::vector<Answer> answers(rays.size());
         for (std::size_t i = 0, at = 0; i < rays.size(); ++i) {
             if (i % chunk == 0) at = 0;

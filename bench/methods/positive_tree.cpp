@@ -33,9 +33,7 @@ struct Gates {
             if (node.op == Operator::not_) flip(value);
             for (std::size_t i = first + 1; i < stack.size(); ++i) {
                 if (is_difference) flip(stack[i]);
-                const Gate gate = is_union                    ? Gate::disjunction
-                                  : node.op == Operator::xor_ ? Gate::parity
-                                                              : Gate::conjunction;
+                const Gate gate = is_union ? Gate::union_ : node.op == Operator::xor_ ? Gate::xor_ : Gate::intersection;
                 value = add({gate, false, value, stack[i]});
             }
             stack.resize(first);
@@ -47,9 +45,9 @@ struct Gates {
             if (node.gate == Gate::leaf || !node.complement) continue;
             node.complement = false;
             flip(node.left);
-            if (node.gate == Gate::parity) continue;
+            if (node.gate == Gate::xor_) continue;
             flip(node.right);
-            node.gate = node.gate == Gate::conjunction ? Gate::disjunction : Gate::conjunction;
+            node.gate = node.gate == Gate::intersection ? Gate::union_ : Gate::intersection;
         }
     }
 

@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
+#include "gate.hpp"
 
 namespace csgrt::bench {
-
-enum class Gate : std::uint8_t { leaf, conjunction, disjunction, parity };
 
 struct PositiveTree {
     struct Node {

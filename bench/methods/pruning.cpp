@@ -53,9 +53,9 @@ struct Tree {
             }
             const Node &l = nodes[node.left], &r = nodes[node.right];
             node.leaves = l.leaves + r.leaves;
-            node.empty = node.complement != (node.gate == Gate::conjunction   ? l.empty && r.empty
-                                             : node.gate == Gate::disjunction ? l.empty || r.empty
-                                                                              : l.empty != r.empty);
+            node.empty = node.complement != (node.gate == Gate::intersection ? l.empty && r.empty
+                                             : node.gate == Gate::union_     ? l.empty || r.empty
+                                                                             : l.empty != r.empty);
         }
         if (nodes.empty()) return;
         nodes.back().first = 0;
@@ -110,9 +110,9 @@ Tree pruned(const Tree& tree, const std::vector<std::uint32_t>& present) {
             continue;
         }
         Operand result = b;
-        if (node.gate == Gate::parity)
+        if (node.gate == Gate::xor_)
             result.value = result.value != a.value;
-        else if (a.value == (node.gate == Gate::disjunction))
+        else if (a.value == (node.gate == Gate::union_))
             result = a;
         result.value = result.value != node.complement;
         operands.push_back(result);
@@ -190,13 +190,13 @@ public:
                 if (frames_.empty()) return value;
                 Frame& frame = frames_.back();
                 const Tree::Node& gate = tree.nodes[frame.node];
-                const bool decides = gate.gate == Gate::disjunction ? value : gate.gate == Gate::conjunction && !value;
+                const bool decides = gate.gate == Gate::union_ ? value : gate.gate == Gate::intersection && !value;
                 if (!frame.is_right && !decides) {
                     frame = {frame.node, true, value};
                     next = gate.right;
                     break;
                 }
-                if (frame.is_right && gate.gate == Gate::parity) value = value != frame.left;
+                if (frame.is_right && gate.gate == Gate::xor_) value = value != frame.left;
                 value = value != gate.complement;
                 frames_.pop_back();
             }

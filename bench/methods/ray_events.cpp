@@ -1,9 +1,9 @@
 #include "ray_events.hpp"
 
-#include <chrono>
 #include <limits>
 #include <numeric>
 
+#include "base/clock.hpp"
 #include "base/parallel.hpp"
 
 namespace csgrt::bench {
@@ -71,10 +71,10 @@ std::vector<std::vector<std::uint32_t>> regions_of_solids(const CompiledScene& s
 
 double trace_in_pieces(const TraceOptions& options, std::size_t piece, std::vector<Answer>& answers,
                        const std::function<void(std::size_t first, std::size_t last)>& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     for_chunks(answers.size(), piece, options.threads,
                [&](std::size_t first, std::size_t last, std::size_t) { work(first, last); });
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_since(start);
     if (options.first_hits)
         for (Answer& answer : answers) keep_first_hit(answer.stretches);
     return seconds;

@@ -1,7 +1,6 @@
 #include "region_meshes.hpp"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,19 +15,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/clock.hpp"
 #include "compile/flatten/flatten.hpp"
 
 namespace csgrt::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
 /// What may be spent on one mesh.
 constexpr std::size_t most_triangles_of_all = 20'000'000;
 constexpr int most_seconds = 500, most_megabytes = 8'000;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // ---- Solids to meshes ----
 
@@ -66,7 +62,7 @@ public:
             regions.push_back(tree(flat, flat.regions[i].tree));
         }
         std::ofstream(folder / "solids.json")
-            << Json{{"seconds", since(start)},
+            << Json{{"seconds", seconds_since(start)},
                     {"cpu_seconds", static_cast<double>(std::clock() - start_cpu) / CLOCKS_PER_SEC},
                     {"solids", solids_},
                     {"regions", regions}};

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
+#include "gate.hpp"
 
 namespace csgrt::bench {
 
 /// An operand: a node's number << 1, and 1 if it is complemented. Or one of the two sets that need no node.
 using Operand = std::uint32_t;
 inline constexpr Operand EMPTY_SET = 0xfffffffe, FULL_SET = 0xffffffff;
-
-enum class Gate : std::uint8_t { leaf, union_, intersection, xor_ };
 
 class RegionTrees {
 public:

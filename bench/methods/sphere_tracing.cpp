@@ -31,12 +31,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// More steps than this in one region, and the ray is given up.
 constexpr std::uint64_t most_steps = 50'000;
 
-struct Shared {
-    SceneRays rays;
-    RegionTrees trees;
+struct Shared : SharedScene {
     DistanceBounds bounds;
     double epsilon;  ///< millimetres
-    bool first_hits;
 };
 
 class Worker {
@@ -148,14 +145,11 @@ Method sphere_tracing() {
     m.about =
         "Goes on along the ray by a lower bound of the distance to the region's surface, at least by epsilon. For "
         "speed: the hierarchy's candidates, subtrees without candidates left out, each region only in its solids' "
-        "boxes, "
-        "a look from the middle of them first, and each solid's own bound.";
+        "boxes, a look from the middle of them first, and each solid's own bound.";
     m.breaks =
         "slivers and degenerate: what is thinner than epsilon is stepped over. tangent, pinch: what is met for less "
-        "than "
-        "epsilon, too. far_origin: points of the ray are rounded. It gives up rays along surfaces (coplanar, "
-        "coincident, "
-        "edges).";
+        "than epsilon, too. far_origin: points of the ray are rounded. It gives up rays along surfaces (coplanar, "
+        "coincident, edges).";
     m.knob = "epsilon, diameters of the scene's sphere";
     m.knob_values = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
     m.exact = false;
@@ -164,11 +158,9 @@ Method sphere_tracing() {
         if (!missing.empty())
             throw Error(Status::usage,
                         "sphere tracing: there is no bound of the distance to a solid of type " + missing);
-        const double radius = subject.compiled.radius;
-        auto shared = std::make_unique<Shared>(
-            Shared{SceneRays(subject.compiled), RegionTrees(subject.compiled, options.planted),
-                   DistanceBounds(subject.compiled), options.knob * (radius > 0 ? 2 * radius : 1), options.first_hits});
-        return std::make_unique<EachRay<Shared, Worker>>(std::move(shared), options.threads);
+        return trace_each_ray<Worker>(
+            Shared{SharedScene(subject, options), DistanceBounds(subject.compiled), knob_length(subject, options)},
+            options);
     };
     return m;
 }

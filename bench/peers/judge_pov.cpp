@@ -17,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -26,6 +25,7 @@
 #include "bench/chart/report.hpp"
 #include "bench/chart/tasks.hpp"
 #include "bench/chart/truth.hpp"
+#include "bench/options.hpp"
 #include "cli/cache_folder.hpp"
 #include "compile/flatten/flatten.hpp"
 #include "compile/frame.hpp"
@@ -344,29 +344,20 @@ Options parse(int argc, char** argv) {
         const std::string name = argv[i];
         if (i + 1 == argc) throw Error(Status::usage, name + ": unknown, or lacks its value");
         const std::string value = argv[i + 1];
-        const auto whole = [&] {
-            char* end = nullptr;
-            const long n = std::strtol(value.c_str(), &end, 10);
-            if (end == value.c_str() || *end != 0 || n < 1 || n > 1000000)
-                throw Error(Status::usage, name + ": needs a whole number from 1 to 1000000, not " + value);
-            return static_cast<int>(n);
-        };
         if (name == "--workloads") {
-            options.sample.only.clear();
-            std::istringstream in(value);
-            for (std::string part; std::getline(in, part, ',');) options.sample.only.push_back(part);
+            options.sample.only = split_list(value);
         } else if (name == "--models") {
             options.sample.models = value;
         } else if (name == "--scenes") {
             options.sample.scenes = value;
         } else if (name == "--rays") {
-            options.sample.rays = static_cast<std::size_t>(whole());
+            options.sample.rays = parse_number<std::size_t>(name, value, 1, 1'000'000);
         } else if (name == "--size") {
-            options.size = whole();
+            options.size = parse_number(name, value, 1, 1'000'000);
         } else if (name == "--rounds") {
-            options.rounds = whole();
+            options.rounds = parse_number(name, value, 1, 1'000'000);
         } else if (name == "--threads") {
-            options.threads = whole();
+            options.threads = parse_number(name, value, 1, 1'000'000);
         } else if (name == "--keep") {
             options.folder = value;
         } else if (name == "--json") {

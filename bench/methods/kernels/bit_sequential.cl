@@ -13,7 +13,9 @@ static u32 bit_sequential_holds(__global const u32* tables, const coverage* c, u
             stack = stack << 1 | (solid_covers(c, word & TREE_MASK) ^ (word >> TREE_SHIFT & 1u));
         } else {
             const u32 right = stack & 1u, left = stack >> 1 & 1u;
-            const u32 value = gate == GATE_AND ? left & right : gate == GATE_OR ? left | right : left ^ right;
+            const u32 value = gate == GATE_INTERSECTION ? left & right
+                              : gate == GATE_UNION      ? left | right
+                                                        : left ^ right;
             stack = (stack >> 1 & ~1u) | value;
         }
     }

@@ -6,11 +6,11 @@
 //   2 ...  the method's own
 #define LISTED_SOLIDS 32u
 
-// In the two high bits of a word; any other gate is xor.
+// In the two high bits of a word, as bench/methods/gate.hpp numbers them; any other gate is xor.
 #define GATE_SHIFT 30
 #define GATE_LEAF 0u
-#define GATE_AND 1u
-#define GATE_OR 2u
+#define GATE_UNION 1u
+#define GATE_INTERSECTION 2u
 
 typedef struct {
     __global const End* ends;

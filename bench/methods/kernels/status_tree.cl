@@ -45,7 +45,10 @@ static void flip_solid(status* s, u32 solid) {
                 break;
             }
             // An and changes with one operand where the other is true, an or where it is false, a xor always.
-            if (gate == GATE_AND ? !status_of(s, node ^ 1u) : gate == GATE_OR ? status_of(s, node ^ 1u) : 0u) break;
+            if (gate == GATE_INTERSECTION ? !status_of(s, node ^ 1u)
+                : gate == GATE_UNION      ? status_of(s, node ^ 1u)
+                                          : 0u)
+                break;
             node = above & ABOVE_MASK;
         } while (1);
     }

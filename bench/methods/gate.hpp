@@ -1,0 +1,12 @@
+// What the nodes of the laboratory's trees compute.
+#pragma once
+
+#include <cstdint>
+
+namespace csgrt::bench {
+
+/// Differences are intersections with a complement; where complements stand is each tree's own. Kernels know the
+/// numbers (kernels/covered.h).
+enum class Gate : std::uint8_t { leaf = 0, union_ = 1, intersection = 2, xor_ = 3 };
+
+}  // namespace csgrt::bench
