@@ -35,6 +35,13 @@ double reach(const Box& box) {
     return std::isfinite(far) ? far : 0;
 }
 
+/// Whether an end of a stretch moved by an eighth of the stretch or more: rounding decides whether the stretch is
+/// there, or which surface ends it.
+bool is_elsewhere(const Stretch& moved, const Stretch& was) {
+    const double limit = (was.out - was.in) / 8;
+    return std::abs(moved.in - was.in) >= limit || std::abs(moved.out - was.out) >= limit;
+}
+
 }  // namespace
 
 struct Judge::Impl {
@@ -122,6 +129,10 @@ std::vector<TrueRay> Judge::true_rays(const std::vector<Ray>& rays) {
                                       : t.first_verdict == TrueRay::Verdict::decided ? 1
                                                                                      : 0;
             for (std::size_t k = 0; k < std::min(known, t.sequence.size()); ++k) {
+                if (is_elsewhere(moved[i][k], t.sequence[k])) {
+                    if (k == 0) t.first_verdict = TrueRay::Verdict::tie;
+                    t.verdict = TrueRay::Verdict::tie;
+                }
                 widen(t.in_unit[k], moved[i][k].in, t.sequence[k].in);
                 widen(t.out_unit[k], moved[i][k].out, t.sequence[k].out);
             }

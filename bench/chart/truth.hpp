@@ -5,7 +5,10 @@
 //
 // Ends are one where they lie on one surface or within rounding_tolerance (Tolerance::surfaces). A ray is a tie if its
 // regions change when its origin moves by `shift_ulps` units in the last place of the largest coordinates that it has
-// on its way through the scene, to the four corners of a tetrahedron, or when the tolerance is four times as large.
+// on its way through the scene, to the four corners of a tetrahedron, or when the tolerance is four times as large. It
+// is a tie, too, if one of these moves takes an end of a stretch an eighth of the stretch away. Between two balls that
+// touch, for example, a moved ray meets one of them, whichever way it is moved: the regions stay, but rounding decides
+// where they are.
 #pragma once
 
 #include <memory>

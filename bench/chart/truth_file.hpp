@@ -5,9 +5,8 @@
 //     "CSGTRUTH"                8 bytes
 //     version, piece's rays     2 x 4 bytes
 //     key                       8 bytes: hashes of the compiled scenes, the rays, and the truth's method
-//     a ray, for each           verdict, first_verdict (1 byte each), stretches (4 bytes), speed (8 bytes), and for
-//     each
-//                               stretch: region (4 bytes); in, out, in_unit, out_unit (8 bytes each)
+//     a ray, for each           verdict, first_verdict (1 byte each), stretches (4 bytes), speed (8 bytes);
+//                               for each stretch: region (4 bytes); in, out, in_unit, out_unit (8 bytes each)
 //     checksum                  8 bytes: Fnv1a of all before
 #pragma once
 
@@ -21,7 +20,7 @@
 namespace csgrt::bench {
 
 /// Changes whenever true_rays() may answer otherwise: older files are made anew.
-inline constexpr std::uint32_t truth_version = 1;
+inline constexpr std::uint32_t truth_version = 2;
 
 using Truth = std::vector<std::vector<TrueRay>>;  ///< by task, one a ray
 

@@ -120,6 +120,23 @@ TEST_CASE("the truth knows what is decided, what is a tie and what a file's tole
     CHECK(coarse[2].verdict == TrueRay::Verdict::rule);
 }
 
+TEST_CASE("where rounding decides between two balls of one region, a ray is a tie") {
+    // A ball far away makes the moves 10^-9 long; the two overlap by 10^-11, so that between them every ray meets one.
+    const char* path = "chart_test_balls.json";
+    std::ofstream(path) << R"({"csgrt": 1, "units": "mm", "solids": {
+        "left": {"type": "sphere", "center": [-0.99999999999, 0, 0], "radius": 1},
+        "right": {"type": "sphere", "center": [0.99999999999, 0, 0], "radius": 1},
+        "far": {"type": "sphere", "center": [1e6, 0, 0], "radius": 1}},
+        "combinations": {"both": {"region": true, "tree": {"union": ["left", "right", "far"]}}}})";
+    const Scene scene = load_scene(path);
+    std::remove(path);
+    const std::vector<TrueRay> truth = true_rays(scene, {}, {{{0, 0, -5}, {0, 0, 1}}, {{0.25, 0, -5}, {0, 0, 1}}});
+    REQUIRE(truth[0].sequence.size() == 1);
+    CHECK(truth[0].verdict == TrueRay::Verdict::tie);
+    CHECK(truth[0].first_verdict == TrueRay::Verdict::tie);
+    CHECK(truth[1].verdict == TrueRay::Verdict::decided);
+}
+
 TEST_CASE("first hits are held against the first region and where it begins, and what meets nothing counts, too") {
     Accuracy a;
     TrueRay truth = meets({part(2, 1, 2), part(1, 2, 5)}, 1e-3);
