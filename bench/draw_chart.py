@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """Draws what csgrt_chart measured: an SVG and a PNG a file, named like it, and one HTML page with advice.
 
-    bench/draw_chart.py [-o FOLDER] MEASURED.json...
+    bench/draw_chart.py [-o FOLDER] [--outside OTHER.json]... MEASURED.json...
+
+Programs that csgrt_chart cannot call are judged by another program, which writes a file of the same kind
+(csgrt_judge_pov). Their rows join the charts of devices of the same type. The time of such a row is a ratio to csgrt's
+default, measured beside it in its own file.
 
 Needs matplotlib, and plotly for the page (Debian, Ubuntu: python3-matplotlib, python3-plotly).
 """
@@ -67,6 +71,22 @@ class Measured:
         self.whole = {n for n, t in self.totals.items() if n in most and t["answered_share"] >= WHOLE}
         competing = {n: t for n, t in competing.items() if n in self.whole}
         self.front = front({n: (t["of_default"], t["wrong_ppm"]) for n, t in competing.items()})
+
+
+def join(data, outside):
+    """Adds the rows of `outside`, but the default's, to `data`: what is theirs there is their share of its time."""
+    beside = {(r["workload"], r["mode"]): r["ns_per_ray"] for r in outside["results"]
+              if r["variant"] == "default" and r.get("ns_per_ray")}
+    for kind in ("results", "totals", "families"):
+        for row in outside[kind]:
+            if row["variant"] == "default":
+                continue
+            row = dict(row, outside=True)
+            if kind == "results" and row.get("ns_per_ray") and (row["workload"], row["mode"]) in beside:
+                row["of_default"] = row["ns_per_ray"] / beside[row["workload"], row["mode"]]
+            data[kind].append(row)
+    known = {m["name"] for m in data["methods"]}
+    data["methods"] += [m for m in outside["methods"] if m["name"] not in known]
 
 
 def scatter(axes, measured):
@@ -181,21 +201,32 @@ def page(measured, modes, folder):
     print(path)
 
 
+def read(path):
+    """What the file says, and its modes."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            data = json.load(file)
+        return data, list(dict.fromkeys(t["mode"] for t in data["totals"]))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        sys.exit(f"draw_chart.py: {path}: not a file that csgrt_chart wrote: {error!r}")
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("measured", nargs="+", help="what csgrt_chart wrote, a file a device")
+    arguments.add_argument("--outside", action="append", default=[], metavar="FILE",
+                           help="what csgrt_judge_pov wrote; may be repeated")
     arguments.add_argument("-o", "--output", default=".", help="folder for the pictures and the page")
     options = arguments.parse_args()
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "csgrt", "font.size": 8.5})
     os.makedirs(options.output, exist_ok=True)
     measured = []
+    outside = [read(path)[0] for path in options.outside]
     for path in options.measured:
-        try:
-            with open(path, encoding="utf-8") as file:
-                data = json.load(file)
-            modes = list(dict.fromkeys(t["mode"] for t in data["totals"]))
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            sys.exit(f"draw_chart.py: {path}: not a file that csgrt_chart wrote: {error!r}")
+        data, modes = read(path)
+        for other in outside:
+            if other["device_type"] == data["device_type"]:
+                join(data, other)
         draw(data, modes, os.path.splitext(os.path.basename(path))[0], options.output)
         measured.append(data)
         for mode in modes:

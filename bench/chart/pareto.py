@@ -44,6 +44,7 @@ def beaten_at(results, noise=NOISE):
             continue
         rivals = [r for r in results
                   if r["workload"] == default["workload"] and r is not default and r.get("ns_per_ray")
+                  and not r.get("outside")  # it was timed elsewhere
                   and r["decided"] >= default["decided"] and r["wrong"] <= default["wrong"]
                   and r["ns_per_ray"] * (1 + noise) < default["ns_per_ray"]
                   and r["ns_per_ray_interval"][1] < default["ns_per_ray_interval"][0]]

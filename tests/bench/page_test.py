@@ -53,17 +53,33 @@ def measured(device, modes):
                          "knob": "epsilon, mm", "exact": False, "on_device": False}]}
 
 
+def measured_outside():
+    """Another program's first hits on one workload, beside csgrt's default, at another time and size."""
+    default = row("default", "first hits", "truck", "models", 50, 0)
+    other = row("other", "first hits", "truck", "models", 150, 7)
+    other.update(rays=400, decided=400, ends=0)
+    totals = [dict(default, workload="all", family="all", of_default=1),
+              dict(other, workload="all", family="all", of_default=3)]
+    return {"device": "processors", "device_type": "cpu", "results": [default, other], "totals": totals,
+            "families": [dict(t, family="models") for t in totals],
+            "methods": [{"name": "other", "source": "somebody", "about": "", "breaks": "nobody knows", "knob": "",
+                         "exact": False, "on_device": False}]}
+
+
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         os.makedirs(FOLDER, exist_ok=True)
         names = []
-        for name, data in (("first", measured("Device One", ["first hits", "every partition"])),
-                           ("second", measured("Device <Two>", ["first hits"]))):
+        second = measured("Device <Two>", ["first hits"])
+        second["device_type"] = "gpu"
+        for name, data in (("outside", measured_outside()),
+                           ("first", measured("Device One", ["first hits", "every partition"])), ("second", second)):
             names.append(os.path.join(FOLDER, name + ".json"))
             with open(names[-1], "w", encoding="utf-8") as file:
                 json.dump(data, file)
-        subprocess.run([sys.executable, os.path.join(ROOT, "bench", "draw_chart.py"), "-o", FOLDER, *names], check=True)
+        draw = os.path.join(ROOT, "bench", "draw_chart.py")
+        subprocess.run([sys.executable, draw, "-o", FOLDER, "--outside", *names], check=True)
 
     def opened(self, **choice):
         """The page's text after its scripts have run, and what the body's data say."""
@@ -87,6 +103,16 @@ class Page(unittest.TestCase):
         dom, said = self.opened(device="Device One", mode="first hits", family="truck")
         self.assertEqual(said["front"], "curve 0.1; default")
         self.assertIn("0 / 1,000", dom)
+
+    def test_a_program_judged_elsewhere_stands_at_its_ratio_to_the_default_beside_it(self):
+        dom, said = self.opened(device="Device One", mode="first hits", family="truck")
+        self.assertEqual(said["points"], "5")
+        self.assertRegex(dom, r"<td>other</td><td>15,?000</td><td>3</td><td>7 / 400</td>")
+        self.assertRegex(dom, r"nobody knows</td><td[^>]*>wrong, ppm: truck 7,?000</td>")
+        _, said = self.opened(device="Device One", mode="first hits", family="truck", error="distance, mm")
+        self.assertEqual(said["points"], "4")  # it tells no distances
+        _, said = self.opened(device="Device <Two>", mode="first hits", family="truck")
+        self.assertEqual(said["points"], "4")  # that is a GPU, the other ran on processors
 
     def test_rays_that_are_not_timed_stand_at_the_time_of_the_others(self):
         dom, said = self.opened(device="Device One", mode="first hits", family="thin")

@@ -47,6 +47,9 @@ class Beaten(unittest.TestCase):
         self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 8, spread=0.3)]), [])
         self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 5, decided=8)]), [])
 
+    def test_not_by_what_was_timed_elsewhere(self):
+        self.assertEqual(beaten_at([self.row("default", 10), dict(self.row("a", 5), outside=True)]), [])
+
 
 if __name__ == "__main__":
     unittest.main()
