@@ -27,6 +27,11 @@ struct Times {
     }
 };
 
+/// Of the timed pictures of a workload: pixels along a side. Depth costs more a ray than anything else.
+int side_of(const ChartWorkload& workload, const TrialOptions& options) {
+    return workload.family == "deep" ? options.deep_size : options.size;
+}
+
 class VariantTrial : public Trial {
 public:
     VariantTrial(const Variant& variant, const ChartWorkload& workload, const Truth& truth, const TrialOptions& options)
@@ -82,11 +87,10 @@ public:
     }
 
 private:
-    /// The reference has no device that would time its kernels: by the clock, in small pictures. Depth costs more a ray
-    /// than anything else.
+    /// The reference has no device that would time its kernels: by the clock, in small pictures.
     int size() const {
-        if (settings_.reference) return std::min(32, options_.size);
-        return workload_.family == "deep" ? options_.deep_size : options_.size;
+        const int side = side_of(workload_, options_);
+        return settings_.reference ? std::min(32, side) : side;
     }
 
     /// What a method cannot do is its result; that there is no device is nobody's.
@@ -271,11 +275,12 @@ private:
             if (error.status() != Status::usage) throw;
             return;  // the row has its words
         }
-        for (int side = std::min(16, options_.size);; side = std::min(2 * side, options_.size)) {
+        const int most = side_of(workload_, options_);
+        for (int side = std::min(16, most);; side = std::min(2 * side, most)) {
             picture_ = view_rays(task.scene, task.objects, side);
             const auto start = Clock::now();
             tracer_->trace(picture_);
-            if (side == options_.size || 4 * seconds_since(start) > options_.method_frame) break;
+            if (side == most || 4 * seconds_since(start) > options_.method_frame) break;
         }
         row_.timed_rays = picture_.size();
     }
