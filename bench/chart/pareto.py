@@ -18,9 +18,17 @@ def dominates(a, b, noise=NOISE):
 
 
 def front(points, noise=NOISE):
-    """The names of those of `points`, {name: (time, error, ...)}, that none of the others dominates."""
-    return {name for name, point in points.items()
-            if not any(dominates(other, point, noise) for key, other in points.items() if key != name)}
+    """The names of those of `points`, {name: (time, error, ...)}, that no other one on the front dominates.
+
+    From the most exact one on: a chain of methods, each a little faster and less exact than the one before, must not
+    lead away from its own end.
+    """
+    chosen = []
+    for name in sorted(points, key=lambda name: (points[name][1:], points[name][0])):
+        if not any(dominates(points[other], points[name], noise) for other in chosen):
+            chosen.append(name)
+    return {name for name in chosen
+            if not any(dominates(points[other], points[name], noise) for other in chosen if other != name)}
 
 
 def judged_on_all(totals):
@@ -35,9 +43,12 @@ def judged_on_all(totals):
 def beaten_at(results, noise=NOISE):
     """Where another method beats the default: (workload, method, its share of the default's time), one a workload.
 
-    `results` are rows of one mode. The other has answered all rays, is wrong on no more of them, is faster by more than
-    noise, and the intervals of the two times do not meet.
+    `results` are rows of one mode. The other has answered all rays, is wrong on no more of them, has distance errors at
+    most twice as large, is faster by more than noise, and the intervals of the two times do not meet.
     """
+    def far_off(row):
+        return row["error_mm"]["p999"]
+
     beaten = []
     for default in results:
         if default["variant"] != "default" or not default.get("ns_per_ray"):
@@ -46,6 +57,7 @@ def beaten_at(results, noise=NOISE):
                   if r["workload"] == default["workload"] and r is not default and r.get("ns_per_ray")
                   and not r.get("outside")  # it was timed elsewhere
                   and r["decided"] >= default["decided"] and r["wrong"] <= default["wrong"]
+                  and far_off(r) is not None and far_off(r) <= 2 * far_off(default)
                   and r["ns_per_ray"] * (1 + noise) < default["ns_per_ray"]
                   and r["ns_per_ray_interval"][1] < default["ns_per_ray_interval"][0]]
         if rivals:

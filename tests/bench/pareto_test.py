@@ -24,6 +24,11 @@ class Front(unittest.TestCase):
         self.assertEqual(front({"a": (1, 0), "b": (0.95, 1)}, noise=0.1), {"a"})
         self.assertEqual(front({"a": (1, 0), "b": (0.8, 1)}, noise=0.1), {"a", "b"})
 
+    def test_a_chain_of_steps_within_the_noise_does_not_hide_its_end(self):
+        chain = {"exact": (1, 0), "b": (0.93, 1), "c": (0.87, 2), "fast": (0.80, 3)}
+        self.assertEqual(front(chain, noise=0.1), {"exact", "c"})
+        self.assertEqual(front({**chain, "faster": (0.7, 4)}, noise=0.1), {"exact", "c", "faster"})
+
     def test_equals_stay_both(self):
         self.assertEqual(front({"a": (1, 1), "b": (1, 1)}), {"a", "b"})
 
@@ -34,13 +39,18 @@ class Front(unittest.TestCase):
 
 class Beaten(unittest.TestCase):
     @staticmethod
-    def row(variant, ns, wrong=0, decided=9, spread=0.01):
+    def row(variant, ns, wrong=0, decided=9, spread=0.01, off=1e-12):
         return {"variant": variant, "workload": "w", "ns_per_ray": ns, "wrong": wrong, "decided": decided,
+                "error_mm": {"p999": off},
                 "ns_per_ray_interval": (ns * (1 - spread), ns * (1 + spread))}
 
     def test_the_fastest_of_those_that_are_as_exact(self):
         rows = [self.row("default", 10), self.row("a", 8), self.row("b", 5), self.row("c", 1, wrong=1)]
         self.assertEqual(beaten_at(rows), [("w", "b", 0.5)])
+
+    def test_not_by_what_is_farther_off(self):
+        self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 5, off=3e-12)]), [])
+        self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 5, off=None)]), [])
 
     def test_neither_noise_nor_wide_intervals_nor_fewer_rays(self):
         self.assertEqual(beaten_at([self.row("default", 10), self.row("a", 9.5)]), [])
