@@ -25,16 +25,26 @@ PerturbedAnswer perturb(const ExactSolid& solid, const Ray& ray) {
     answer.delta = solid.condition * rounding;
     answer.exact = solid.along(o, d);
     const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
+    const auto move = [&](quad x, quad y, quad z) {
+        const QVec moved = solid.frame.direction({x * most.x, y * most.y, z * most.z});
+        answer.perturbed.push_back(solid.along(o + moved, d));
+        answer.tie = answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
+    };
     for (const double x : {-1, 0, 1})
         for (const double y : {-1, 0, 1})
             for (const double z : {-1, 0, 1}) {
                 const double sides = x * x + y * y + z * z;
-                if (sides != 1 && sides != 3) continue;
-                const QVec moved = solid.frame.direction({quad(x) * most.x, quad(y) * most.y, quad(z) * most.z});
-                answer.perturbed.push_back(solid.along(o + moved, d));
-                answer.tie =
-                    answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
+                if (sides == 1 || sides == 3) move(x, y, z);
             }
+    if (solid.half_way) {
+        const QAffine to_own = solid.frame.inverse();
+        const QVec at = to_own.point(o + dot(off, d) / dot(d, d) * d), from_axis{at.x, at.y, 0};
+        const quad least = smaller(most.x, most.y);
+        for (const quad side : {quad(1), quad(-1)}) {
+            const QVec by = side * least * *solid.half_way - from_axis;
+            if (length(from_axis) <= least) move(by.x / most.x, by.y / most.y, 0);
+        }
+    }
     return answer;
 }
 

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct ExactSolid {
     QAffine frame;  ///< own frame -> world
     QVec center;
     double radius = 0, placement = 0, condition = 1;  ///< as in ImplicitSolid
+    /// If it is a wedge about the own frame's z axis: the direction half-way between its sides. A wedge, or what is cut
+    /// out of one, may be narrower than the gaps between the moves. So a ray along the axis is moved into both, too.
+    std::optional<QVec> half_way = {};
 };
 
 struct PerturbedAnswer {

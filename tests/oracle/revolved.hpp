@@ -179,6 +179,7 @@ inline ExactSolid revolved(const Revolve& shape, const QAffine& place) {
     const bool whole = shape.angle >= 2 * pi - limit, nothing = shape.angle <= limit;
     const bool is_half = fabsl(shape.angle - pi) <= limit, at_most_half = is_half || shape.angle < pi;
     const QVec turned = is_half ? QVec{-1, 0, 0} : QVec{cosl(shape.angle), sinl(shape.angle), 0};
+    if (!whole && !nothing) solid.half_way = QVec{cosl(shape.angle / 2), sinl(shape.angle / 2), 0};
     solid.along = [=, outline = std::make_shared<TurnedOutline>(shape.sketch)](const QVec& world_o,
                                                                                const QVec& world_d) -> ExactIntervals {
         if (nothing) return {};
