@@ -38,9 +38,9 @@ TEST_CASE("device and reference agree on nested balls, whatever operators join t
     for (const auto& ops : {std::vector{Operator::xor_}, {Operator::union_}, {Operator::difference}, alternating}) {
         for (const test::Form form : {test::Form::list, test::Form::left, test::Form::right}) {
             if (form == test::Form::list && ops.size() > 1) continue;
-            const Scene scene = test::nested_balls(3 * most, ops, form);
+            const Scene scene = test::nested_balls(2 * most, ops, form);
             INFO("operators " << ops.size() << ", form " << static_cast<int>(form));
-            test::require_agreement(scene, {}, 24, 60);
+            test::require_agreement(scene, {}, 16, 60);
         }
     }
 }

@@ -78,7 +78,7 @@ TEST_CASE("first hits agree at every width, where cones are steep and where rays
 
 // Its solids wait for one another: more meet a packet than may wait, and of some rays more than there is room for.
 TEST_CASE("first hits of a scene larger than a processor's caches agree", "[agreement]") {
-    constexpr int balls = 140'000;
+    constexpr int balls = test::sanitized ? 10'000 : 140'000;
     Scene parsed = scene_of(scene());
     std::mt19937 random(7);
     const auto between = [&](double low, double high) {

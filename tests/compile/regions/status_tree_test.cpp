@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "compile/regions/linearize.hpp"
 #include "compile/regions/status_tree.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
@@ -125,7 +126,7 @@ struct Kept {
 
 TEST_CASE("a status tree has the values of the regions' trees") {
     Random random(44);
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < test::tries(300); ++round) {
         INFO("round " << round);
         const std::uint32_t solids = random() % 30 + 1, regions = random() % (round % 10 == 0 ? 2000 : 5) + 1;
         std::vector<FlatTree> trees;
@@ -161,7 +162,7 @@ TEST_CASE("in a status tree the way to the region is short, however deep the reg
                 status.change(to_the_right ? i : leaves - 1 - i);
                 if (i % 100 < 3) status.require_right();
             }
-            for (int k = 0; k < 300; ++k) {
+            for (int k = 0; k < test::tries(300); ++k) {
                 status.change(random() % leaves);
                 status.require_right();
             }
@@ -174,7 +175,7 @@ TEST_CASE("the set of regions gives its members in order") {
     for (const std::uint32_t regions : {1u, 2u, 31u, 32u, 33u, 1024u, 1025u, 40'000u}) {
         std::vector<std::uint32_t> set(kernel::words_of_set(regions));
         std::vector<bool> is_member(regions);
-        for (int k = 0; k < 2000; ++k) {
+        for (int k = 0; k < test::tries(2000); ++k) {
             const std::uint32_t region = random() % (k % 2 ? regions : std::min(regions, 70u)),
                                 from = random() % regions;
             kernel::toggle(set.data(), regions, region);

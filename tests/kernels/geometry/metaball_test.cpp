@@ -4,7 +4,7 @@ using namespace csgrt;
 
 // The oracle samples closely, which takes its time.
 TEST_CASE("geometry: metaball agrees with the oracle", "[geometry]") {
-    check_kernels(oracle::Kind::metaball, short_run / 20, 1);
+    check_kernels(oracle::Kind::metaball, short_run / 40, 1);
 }
 TEST_CASE("geometry: metaball agrees with the oracle on a million rays", "[.long]") {
     check_kernels(oracle::Kind::metaball, long_run, 2);
