@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -14,11 +15,38 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity: an end that should be finite and is not is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// With six digits. JSON has no infinity: an end that should be finite and is not is null.
+Json number(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::strtod(text, nullptr);
+}
 
 Json ppm(std::size_t part, std::size_t all) {
-    return all ? Json(1e6 * static_cast<double>(part) / static_cast<double>(all)) : Json();
+    return all ? number(1e6 * static_cast<double>(part) / static_cast<double>(all)) : Json();
+}
+
+Json interval(const ConfidenceInterval& of, double unit = 1) { return {number(unit * of.low), number(unit * of.high)}; }
+
+/// An element of a list a line: so a file of two megabytes can be read, and compared with another one.
+std::string to_lines(const Json& json) {
+    std::string text = "{";
+    for (const auto& [key, value] : json.items()) {
+        text += (text.size() > 1 ? ",\n" : "") + Json(key).dump() + ": ";
+        if (!value.is_array() || value.empty()) {
+            text += value.dump();
+            continue;
+        }
+        char before = '[';
+        for (const Json& one : value) {
+            text += before;
+            text += '\n' + one.dump();
+            before = ',';
+        }
+        text += ']';
+    }
+    return text + "}\n";
 }
 
 Json json_of(const Row& row) {
@@ -44,14 +72,13 @@ Json json_of(const Row& row) {
     json["rays"] = a.rays;
     json["unanswered"] = a.unanswered;
     const std::size_t answered = a.rays - a.unanswered;
-    json["answered_share"] = a.rays ? Json(static_cast<double>(answered) / static_cast<double>(a.rays)) : Json();
+    json["answered_share"] = a.rays ? number(static_cast<double>(answered) / static_cast<double>(a.rays)) : Json();
     json["decided"] = a.decided;
     json["ties"] = a.ties;
     json["rule"] = a.rule;
     json["wrong"] = a.wrong;
     json["wrong_ppm"] = ppm(a.wrong, a.decided);
-    const ConfidenceInterval wrong = share_interval(a.wrong, a.decided);
-    json["wrong_ppm_interval"] = {1e6 * wrong.low, 1e6 * wrong.high};
+    json["wrong_ppm_interval"] = interval(share_interval(a.wrong, a.decided), 1e6);
     json["misplaced"] = a.misplaced;
     json["misplaced_ppm"] = ppm(a.misplaced, a.decided);
     json["ends"] = a.error_mm.count();
@@ -59,19 +86,19 @@ Json json_of(const Row& row) {
     json["error_mm"] = {{"p999", number(a.error_mm.quantile(0.999))}, {"worst", number(a.error_mm.worst())}};
     json["error_ulp"] = {{"p999", number(a.error_ulp.quantile(0.999))}, {"worst", number(a.error_ulp.worst())}};
     if (row.ns_per_ray > 0) {
-        json["ns_per_ray"] = row.ns_per_ray;
-        json["ns_per_ray_interval"] = {row.ns.low, row.ns.high};
+        json["ns_per_ray"] = number(row.ns_per_ray);
+        json["ns_per_ray_interval"] = interval(row.ns);
     }
     if (row.timed_rays > 0 && row.ns_per_ray > 0) json["timed_rays"] = row.timed_rays;
-    if (row.frame_ms > 0) json["frame_ms"] = row.frame_ms;
-    if (!row.figures.empty()) json["figures"] = Json(row.figures);
+    if (row.frame_ms > 0) json["frame_ms"] = number(row.frame_ms);
+    for (const auto& [name, value] : row.figures) json["figures"][name] = number(value);
     return json;
 }
 
 Json json_of(const Total& total) {
     Json json = json_of(total.row);
     json["timed_on"] = total.timed_on;
-    if (total.of_default > 0) json["of_default"] = total.of_default;
+    if (total.of_default > 0) json["of_default"] = number(total.of_default);
     if (!total.failed.empty()) json["failed"] = total.failed;
     return json;
 }
@@ -194,7 +221,7 @@ std::string to_json(const Report& report) {
     for (const Total& total : totals(report, true)) json["families"].push_back(json_of(total));
     json["results"] = Json::array();
     for (const Row& row : report.rows) json["results"].push_back(json_of(row));
-    return json.dump(1) + "\n";
+    return to_lines(json);
 }
 
 namespace {
