@@ -46,17 +46,19 @@ bits of different devices need not agree.
 </ul>"""
 
 HOW = """<p>Every method shoots the same rays: a grid of the default view of each model and scene, and the rays of the
-stress families. The judge is the reference in 113-bit arithmetic. A ray is decided if its regions stay the same when
-its origin moves to four sides by some units in the last place, and when the tolerance for rounding is four times as
-large. The other rays are ties. Rays on which a file's own tolerance makes other regions than its numbers are counted
-apart. A ray is wrong if it has another sequence of regions and gaps; for first hits, another first region.</p>
+stress families. The judge is the reference in 113-bit arithmetic. It moves the ray's origin to four sides by some units
+in the last place, and makes the tolerance for rounding four times as large. A ray is decided if its regions stay the
+same each time, and if no move takes an end of a region or gap an eighth of its length away. The other rays are ties.
+Rays on which a file's own tolerance makes other regions than its numbers are counted apart. A ray is wrong if it has
+another sequence of regions and gaps; for first hits, another first region.</p>
 <p>A distance error in ulp is in units of how far the end moves when the ray moves by one unit in the last place. Double
 precision cannot do better than about 1. The judge shares formulas and compiled scenes with the library's own variants.
 So errors of scene compilation, such as the loss of very thin plates, do not show there. The oracle
 (<code>tests/oracle</code>, <code>tests/integration/stress</code>) judges the formulas.</p>
-<p>Times of the library's variants are the device's own times of its kernels, medians of warm frames; the variants run
-in turn. The laboratory's methods are timed on the rays that they trace, by their kernels' time where they have kernels,
-and else by the clock, on all processors. Methods that do the same work differ by the machine's noise.</p>"""
+<p>Times of the library's variants are the device's own times of its kernels, medians of warm frames. The variants run
+in turn, in another order each time. The laboratory's methods are timed on the rays that they trace, by their kernels'
+time where they have kernels, and else by the clock, on all processors. Methods that do the same work differ by the
+machine's noise.</p>"""
 
 
 class Measured:

@@ -27,8 +27,7 @@ def front(points, noise=NOISE):
     for name in sorted(points, key=lambda name: (points[name][1:], points[name][0])):
         if not any(dominates(points[other], points[name], noise) for other in chosen):
             chosen.append(name)
-    return {name for name in chosen
-            if not any(dominates(points[other], points[name], noise) for other in chosen if other != name)}
+    return set(chosen)
 
 
 def judged_on_all(totals):

@@ -15,12 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// With six digits. JSON has no infinity: an end that should be finite and is not is null.
+/// JSON has no infinity: an end that should be finite and is not is null.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// The same with six digits.
 Json number(double value) {
-    if (!std::isfinite(value)) return nullptr;
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value);
-    return std::strtod(text, nullptr);
+    return finite_or_null(std::strtod(text, nullptr));
 }
 
 Json ppm(std::size_t part, std::size_t all) {
@@ -226,7 +228,9 @@ std::string to_json(const Report& report) {
 
 namespace {
 
-Json whole_json(const Errors& errors) { return {{"counts", errors.counts()}, {"worst", number(errors.worst())}}; }
+Json whole_json(const Errors& errors) {
+    return {{"counts", errors.counts()}, {"worst", finite_or_null(errors.worst())}};
+}
 Errors errors_of(const Json& json) {
     const Json& worst = json.at("worst");
     return {json.at("counts").get<std::vector<std::int64_t>>(), worst.is_null() ? HUGE_VAL : worst.get<double>()};

@@ -38,6 +38,8 @@ namespace {
 using namespace csgrt;
 using namespace csgrt::bench;
 
+constexpr const char* program = "POV-Ray 3.7";
+
 struct Options {
     Sample sample{"../shared/brlcad", "scenes", 2000, {"boolean-ops", "operators", "tank_car"}};
     int size = 512, rounds = 3, threads = 2;
@@ -279,7 +281,7 @@ std::vector<std::uint32_t> regions_in(const std::string& path, int size) {
 Row judge(const ChartWorkload& workload, const Options& options, Row& ours) {
     Row row;
     row.mode = Mode::first_hits;
-    row.variant = row.method = "POV-Ray 3.7";
+    row.variant = row.method = program;
     row.laboratory = true;
     row.workload = workload.name;
     row.family = workload.family;
@@ -390,7 +392,7 @@ int main(int argc, char** argv) {
         std::filesystem::create_directories(options.folder);
         Report report{"processors", "cpu", version(), options.size, options.rounds, options.sample.rays, 0, {}, {}, {}};
         Method& pov = report.methods.emplace_back();
-        pov.name = "POV-Ray 3.7";
+        pov.name = program;
         pov.source = "www.povray.org";
         pov.about = "A picture without light, each region in a colour of its own.";
         pov.breaks = "No family was named beforehand.";

@@ -15,6 +15,19 @@ bool leaps(const ExactIntervals& a, const ExactIntervals& b, quad far) {
     return false;
 }
 
+/// Adds the ray moved by `by`, each component in units of `most`, both in the solid's own frame.
+void add_moved(const ExactSolid& solid, const Ray& ray, const QVec& most, const QVec& by, PerturbedAnswer& answer) {
+    const QVec o = ray.origin, d = ray.direction;
+    const QVec moved = solid.frame.direction({by.x * most.x, by.y * most.y, by.z * most.z});
+    answer.perturbed.push_back(solid.along(o + moved, d));
+    answer.tie = answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
+}
+
+/// A few roundings in every direction of the world, in the solid's own frame.
+QVec most_moved(const ExactSolid& solid, double rounding) {
+    return componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
+}
+
 }  // namespace
 
 PerturbedAnswer perturb(const ExactSolid& solid, const Ray& ray) {
@@ -24,40 +37,31 @@ PerturbedAnswer perturb(const ExactSolid& solid, const Ray& ray) {
     PerturbedAnswer answer;
     answer.delta = solid.condition * rounding;
     answer.exact = solid.along(o, d);
-    const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
-    const auto move = [&](quad x, quad y, quad z) {
-        const QVec moved = solid.frame.direction({x * most.x, y * most.y, z * most.z});
-        answer.perturbed.push_back(solid.along(o + moved, d));
-        answer.tie = answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
-    };
+    const QVec most = most_moved(solid, rounding);
     for (const double x : {-1, 0, 1})
         for (const double y : {-1, 0, 1})
             for (const double z : {-1, 0, 1}) {
                 const double sides = x * x + y * y + z * z;
-                if (sides == 1 || sides == 3) move(x, y, z);
+                if (sides == 1 || sides == 3) add_moved(solid, ray, most, {x, y, z}, answer);
             }
     if (solid.half_way) {
         const QAffine to_own = solid.frame.inverse();
         const QVec at = to_own.point(o + dot(off, d) / dot(d, d) * d), from_axis{at.x, at.y, 0};
         const quad least = smaller(most.x, most.y);
-        for (const quad side : {quad(1), quad(-1)}) {
-            const QVec by = side * least * *solid.half_way - from_axis;
-            if (length(from_axis) <= least) move(by.x / most.x, by.y / most.y, 0);
+        for (const quad side : {least, -least}) {
+            if (length(from_axis) > least) break;
+            const QVec by = side * *solid.half_way - from_axis;
+            add_moved(solid, ray, most, {by.x / most.x, by.y / most.y, 0}, answer);
         }
     }
     return answer;
 }
 
 void perturb_at_random(const ExactSolid& solid, const Ray& ray, Random& random, PerturbedAnswer& answer) {
-    const QVec o = ray.origin, d = ray.direction;
-    const double rounding = answer.delta / solid.condition;
-    const QVec most = componentwise_absolute(solid.frame.inverse()).direction({rounding, rounding, rounding});
+    const QVec most = most_moved(solid, answer.delta / solid.condition);
     for (int i = 0; i < 400; ++i) {
         const QVec corner = random.in_cube();
-        const QVec c = quad(i % 2 == 0 ? 1 : random.unit()) * corner;
-        answer.perturbed.push_back(
-            solid.along(o + solid.frame.direction({c.x * most.x, c.y * most.y, c.z * most.z}), d));
-        answer.tie = answer.tie || leaps(answer.exact, answer.perturbed.back(), quad(1e-3 * solid.radius) / length(d));
+        add_moved(solid, ray, most, quad(i % 2 == 0 ? 1 : random.unit()) * corner, answer);
     }
 }
 
