@@ -102,9 +102,12 @@ def scatter(axes, measured):
     def height(total):
         return max(total["wrong_ppm"], floor)
     colors = matplotlib.colormaps["tab20"].colors
-    methods = list(dict.fromkeys(t["method"] for t in drawn.values()))
+    # Of all modes: a method looks the same in all of them, and has one line of the legend.
+    methods = list(dict.fromkeys(t["method"] for t in measured.data["totals"]))
     for index, method in enumerate(methods):
         of = sorted((t for t in drawn.values() if t["method"] == method), key=lambda t: t.get("knob_value", 0))
+        if not of:
+            continue
         color = colors[(2 * index) % 20 + (2 * index) // 20 % 2]
         xs, ys = [t["of_default"] for t in of], [height(t) for t in of]
         bars = [[max(0, y - t["wrong_ppm_interval"][0]) * 0.99 if t["wrong"] else 0 for t, y in zip(of, ys)],
