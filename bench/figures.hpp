@@ -15,7 +15,7 @@ struct Stage {
     const char* name;
     double Times::*time;
 };
-/// Of the device; their sum is its part of a frame.
+/// Of the device.
 inline constexpr Stage stages[] = {{"count_hits", &Times::count_hits}, {"scan", &Times::scan},
                                    {"store", &Times::store_segments},  {"weave", &Times::weave},
                                    {"evaluate", &Times::evaluate},     {"shade", &Times::shade},
@@ -27,8 +27,8 @@ struct Figures {
     int orbit = 0;  ///< frames around the model, 0: all from one side
     std::uint64_t solids = 0, regions = 0, segments = 0, partitions_used = 0, partitions_allocated = 0;
     std::uint64_t segment_and_partition_bytes = 0, device_bytes = 0;
-    /// Milliseconds: load, compile, build and the first picture once; medians of the stages, "kernels" (their sum) and
-    /// "frame" (wall, from camera to pixels on the host); of an orbit also "worst" frame.
+    /// Milliseconds: load, compile, build and the first picture once; medians of the stages, of "kernels" (in which any
+    /// of them runs) and of "frame" (wall, from camera to pixels on the host); of an orbit also "worst" frame.
     std::vector<std::pair<std::string, double>> ms;
 
     /// Negative: there is none of that name.

@@ -39,12 +39,6 @@ struct Options {
     bool every_partition = true, first_hits = false, floors = false, color = false;
 };
 
-double kernels(const Times& ms) {
-    double sum = 0;
-    for (const Stage& stage : stages) sum += ms.*stage.time;
-    return sum;
-}
-
 /// Of frame `i`: always from one side, or from the orbit's next azimuth.
 View view_of(const Options& options, bool every_partition, int i) {
     View view;
@@ -108,7 +102,7 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     };
     for (const Stage& stage : stages)
         f.ms.emplace_back(stage.name, median(times([&](const Times& ms) { return ms.*stage.time; })));
-    f.ms.emplace_back("kernels", median(times(kernels)));
+    f.ms.emplace_back("kernels", median(times([](const Times& ms) { return ms.kernels; })));
     const std::vector<double> whole = times([](const Times& ms) { return ms.frame; });
     f.ms.emplace_back("frame", median(whole));
     if (options.orbit > 0) f.ms.emplace_back("worst", *std::max_element(whole.begin(), whole.end()));

@@ -68,7 +68,7 @@ public:
                 for (int k = 0; counts && k < 3; ++k) {
                     renderer_->render(view, framebuffer_);
                     const auto& ms = renderer_->statistics().ms;
-                    times_[i].kernels.push_back(settings_.reference ? ms.frame : ms.device());
+                    times_[i].kernels.push_back(settings_.reference ? ms.frame : ms.kernels);
                     times_[i].frames.push_back(ms.frame);
                 }
             }

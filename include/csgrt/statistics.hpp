@@ -28,8 +28,9 @@ struct Statistics {
     std::uint64_t device_bytes = 0;                        ///< memory in use on all devices
     std::uint64_t segment_bytes = 0, partition_bytes = 0;  ///< memory for segments and partitions, all batches
     std::uint32_t batches = 0;                             ///< of rays
-    /// Milliseconds. Those of kernels are the device's own measurements; those of several devices are added up. If
-    /// several batches of first hits run at the same time, a kernel's time is from its begin to its end in each.
+    /// Milliseconds. Those of kernels are the device's own measurements; those of several devices are added up. Batches
+    /// of first hits may run at the same time. Then kernels share the device, each time is from a kernel's begin to its
+    /// end, and their sum is above `kernels`.
     struct {
         double load = 0;     ///< reading the scene's file; the command line sets it
         double compile = 0;  ///< compiling the scene
@@ -37,12 +38,9 @@ struct Statistics {
         double build = 0;
         double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;  ///< kernels
         double cull_tiles = 0, first_hits = 0;                                                    ///< kernels
-        double frame = 0;  ///< the whole call, on the host's clock
-        double write = 0;  ///< writing the picture's file; the command line sets it
-        /// All kernels together.
-        double device() const {
-            return count_hits + scan + store_segments + weave + evaluate + shade + cull_tiles + first_hits;
-        }
+        double kernels = 0;  ///< in which kernels ran on a device, whether one or several at once
+        double frame = 0;    ///< the whole call, on the host's clock
+        double write = 0;    ///< writing the picture's file; the command line sets it
     } ms = {};
 };
 

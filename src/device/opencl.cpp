@@ -121,16 +121,16 @@ void wait_until_done(const Event& event) noexcept {
     event.cl().WaitForEvents(1, &one);
 }
 
-double milliseconds(const Event& event) {
-    if (!event) return 0;
+TimeSpan time_span(const Event& event) {
+    if (!event) return {};
     wait_for(event);
     const cl_event one = event.get();
-    cl_ulong start = 0, end = 0;
-    check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr),
+    cl_ulong begin = 0, end = 0;
+    check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_START, sizeof begin, &begin, nullptr),
           "clGetEventProfilingInfo");
     check(event.cl().GetEventProfilingInfo(one, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr),
           "clGetEventProfilingInfo");
-    return end > start ? static_cast<double>(end - start) * 1e-6 : 0;
+    return {begin, std::max(begin, end)};
 }
 
 }  // namespace csgrt

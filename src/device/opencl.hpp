@@ -61,8 +61,13 @@ void wait_for_one(std::span<const Event* const> events);
 /// The same, whether it failed or not: the memory that it needs may go.
 void wait_until_done(const Event& event) noexcept;
 
-/// How long the device itself took, in milliseconds, by its own clock; waits until it is done. 0 for an empty event.
+/// Nanoseconds on a device's own clock, which all its queues share.
+struct TimeSpan {
+    std::uint64_t begin = 0, end = 0;
+};
+
+/// When the device ran a command; waits until it is done. Of no length for an empty event.
 /// Throws Error (device_fault, out_of_memory) if the command failed.
-double milliseconds(const Event& event);
+TimeSpan time_span(const Event& event);
 
 }  // namespace csgrt

@@ -16,6 +16,8 @@ struct PipelineCounts {
     std::uint32_t batches = 0, retried = 0;  ///< retried: batches for which the buffers at hand did not do
     double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
     double cull_tiles = 0, first_hits = 0;
+    std::vector<TimeSpan> spans;  ///< of all kernels of one device; a sum has none
+    double kernels = 0;           ///< time in which kernels ran, whether one or several at once
 
     PipelineCounts& operator+=(const PipelineCounts& other);
 };
@@ -24,6 +26,10 @@ struct PipelineCounts {
 using TimedKernels = std::vector<std::pair<double PipelineCounts::*, Event>>;
 
 /// Adds up how long kernels took. Waits for them.
+void add_time(double PipelineCounts::*figure, const Event& kernel, PipelineCounts& counts);
 void add_times(const TimedKernels& timed, PipelineCounts& counts);
+
+/// Milliseconds that at least one of the spans covers.
+double covered_time(std::vector<TimeSpan> spans);
 
 }  // namespace csgrt

@@ -79,6 +79,7 @@ void DeviceBackend::report(Statistics& statistics) const {
     statistics.ms.shade = c.shade;
     statistics.ms.cull_tiles = c.cull_tiles;
     statistics.ms.first_hits = c.first_hits;
+    statistics.ms.kernels = c.kernels;
 }
 
 }  // namespace csgrt

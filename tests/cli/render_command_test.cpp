@@ -53,8 +53,8 @@ TEST_CASE("--stats holds the promised keys in their order") {
                                                "scan",          "store_segments",
                                                "weave",         "evaluate",
                                                "shade",         "cull_tiles",
-                                               "first_hits",    "frame",
-                                               "write"};
+                                               "first_hits",    "kernels",
+                                               "frame",         "write"};
     const Result once = run({scene, "all.g", "--reference", "--size", "40x30", "--stats", "-"});
     REQUIRE(once.status == 0);
     CHECK(once.err.empty());

@@ -60,8 +60,8 @@ TEST_CASE("numbers go to the device, through a kernel and back", "[device]") {
     const Event event = change.launch(numbers.size(), 64, in, out, Change{0.5, 3}, cl_uint(numbers.size()));
     const std::vector<double> result = out.read<double>(numbers.size());
     for (std::size_t i = 0; i < numbers.size(); ++i) REQUIRE(result[i] == 0.5 * static_cast<double>(i) + 3);
-    CHECK(milliseconds(event) > 0);
-    CHECK(milliseconds(event) < 60'000);
+    const TimeSpan span = time_span(event);
+    CHECK(span.end > span.begin);
 }
 
 TEST_CASE("launches of any number of items: each item comes once", "[device]") {
@@ -79,7 +79,7 @@ TEST_CASE("launches of any number of items: each item comes once", "[device]") {
         }
     }
     Buffer x(device, "x", sizeof(cl_uint));
-    CHECK(milliseconds(add.launch(0, 64, x, cl_uint{0})) == 0);
+    CHECK_FALSE(add.launch(0, 64, x, cl_uint{0}));
 }
 
 TEST_CASE("launches queue up behind each other and are waited for once", "[device]") {
@@ -97,7 +97,7 @@ TEST_CASE("launches queue up behind each other and are waited for once", "[devic
     device.flush();
     device.finish();
     CHECK(result == std::vector<cl_uint>(100, 88573));  // (3^11 - 1) / 2
-    for (const Event& event : events) CHECK(milliseconds(event) >= 0);
+    for (const Event& event : events) CHECK(time_span(event).begin > 0);
 }
 
 TEST_CASE("what stands in different queues is all done when a device has finished, and each keeps its order",
@@ -157,7 +157,7 @@ TEST_CASE("nothing to do is nothing queued", "[device]") {
     Buffer empty(device, "empty");
     const Event event = program.kernel("is_null").launch(0, 64, empty, empty);
     CHECK(!event);
-    CHECK(milliseconds(event) == 0);
+    CHECK(time_span(event).end == 0);
     CHECK(!empty.queue_fill(7, 0));
     empty.upload(std::vector<cl_uint>{});
     CHECK(empty.read<cl_uint>(0).empty());

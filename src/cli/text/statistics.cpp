@@ -26,6 +26,7 @@ constexpr std::pair<const char*, double Times::*> times[] = {
     {"shade", &Times::shade},
     {"cull_tiles", &Times::cull_tiles},
     {"first_hits", &Times::first_hits},
+    {"kernels", &Times::kernels},
     {"frame", &Times::frame},
     {"write", &Times::write},
 };

@@ -79,6 +79,7 @@ void DeviceGroup::share(const RayCosts& costs, bool every_partition, const Progr
             parts.stop();
             thrown[own_number] = std::current_exception();
         }
+        own.kernels = covered_time(std::move(own.spans));
         const std::lock_guard lock(mutex);
         counts += own;
     });

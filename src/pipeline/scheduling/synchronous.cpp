@@ -82,7 +82,7 @@ bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch)
     upload(frame);
     const Event culled = passes_.cull(frame).launch(passes_.tables, batch_, frame);
     const std::vector<std::uint32_t> seen = CullPass::seen(batch, batch_);
-    job.counts.cull_tiles += milliseconds(culled);
+    add_time(&PipelineCounts::cull_tiles, culled, job.counts);
 
     const std::uint64_t pixel_bytes = job.shape().pixel_bytes;
     std::vector<std::uint32_t> overflown;
