@@ -68,13 +68,13 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
 }
 
 /// What an OpenCL compiler takes for each program is most of the time of a test of many scenes, so a scene has its own
-/// only if it brings two types of solids or more that no program before had; the others share that of every type.
+/// only if it brings three types of solids or more that no program before had; the others share that of every type.
 class FewPrograms {
 public:
     /// `scene` itself, or with every type; then `objects` gets more (with_every_type).
     Scene of(Scene scene, std::vector<std::string>& objects) {
         const std::uint32_t types = compile(scene, objects).solid_types;
-        if (std::popcount(types & ~seen_) < 2) return with_every_type(std::move(scene), objects);
+        if (std::popcount(types & ~seen_) < 3) return with_every_type(std::move(scene), objects);
         seen_ |= types;
         ++own_;
         return scene;

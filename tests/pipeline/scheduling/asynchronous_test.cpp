@@ -214,12 +214,13 @@ TEST_CASE("asynchronous: few channels, of batches that run beside each other, in
 // Batches without deep rays are queued into the buffers at hand; one that has some is traced again, counted.
 TEST_CASE("asynchronous: deep rays beside others, in little memory and in much") {
     const Scene scene = test::nested_balls(300, {Operator::xor_}, test::Form::list);
+    const int width = test::sanitized ? 70 : 140, height = test::sanitized ? 60 : 120;
     std::uint64_t retried = 0;
     for (const std::uint64_t room : {0, 3'000'000, 700'000}) {
         INFO("room " << room);
         Lined lined(scene, room, 1024);
-        retried += lined.draw(140, 120, true, 1 << 20).retried;
-        lined.draw(140, 120, false, 1 << 20);
+        retried += lined.draw(width, height, true, 1 << 20).retried;
+        lined.draw(width, height, false, 1 << 20);
     }
     CHECK(retried > 0);
 }
@@ -361,16 +362,17 @@ std::size_t count_parts(const Lined& lined, int width, int height) {
 }  // namespace
 
 TEST_CASE("asynchronous: rays that have no room") {
+    const int width = test::sanitized ? 103 : 203, height = test::sanitized ? 81 : 161;
     Scene scene;
     add_shells(scene, {0, 0, 0}, 20, 0.1);
     add_ball(scene, "ball", {0, 30, 0}, 9);
     Lined lined(scene);
     for (const std::uint64_t tiles : {9, 60, 1000})
-        CHECK(lined.draw(203, 161, false, tiles * tile_rays).segments > 0);  // which the exact way alone counts
+        CHECK(lined.draw(width, height, false, tiles * tile_rays).segments > 0);  // which the exact way alone counts
     for (std::uint64_t room = 400'000; room < 40'000'000; room *= test::sanitized ? 8 : 2) {  // beside batches that run
         INFO("room " << room);
-        Lined beside(scene, room, 4096);
-        CHECK(beside.draw(203, 161, false, 1 << 20).segments > 0);
+        Lined beside(scene, room, test::sanitized ? 1024 : 4096);
+        CHECK(beside.draw(width, height, false, 1 << 20).segments > 0);
     }
 }
 
