@@ -116,6 +116,7 @@ FN int radial_sign(axis_ray a, real f, real r, real z) { return a.flat && z == a
 // `arm` tells on which arm of the hyperbola a flat ray is met: its sign is that of s.
 typedef struct {
     real at, s;
+    int within;  // of a flat ray: the piece is no farther from the axis there than the ray comes
 } radial_root;
 
 FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_ray a, bracket b, real arm) {
@@ -140,6 +141,7 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
         c = profile_at(p, degree, stride, b.at);
     }
     root.at = b.at;
+    root.within = 0;
     if (!a.flat) {
         root.s = (c.z - a.oz) / a.dz;
         return root;
@@ -147,6 +149,7 @@ FN radial_root root_of_form(GLOBAL const real* p, u32 degree, u32 stride, axis_r
     {
         real room = (c.r - a.p) * (c.r + a.p);
         root.s = room > 0 ? arm * real_sqrt(room) / a.across : REAL(0);
+        root.within = !(room > 0);
     }
     // Where the piece leaves the hyperbola's vertex the root of `room` has few digits, though the crossing may be
     // sharp: z = oz + s dz and r^2 = p^2 + (s across)^2, by Newton in both.
@@ -176,6 +179,8 @@ typedef struct {
     real low, high;
     int high_positive;  // f at `high`
     int above;          // z > oz between the splits
+    radial_root ahead;  // found already, if is_ahead
+    int is_ahead;
 } profile_walk;
 
 FN void next_part(profile_walk* w, axis_ray a) {
@@ -220,19 +225,35 @@ FN int start_profile_walk(profile_walk* w, GLOBAL const real* p, u32 degree, u32
         return 0;
     w->splits = start_sign_walk(w->level);
     w->high = 0;
+    w->is_ahead = 0;
     w->high_positive = radial_sign(a, w->f[0], p[0], p[1]);
     next_part(w, a);
     return 1;
 }
 
+// The next crossing between two splits. 0: there is no more.
+FN int next_in_part(profile_walk* w, axis_ray a, radial_root* root) {
+    real size = w->high - w->low;
+    bracket b;
+    if (!next_sign_change(w->part, 2 * w->degree, &w->signs)) return 0;
+    b = start_bracket(real_fma(w->signs.low, size, w->low), real_fma(w->signs.high, size, w->low), !w->signs.positive);
+    *root = root_of_form(w->p, w->degree, w->stride, a, b, w->above == (a.dz >= 0) ? REAL(1) : REAL(-1));
+    return 1;
+}
+
 FN int next_profile_crossing(profile_walk* w, axis_ray a, radial_root* root) {
+    if (w->is_ahead) {
+        *root = w->ahead;
+        w->is_ahead = 0;
+        return 1;
+    }
     for (;;) {
-        if (next_sign_change(w->part, 2 * w->degree, &w->signs)) {
-            real size = w->high - w->low;
-            bracket b = start_bracket(real_fma(w->signs.low, size, w->low), real_fma(w->signs.high, size, w->low),
-                                      !w->signs.positive);
-            *root = root_of_form(w->p, w->degree, w->stride, a, b, w->above == (a.dz >= 0) ? REAL(1) : REAL(-1));
-            return 1;
+        while (next_in_part(w, a, root)) {
+            if (!root->within || !w->signs.positive || !next_in_part(w, a, &w->ahead)) return 1;
+            // Where f touches 0, as at z = oz if the ray runs across the axis, rounding makes two crossings of none: f
+            // is negative wherever the piece is nearer to the axis than the ray.
+            w->is_ahead = !w->ahead.within;
+            if (w->is_ahead) return 1;
         }
         if (!(w->high < REAL(1))) return 0;
         next_part(w, a);

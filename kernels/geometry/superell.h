@@ -266,6 +266,12 @@ FN crossings superell_cross(GLOBAL const real* p, ray3 r, crossings c) {
     ray.x = superell_axis_of(l.o.x, d.x, s.low, s.high);
     ray.y = superell_axis_of(l.o.y, d.y, s.low, s.high);
     ray.z = superell_axis_of(l.o.z, d.z, s.low, s.high);
+    // Through the z axis x and y are 0 at once. A bit apart, the slope of x where it is 0 alone would be infinite, in a
+    // G that is bent nowhere.
+    if (ray.twist == 0 && d.x != 0 && d.y != 0) {
+        ray.y.zero = ray.x.zero;
+        ray.x.has_zero = ray.y.has_zero = ray.x.has_zero | ray.y.has_zero;
+    }
     knots[count++] = s.low;
     if (ray.x.has_zero) knots[count++] = ray.x.zero;
     if (ray.y.has_zero) knots[count++] = ray.y.zero;

@@ -19,6 +19,7 @@ struct ScaledRay {
     quad reach = 0;  ///< |s| up to which the solid can reach; infinity for unbounded ones
     quad turn = 0;   ///< by how much the direction's end can move when s is 1, in deltas
     QVec world_direction;
+    std::vector<quad> look_at;
 
     /// Is every product in normal . direction 0 by itself? Then no rounding can make the ray meet the plane.
     bool crosses_no_axis_of(const QVec& normal) const {
@@ -104,8 +105,10 @@ Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad
         const quad noise = noisy ? solid.noise(k, p) : quad(0);
         return quad(margin) * (solid.change(k, p, delta * (1 + ray.turn * absolute(s))) + noise);
     };
-    if (const auto line = solid.surfaces[k]->ray_function(ray.origin, ray.direction))
+    if (const auto line = solid.surfaces[k]->ray_function(ray.origin, ray.direction)) {
+        line->look_at(ray.look_at);
         return solve_curve(*line, k, ray, [&](quad s) { return change_with(s, true); });  // nothing but this bounds it
+    }
     const Polynomial f = solid.surfaces[k]->along(ray.origin, ray.direction);
     const auto change_at = [&](quad s) { return change_with(s, f.degree > 2); };
     const auto bound = [&](quad s) { return Bound{s, static_cast<int>(k)}; };
@@ -144,7 +147,7 @@ Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad
 
 }  // namespace
 
-Answer intersect(const ImplicitSolid& solid, const Ray& ray) {
+Answer intersect(const ImplicitSolid& solid, const Ray& ray, const std::vector<double>& look_at) {
     const QVec o = ray.origin, d = ray.direction;
     const quad speed = length(d);
     const QVec to_center = solid.center - o;
@@ -160,6 +163,7 @@ Answer intersect(const ImplicitSolid& solid, const Ray& ray) {
     const quad rounding = quad(ulps * double_epsilon * solid.condition);
     const quad delta = rounding * (quad(solid.placement) + way + span);
     scaled.world_direction = d;
+    for (const double t : look_at) scaled.look_at.push_back((quad(t) - scaled.t_c) / scaled.unit);
     // A bounded solid's delta covers the turn of the direction already: it is hit within its radius.
     scaled.turn = solid.bounded ? quad(0) : quad(1);
 

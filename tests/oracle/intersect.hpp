@@ -56,7 +56,9 @@ struct Answer {
     double delta = 0;  ///< millimetres
 };
 
-/// What the ray does to the solid, exactly. The ray's doubles are taken as they are.
-Answer intersect(const ImplicitSolid& solid, const Ray& ray);
+/// What the ray does to the solid, exactly. The ray's doubles are taken as they are. Functions that are no polynomials
+/// are sampled, so two roots that are close together may be missed; `look_at` has distances where they are sampled more
+/// closely.
+Answer intersect(const ImplicitSolid& solid, const Ray& ray, const std::vector<double>& look_at = {});
 
 }  // namespace csgrt::oracle

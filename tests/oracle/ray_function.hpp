@@ -22,6 +22,8 @@ public:
     virtual std::vector<quad> crossings(quad level, quad low, quad high) const = 0;
     /// Where it may turn in [low, high].
     virtual std::vector<quad> turns(quad low, quad high) const = 0;
+    /// The function is looked at more closely around these points, too.
+    virtual void look_at(const std::vector<quad>& points) = 0;
 };
 
 /// F: `quad value(const QVec&)`, `QVec gradient(const QVec&)`, `std::vector<quad> breaks(const QVec& o, const QVec&
@@ -40,8 +42,9 @@ public:
         high_ = high;
         turns_.clear();
         std::vector<quad> ends{low};
-        for (const quad s : f_.breaks(o_, d_))
-            if (s > low && s < high) ends.push_back(s);
+        for (const std::vector<quad>& points : {f_.breaks(o_, d_), points_})
+            for (const quad s : points)
+                if (s > low && s < high) ends.push_back(s);
         ends.push_back(high);
         std::sort(ends.begin(), ends.end());
         for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
@@ -63,6 +66,11 @@ public:
             if (b != 0 && (a < 0) != (b < 0)) found.push_back(between(level, knots[i], knots[i + 1], a < 0));
         }
         return found;
+    }
+
+    void look_at(const std::vector<quad>& points) override {
+        points_ = points;
+        low_ = 1, high_ = 0;
     }
 
 private:
@@ -135,6 +143,7 @@ private:
 
     const F& f_;
     QVec o_, d_;
+    std::vector<quad> points_;
     mutable quad low_ = 1, high_ = 0;
     mutable std::vector<quad> turns_;
 };

@@ -69,6 +69,19 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
 TEST_CASE("geometry: revolve agrees with the oracle", "[geometry]") {
     check_outlines(revolve_case, test::sanitized ? 1'000 : 4'000, 1);
 }
+// Its closest approach to the axis lies within the tube, where no crossing is near: rounding made two there.
+TEST_CASE("geometry: a ray across the axis of a revolved circle meets it once") {
+    Revolve shape;
+    shape.v = {2, 1, -2}, shape.axis = {0, 1, 0}, shape.r = {0, 0, -1};
+    shape.angle = 2 * pi;
+    shape.sketch.vertices = {{1, 0}, {1, 0.42888632783537489}};
+    shape.sketch.curves.push_back(Sketch::Arc{1, 0, -1, false, false});
+    const auto segments = kernel_answer(shape, identity)({{4.7407523035025561, 1.1371009140235888, 3.8055683118477521},
+                                                          {-0.30542438655070508, 0, -0.95221633261571681}});
+    REQUIRE(segments.size() == 1);
+    CHECK(segments.front().in == Approx(5.2347773776262159).epsilon(1e-15));
+    CHECK(segments.front().out == Approx(7.4957217376585543).epsilon(1e-15));
+}
 TEST_CASE("geometry: a ray along the axis of a revolve has normals along it, too") {
     Revolve shape;
     shape.axis = {0, 0, 1}, shape.r = {1, 0, 0};
