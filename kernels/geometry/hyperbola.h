@@ -179,6 +179,7 @@ typedef struct {
     real low, high;
     int high_positive;  // f at `high`
     int above;          // z > oz between the splits
+    int is_last;        // nothing comes behind `high`: a split may lie at 1, a bit before the piece's end
     radial_root ahead;  // found already, if is_ahead
     int is_ahead;
 } profile_walk;
@@ -188,7 +189,8 @@ FN void next_part(profile_walk* w, axis_ray a) {
     u32 last = w->stride * w->degree;
     w->low = w->high;
     w->above = w->splits.positive;
-    if (a.flat && next_sign_change(w->level, w->degree, &w->splits)) {
+    w->is_last = !a.flat || !next_sign_change(w->level, w->degree, &w->splits);
+    if (!w->is_last) {
         bracket b = start_bracket(w->splits.low, w->splits.high, w->above);
         profile_point c = profile_at(w->p, w->degree, w->stride, b.at);
         int step;
@@ -255,7 +257,7 @@ FN int next_profile_crossing(profile_walk* w, axis_ray a, radial_root* root) {
             w->is_ahead = !w->ahead.within;
             if (w->is_ahead) return 1;
         }
-        if (!(w->high < REAL(1))) return 0;
+        if (w->is_last) return 0;
         next_part(w, a);
     }
 }

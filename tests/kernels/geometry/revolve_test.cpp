@@ -82,6 +82,52 @@ TEST_CASE("geometry: a ray across the axis of a revolved circle meets it once") 
     CHECK(segments.front().in == Approx(5.2347773776262159).epsilon(1e-15));
     CHECK(segments.front().out == Approx(7.4957217376585543).epsilon(1e-15));
 }
+// The first one's height is that of the vertex nearest to the axis, but for a bit; and it is all but flat.
+TEST_CASE("geometry: flat rays at the height of a vertex of a revolve") {
+    Revolve shape;
+    shape.v = {-0.00096497293617720686, 0.0016327828372127819, -0.0025316160922581364};
+    shape.axis = {0.00014555532940381533, 0.00058929476650774386, 0.00079469825987523747};
+    shape.r = {-0.00073285040176237787, 0.00060384023123976141, -0.00031353989183680102};
+    shape.angle = 3.1415926535897931;
+    shape.sketch.vertices = {{1e-6, -0.001}, {2e-6, -0.001}, {7.8095821412742907e-07, 0}, {0.001, 0.001}};
+    for (std::uint32_t i = 0; i < 4; ++i) shape.sketch.curves.push_back(Sketch::Line{i, (i + 1) % 4});
+    const Matrix placed = {-0.30869652632506039,
+                           0.87506102803092745,
+                           -0.37279304158781945,
+                           0.0023504218303414255,
+                           0.25502857335111018,
+                           -0.30143730625196458,
+                           -0.91874696036180536,
+                           0.00054419863011208954,
+                           0.91633338988020008,
+                           0.37868687278675994,
+                           0.13011291622911839,
+                           -0.0017776207319761259,
+                           0,
+                           0,
+                           0,
+                           1};
+    const auto segments =
+        kernel_answer(shape, placed)({{0.011345194438456142, 0.0039264811751535582, -0.0013749058021665134},
+                                      {-0.95111883229963345, -0.26989728442950267, -0.15009471244038505}});
+    REQUIRE(segments.size() == 1);
+    // From the vertex's radius to where the last line crosses its height, 0.0005005.
+    CHECK(segments.front().out - segments.front().in == Approx(0.0005005 - 7.8095821412742907e-07).epsilon(1e-9));
+    // At the very height of the vertex, a bit above and below, and as little inclined.
+    shape.v = {}, shape.axis = {0, 0, 1}, shape.r = {1, 0, 0}, shape.angle = 2 * pi;
+    shape.sketch.vertices = {{0.001, -1}, {0.002, -1}, {0.0008, 0}, {1, 1}};
+    for (const double height : {0.0, 1e-17, -1e-17, 1e-16, -1e-16, 1e-13, -1e-13})
+        for (const double slope : {0.0, 1e-17, -1e-17, 3e-16, -3e-16, 1e-12, -1e-12})
+            for (const double aside : {0.0, 1e-16, 1e-5, 5e-4}) {
+                INFO("height " << height << ", slope " << slope << ", aside " << aside);
+                const auto found = kernel_answer(shape, identity)({{0, aside, height}, {1, 0, slope}});
+                REQUIRE(found.size() == 2);
+                CHECK(found[0].in == Approx(-0.5005).epsilon(1e-6));
+                CHECK(found[0].out == Approx(-std::sqrt(0.0008 * 0.0008 - aside * aside)).epsilon(1e-6));
+                CHECK(found[1].in == Approx(std::sqrt(0.0008 * 0.0008 - aside * aside)).epsilon(1e-6));
+                CHECK(found[1].out == Approx(0.5005).epsilon(1e-6));
+            }
+}
 TEST_CASE("geometry: a ray along the axis of a revolve has normals along it, too") {
     Revolve shape;
     shape.axis = {0, 0, 1}, shape.r = {1, 0, 0};
