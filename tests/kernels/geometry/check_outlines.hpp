@@ -133,9 +133,10 @@ private:
     std::vector<Touched> touched_;
 };
 
-/// `make(index, random)` gives case number `index`.
+/// `make(index, random)` gives case number `index`. `known`: how many rays may be wrong, because docs/accuracy.md says
+/// so.
 template <class Make>
-void check_outlines(const Make& make, std::size_t rays, std::uint64_t seed) {
+void check_outlines(const Make& make, std::size_t rays, std::uint64_t seed, std::size_t known = 0) {
     constexpr std::size_t rays_a_solid = 42;
     struct Tally {
         std::size_t rays = 0, hits = 0, ties = 0;
@@ -169,7 +170,7 @@ void check_outlines(const Make& make, std::size_t rays, std::uint64_t seed) {
                               ray, answer, segments, verdict);
             };
             if (!verdict.wrong.empty()) {
-                if (wrong++ < 5) FAIL_CHECK(told());
+                if (wrong++ >= known && wrong <= known + 5) FAIL_CHECK(told());
             } else if (verdict.worst > worst) {
                 worst = verdict.worst;
                 worst_case = told();
@@ -185,7 +186,7 @@ void check_outlines(const Make& make, std::size_t rays, std::uint64_t seed) {
         CHECK(t.ties * 2 < t.rays);
     }
     INFO(summary.str() << "most intervals: " << most << ", largest error: " << worst << " tolerances\n" << worst_case);
-    CHECK(wrong == 0);
+    CHECK(wrong <= known);
     CHECK(most > 2);
     CHECK(tally[static_cast<std::size_t>(oracle::RayFamily::ordinary)].ties * 100 <= rays);
     CHECK(tally[static_cast<std::size_t>(oracle::RayFamily::far)].ties * 20 <= rays);
