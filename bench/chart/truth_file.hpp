@@ -20,7 +20,7 @@
 namespace csgrt::bench {
 
 /// Changes whenever true_rays() may answer otherwise: older files are made anew.
-inline constexpr std::uint32_t truth_version = 2;
+inline constexpr std::uint32_t truth_version = 3;
 
 using Truth = std::vector<std::vector<TrueRay>>;  ///< by task, one a ray
 

@@ -270,7 +270,7 @@ namespace {
 
 void require_exact(const std::string& family, std::uint64_t first_seed, std::uint64_t scenes) {
     // Pruning goes through a tree at every end: seconds a ray, where trees are deep.
-    const std::size_t rays = family == "depth" || family == "deep_trees" ? 12 : 60;
+    const std::size_t rays = family == "depth" ? 4 : family == "deep_trees" ? 12 : 60;
     std::map<std::string, std::size_t> traced;  // scenes, in each mode that the method has
     for (std::uint64_t i = 0; i < scenes; ++i) {
         // An exact method has the reference's regions on ties, too.
