@@ -180,8 +180,7 @@ typedef struct {
     int high_positive;  // f at `high`
     int above;          // z > oz between the splits
     int is_last;        // nothing comes behind `high`: a split may lie at 1, a bit before the piece's end
-    radial_root ahead;  // found already, if is_ahead
-    int is_ahead;
+    radial_root ahead;  // found already, unless it is one within
 } profile_walk;
 
 FN void next_part(profile_walk* w, axis_ray a) {
@@ -227,7 +226,7 @@ FN int start_profile_walk(profile_walk* w, GLOBAL const real* p, u32 degree, u32
         return 0;
     w->splits = start_sign_walk(w->level);
     w->high = 0;
-    w->is_ahead = 0;
+    w->ahead.within = 1;
     w->high_positive = radial_sign(a, w->f[0], p[0], p[1]);
     next_part(w, a);
     return 1;
@@ -244,19 +243,16 @@ FN int next_in_part(profile_walk* w, axis_ray a, radial_root* root) {
 }
 
 FN int next_profile_crossing(profile_walk* w, axis_ray a, radial_root* root) {
-    if (w->is_ahead) {
+    if (!w->ahead.within) {
         *root = w->ahead;
-        w->is_ahead = 0;
+        w->ahead.within = 1;
         return 1;
     }
     for (;;) {
-        while (next_in_part(w, a, root)) {
-            if (!root->within || !w->signs.positive || !next_in_part(w, a, &w->ahead)) return 1;
-            // Where f touches 0, as at z = oz if the ray runs across the axis, rounding makes two crossings of none: f
-            // is negative wherever the piece is nearer to the axis than the ray.
-            w->is_ahead = !w->ahead.within;
-            if (w->is_ahead) return 1;
-        }
+        // Where f touches 0, as at z = oz if the ray runs across the axis, rounding makes two crossings of none: f is
+        // negative wherever the piece is nearer to the axis than the ray. Such a pair is left out.
+        while (next_in_part(w, a, root))
+            if (!root->within || !w->signs.positive || !next_in_part(w, a, &w->ahead) || !w->ahead.within) return 1;
         if (w->is_last) return 0;
         next_part(w, a);
     }

@@ -1,8 +1,5 @@
 #include "campaign.hpp"
 
-#include <cmath>
-#include <numeric>
-
 #include "print.hpp"
 
 namespace csgrt::oracle {
@@ -13,10 +10,9 @@ namespace {
 std::vector<double> middles_of(const std::vector<Segment>& segments) {
     std::vector<double> middles;
     for (std::size_t i = 0; i < segments.size(); ++i) {
-        if (i > 0) middles.push_back(std::midpoint(segments[i - 1].out, segments[i].in));
-        middles.push_back(std::midpoint(segments[i].in, segments[i].out));
+        if (i > 0) middles.push_back(middle(segments[i - 1].out, segments[i].in));
+        middles.push_back(middle(segments[i].in, segments[i].out));
     }
-    std::erase_if(middles, [](double t) { return !std::isfinite(t); });
     return middles;
 }
 

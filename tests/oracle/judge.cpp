@@ -41,13 +41,13 @@ bool normal_fits(const ImplicitSolid& solid, const QVec& point, const Vec3& norm
     return false;
 }
 
+}  // namespace
+
 double middle(double in, double out) {
     if (std::isinf(in) && std::isinf(out)) return 0;
     if (std::isinf(in)) return out - 1;
     return std::isinf(out) ? in + 1 : in + 0.5 * (out - in);
 }
-
-}  // namespace
 
 Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& answer, const std::vector<Segment>& segments) {
     Verdict verdict;

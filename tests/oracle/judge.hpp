@@ -27,6 +27,9 @@ struct Verdict {
 
 inline constexpr double normal_precision = 1e-9;
 
+/// A point between two ends, of which one or both may be infinite.
+double middle(double in, double out);
+
 Verdict judge(const ImplicitSolid& solid, const Ray& ray, const Answer& answer, const std::vector<Segment>& segments);
 
 /// Everything about one ray that failed.
