@@ -11,9 +11,10 @@
 //                                                      size: the diagonal of that box
 //
 // away from it, towards the corners of a cube, and for the ray with half and with twice the tolerance. Otherwise the
-// ray is a tie: rounding of its own numbers may give either answer. Partitions, and gaps between two partitions of one
-// region, are ignored if they are no longer than the tolerance + shift / cos at each of their ends (cos: of the angle
-// between the ray and the surface's normal).
+// ray is a tie: rounding of its own numbers may give either answer. Where all of 64 rays around a tie meet the same, a
+// distance `shift` away from it, the tie has to meet it, too; else it counts as decided, and wrong. Partitions, and
+// gaps between two partitions of one region, are ignored if they are no longer than the tolerance + shift / cos at each
+// of their ends (cos: of the angle between the ray and the surface's normal).
 #pragma once
 
 #include <cstddef>

@@ -21,36 +21,64 @@ FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out
     ends[1] = e;
 }
 
+// Solids with flat faces whose crossings are found one by one.
+#define FLAT_FACED (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_PLATE)
+
+#if (CSGRT_SOLIDS) & FLAT_FACED
+// The segments of such a solid, as the ray is or aside of faces in which it runs.
+FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+#if HAS_SOLID(SOLID_EXTRUDE)
+    if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, c, b));
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) return close_crossings(revolve_cross(g, solid, r, c, b));
+#endif
+#if HAS_SOLID(SOLID_MESH)
+    if (solid.type == SOLID_MESH) return mesh_collect(g, solid, r, c, b);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c, b);
+#endif
+    return 0;
+}
+
+// All its segments: those of every step aside, if the ray runs in a face of it. They may overlap.
+FN u32 collect_flat_faced(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+    beside b = not_beside();
+    u32 count = 0, stored = 0;
+    do {
+        crossings c = no_crossings(index, t_min, ends ? ends + 2 * (size_t)count : ends);
+        u32 found, i;
+        c.missed = missed_beside(b);
+        found = collect_once(g, solid, r, c, &b);
+        if (ends && count > 0) {
+            for (i = 0; i < found; ++i) {
+                const End in = ends[2 * (count + i)], out = ends[2 * (count + i) + 1];
+                insert_segment(ends, count + i, in, out);
+            }
+        }
+        stored = b.step ? stored : found;
+        if (b.step || !b.found) count += found;
+    } while (next_step(&b));
+    // The first step's are stored before it is known that the ray runs in a face: their room counts, too.
+    for (; count < stored; ++count)
+        if (ends) ends[2 * (size_t)count + 1] = ends[2 * (size_t)count];
+    return count;
+}
+#endif
+
 // Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set, see
 // collect().
 FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count) {
-#if HAS_SOLID(SOLID_EXTRUDE)
-    if (solid.type == SOLID_EXTRUDE) {
-        *count = close_crossings(extrude_cross(g, solid, r, no_crossings(index, t_min, ends)));
-        return 1;
-    }
-#endif
-#if HAS_SOLID(SOLID_REVOLVE)
-    if (solid.type == SOLID_REVOLVE) {
-        *count = close_crossings(revolve_cross(g, solid, r, no_crossings(index, t_min, ends)));
-        return 1;
-    }
-#endif
-#if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) {
-        *count = mesh_collect(g, solid, index, r, t_min, ends);
+#if (CSGRT_SOLIDS) & FLAT_FACED
+    if (FLAT_FACED >> solid.type & 1u) {
+        *count = collect_flat_faced(g, solid, index, r, t_min, ends);
         return 1;
     }
 #endif
 #if HAS_SOLID(SOLID_SUPERELL)
     if (solid.type == SOLID_SUPERELL) {
         *count = close_crossings(superell_cross(g.reals + solid.first_real, r, no_crossings(index, t_min, ends)));
-        return 1;
-    }
-#endif
-#if HAS_SOLID(SOLID_PLATE)
-    if (solid.type == SOLID_PLATE) {
-        *count = plate_collect(g, solid, index, r, t_min, ends);
         return 1;
     }
 #endif

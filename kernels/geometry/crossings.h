@@ -37,6 +37,18 @@ FN crossings no_crossings(u32 solid, real t_min, ENDS End* ends) {
     return c;
 }
 
+// Puts a segment among `count` that are sorted by where they begin, and there by surface.
+FN void insert_segment(ENDS End* ends, u32 count, End in, End out) {
+    u32 i = count;
+    while (i > 0 && (ends[2 * i - 2].t > in.t || (ends[2 * i - 2].t == in.t && ends[2 * i - 2].surface > in.surface))) {
+        ends[2 * i] = ends[2 * i - 2];
+        ends[2 * i + 1] = ends[2 * i - 1];
+        --i;
+    }
+    ends[2 * i] = in;
+    ends[2 * i + 1] = out;
+}
+
 // One more crossing. Crossings at one t are ordered by surface, so the order in which they are found does not matter.
 FN crossings cross(crossings c, real t, u32 surface) {
     surface |= c.missed;

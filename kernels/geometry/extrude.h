@@ -11,13 +11,12 @@
 #define CSGRT_GEOMETRY_EXTRUDE_H
 
 #include "../traversal/bvh_cursor.h"
-#include "affine.h"
 #include "bernstein.h"
 #include "curve.h"
 #include "cut.h"
 #include "plane.h"
 #include "polynomial.h"
-#include "touch.h"
+#include "triangle.h"
 
 #define EXTRUDE_ENDS 2
 #define WALL_SLACK           \
@@ -38,14 +37,17 @@ typedef struct {
     line2 line;
     real speed;  // along the line, as t grows; 0: the ray runs along the height
     real slack;  // WALL_SLACK in units of t
+    int steep;   // it all but runs along the height: then the line's direction is rounding's
 } sketch_ray;
+#define STEEP REAL(0x1p-20)
 
 // Along the height it has no direction there: then any line through the point will do.
-FN sketch_ray to_sketch(GLOBAL const real* p, ray3 r) {
+FN sketch_ray to_sketch(local_ray l) {
     sketch_ray w;
+    const real length = real_sqrt(dot3(l.d, l.d));
     real most;
-    w.ray = to_local(p, r);
-    w.slack = WALL_SLACK / real_sqrt(dot3(w.ray.d, w.ray.d));
+    w.ray = l;
+    w.slack = WALL_SLACK / length;
     w.line.ox = w.ray.o.x;
     w.line.oy = w.ray.o.y;
     w.line.dx = 1;
@@ -58,6 +60,7 @@ FN sketch_ray to_sketch(GLOBAL const real* p, ray3 r) {
         w.line.dy = y / size;
         w.speed = most * size;
     }
+    w.steep = w.speed < STEEP * length;
     return w;
 }
 
@@ -66,6 +69,29 @@ FN sketch_ray to_sketch(GLOBAL const real* p, ray3 r) {
 FN real distance_at(sketch_ray w, real place) {
     if (w.speed == 0) return place > 0 ? -REAL_INFINITY : REAL_INFINITY;
     return w.ray.shift + place / w.speed;
+}
+
+// May the ray run in the wall over a line? add_wall looks more closely.
+FN int may_run_in_wall(sketch_ray w, GLOBAL const real* p) {
+    if (real_abs(side_of(w.line, p[0], p[1])) <= EDGE_ON && real_abs(side_of(w.line, p[2], p[3])) <= EDGE_ON) return 1;
+    return w.steep &&
+           real_abs(difference_of_products(p[2] - p[0], w.line.oy - p[1], p[3] - p[1], w.line.ox - p[0])) <= EDGE_ON;
+}
+
+RARE_FN beside add_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL const real* place, ray3 r) {
+    const upright_ray u = make_upright(w.ray);
+    const vec3 low0 = seen_along(u, make_vec3(p[0], p[1], REAL(-1)));
+    const vec3 low1 = seen_along(u, make_vec3(p[2], p[3], REAL(-1)));
+    const vec3 high0 = seen_along(u, make_vec3(p[0], p[1], REAL(1)));
+    const vec3 high1 = seen_along(u, make_vec3(p[2], p[3], REAL(1)));
+    vec3 direction;
+    if (in_line(low0, low1, high0, high1, IN_FACE * local_rounding(place, r), &direction))
+        b = add_local_face(b, normal_of_line(u, direction), place, r);
+    return b;
+}
+
+FN beside find_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL const real* place, ray3 r) {
+    return may_run_in_wall(w, p) ? add_wall(b, w, p, place, r) : b;
 }
 
 FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plane, ray3 r, u32 surface) {
@@ -87,7 +113,7 @@ FN int enters_box(line2 l, BvhNode box) {
     return real_abs(side_of(l, x, y)) <= real_fma(real_abs(l.dx), half_y, real_abs(l.dy) * half_x);
 }
 
-FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, ray3 r) {
+FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, ray3 r, beside* b) {
     bvh_cursor c = bvh_over(s.node_count);
     while (bvh_goes_on(c)) {
         const BvhNode node = s.nodes[c.node];
@@ -95,6 +121,7 @@ FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, 
         u32 line = leaf >> BVH_LEAF_SHIFT, end = line + (leaf & BVH_LEAF_MASK);
         for (; line < end; ++line) {
             u32 surface = EXTRUDE_ENDS + line;
+            if (!b->step) *b = find_wall(*b, w, s.lines + 4 * line, g.reals + solid.first_real, r);
             k = meet_line(k, w, s.lines + 4 * line, g, solid.first_plane + surface, r, surface);
         }
     }
@@ -134,7 +161,8 @@ FN cut meet_curve(cut k, sketch_ray w, GLOBAL const real* p, u32 degree, u32 sur
     return k;
 }
 
-FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
+FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+    GLOBAL const real* p = g.reals + solid.first_real;
     sketch s = sketch_of(g, solid);
     span ends = whole_line();
     sketch_ray w;
@@ -143,10 +171,10 @@ FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     ends = clip_to_face(ends, g, solid.first_plane, r, 0);
     ends = clip_to_face(ends, g, solid.first_plane + 1, r, 1);
     if (!(ends.low < ends.high)) return c;
-    if (ends.touched) c.missed = missed_of_planes(g, solid.first_plane, EXTRUDE_ENDS, r);
-    w = to_sketch(g.reals + solid.first_real, r);
+    if (ends.touched) c.missed |= missed_of_planes(g, solid.first_plane, EXTRUDE_ENDS, r);
+    w = to_sketch(moved_aside(to_local(p, r), *b, p, r));
     k = start_cut(ends, 1, c);
-    k = meet_lines(k, w, g, solid, s, r);
+    k = meet_lines(k, w, g, solid, s, r, b);
     for (i = 0; i < s.curve_count; ++i)
         k = meet_curve(k, w, g.reals + s.curves[2 * i], s.curves[2 * i + 1], EXTRUDE_ENDS + s.line_count + i);
     return end_cut(k);
@@ -154,7 +182,7 @@ FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
 
 // The normal of the wall over a curve where the ray crosses it nearest to t.
 FN vec3 curved_wall_normal(GLOBAL const real* p, GLOBAL const real* curve, u32 degree, ray3 r, real t) {
-    sketch_ray w = to_sketch(p, r);
+    sketch_ray w = to_sketch(to_local(p, r));
     real c[BERNSTEIN_SIZE];
     real nearest = REAL_INFINITY;
     vec3 n = make_vec3(0, 0, 0);

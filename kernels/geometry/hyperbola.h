@@ -35,8 +35,7 @@ typedef struct {
     int flat;  // q is 0: s is counted from where the ray passes the axis
 } axis_ray;
 
-FN axis_ray around_axis(GLOBAL const real* p, ray3 r) {
-    local_ray l = to_local(p, r);
+FN axis_ray around_axis(local_ray l) {
     axis_ray a;
     vec3 d;
     a.speed = real_sqrt(dot3(l.d, l.d));

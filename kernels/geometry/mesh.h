@@ -21,14 +21,17 @@ typedef struct {
     u32 triangle;    // the one that was met; NONE: no more
     real t;          // where
     int clockwise;   // its corners, seen along the ray
+    int near;        // the ray has come near a triangle that is seen edge-on, or near an edge (IN_FACES, AT_EDGES)
 } mesh_walk;
+#define IN_FACES 0
+#define AT_EDGES 1
 
-FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {
+FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, beside b) {
     mesh_walk w;
     w.vertices = g.reals + mesh[MESH_VERTICES];
     w.nodes = g.inner_nodes + mesh[MESH_NODES];
     w.triangles = mesh + MESH_TRIANGLES;
-    w.ray = make_upright(to_local(place, r));
+    w.ray = make_upright(moved_aside(to_local(place, r), b, place, r));
     w.slab = make_slab_ray(offset_from(widen(make_vec3(0, 0, 0)), widen(w.ray.ray.o)), w.ray.ray.d, MESH_RADIUS,
                            -REAL_INFINITY);
     w.cursor = bvh_over(w.slab.hits_sphere ? mesh[MESH_NODE_COUNT] : 0);
@@ -36,16 +39,19 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
     w.triangle = NONE;
     w.t = 0;
     w.clockwise = 0;
+    w.near = 0;
     return w;
 }
 
-FN mesh_walk next_triangle(mesh_walk w) {
+// `what`: IN_FACES or AT_EDGES.
+FN mesh_walk next_triangle(mesh_walk w, int what) {
     w.triangle = NONE;
     for (;;) {
         u32 leaf;
         while (w.next < w.last) {
             triangle_hit h = meet_triangle(w.ray, w.vertices, w.triangles + 3 * (size_t)w.next);
             ++w.next;
+            w.near |= (what == AT_EDGES ? h.least : h.most) <= EDGE_ON;
             if (h.hit) {
                 w.triangle = w.next - 1;
                 w.t = h.t;
@@ -60,20 +66,43 @@ FN mesh_walk next_triangle(mesh_walk w) {
     }
 }
 
-FN u32 mesh_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
-    crossings c = no_crossings(index, t_min, ends);
+// The faces in which the ray runs, or the edges that it passes: known when all that is near has been seen.
+RARE_FN beside find_faces(beside b, Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, int what) {
+    mesh_walk w = start_mesh_walk(g, mesh, place, r, b);
+    u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
+    while (leaf) {
+        const u32 first = leaf >> BVH_LEAF_SHIFT, end = first + (leaf & BVH_LEAF_MASK);
+        u32 i;
+        for (i = first; i < end; ++i)
+            b = add_triangle(b, w.ray, w.vertices, w.triangles + 3 * (size_t)i, what == AT_EDGES, place, r);
+        leaf = next_leaf(w.slab, w.nodes, &w.cursor);
+    }
+    return b;
+}
+
+// Where the ray as it is meets the plane of a triangle that it meets aside of a face.
+RARE_FN real moved_back(mesh_walk w, beside b, GLOBAL const real* place, ray3 r) {
+    const vec3 n = triangle_normal(w.vertices, w.triangles + 3 * (size_t)w.triangle);
+    const real back = dot3(n, aside(b, place, r)) / dot3(n, w.ray.ray.d);
+    return real_abs(back) * real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d)) < EDGE_ON ? w.t + back : w.t;
+}
+
+FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
     GLOBAL const u32* mesh = g.words + solid.first_word;
+    GLOBAL const real* place = g.reals + solid.first_real;
     u32 facing = mesh[MESH_FACING], outs = 0;
-    mesh_walk w = start_mesh_walk(g, mesh, g.reals + solid.first_real, r);
+    mesh_walk w = start_mesh_walk(g, mesh, place, r, *b);
     for (;;) {
         int leaves;
-        w = next_triangle(w);
+        w = next_triangle(w, IN_FACES);
         if (w.triangle == NONE) break;
+        if (b->step) w.t = moved_back(w, *b, place, r);
         // Counterclockwise from outside is clockwise from within, as a ray on its way out sees it.
         leaves = facing != 0 && (w.clockwise != 0) == (facing == 1);
-        if (leaves && w.t >= t_min) ++outs;
+        if (leaves && w.t >= c.t_min) ++outs;
         c = cross(c, w.t, leaves ? w.triangle | LEAVES : w.triangle);
     }
+    if (w.near && !b->step) *b = find_faces(*b, g, mesh, place, r, IN_FACES);
     return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 

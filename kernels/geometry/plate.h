@@ -46,38 +46,31 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     return s;
 }
 
-FN u32 plate_collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* extents = g.reals + words[PLATE_EXTENTS];
     GLOBAL const real* place = g.reals + solid.first_real;
-    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r);
+    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, *b);
     real skin = place[PLATE_SKIN] / real_sqrt(dot3(r.d, r.d));
     u32 count = 0;
     for (;;) {
         span s;
-        w = next_triangle(w);
+        w = next_triangle(w, AT_EDGES);
         if (w.triangle == NONE) break;
-        s = plate_span(w, words, extents, skin, t_min);
+        s = plate_span(w, words, extents, skin, c.t_min);
         if (!(s.low < s.high)) continue;
-        if (ends) {
-            u32 i = count;
-            End e;
-            while (i > 0 && (ends[2 * i - 2].t > s.low ||
-                             (ends[2 * i - 2].t == s.low && ends[2 * i - 2].surface > w.triangle))) {
-                ends[2 * i] = ends[2 * i - 2];
-                ends[2 * i + 1] = ends[2 * i - 1];
-                --i;
-            }
-            e.t = s.low;
-            e.solid = index;
-            e.surface = w.triangle;
-            ends[2 * i] = e;
-            e.t = s.high;
-            e.surface = w.triangle | LEAVES;
-            ends[2 * i + 1] = e;
+        if (c.ends) {
+            End in, out;
+            in.t = s.low;
+            out.t = s.high;
+            in.solid = out.solid = c.solid;
+            in.surface = w.triangle | c.missed;
+            out.surface = in.surface | LEAVES;
+            insert_segment(c.ends, count, in, out);
         }
         ++count;
     }
+    if (w.near && !b->step) *b = find_faces(*b, g, words + PLATE_MESH, place, r, AT_EDGES);
     return count;
 }
 

@@ -8,10 +8,10 @@
 #ifndef CSGRT_GEOMETRY_REVOLVE_H
 #define CSGRT_GEOMETRY_REVOLVE_H
 
+#include "beside.h"
 #include "cut.h"
 #include "hyperbola.h"
 #include "plane.h"
-#include "touch.h"
 
 #define REVOLVE_CUT 12   // where that parameter is (shared/layout.h has its values)
 #define REVOLVE_FACES 2  // surfaces of the cut
@@ -43,59 +43,53 @@ FN cut meet_flat_line(cut k, GLOBAL const real* p, axis_ray a, Geometry g, u32 p
 
 FN u32 revolve_cut_faces(GLOBAL const real* p) { return p[REVOLVE_CUT] == REAL(REVOLVE_WHOLE) ? 0u : REVOLVE_FACES; }
 
-FN int runs_within(Geometry g, u32 index, ray3 r) {
-    PlaneRecord plane = g.planes[g.words[index] >> 1];
-    return plane_above(plane, r) == 0 && dot3(narrow(plane_normal(plane)), r.d) == 0;
+// Nothing lies between the two sides of one plane, not even a ray that runs within it.
+FN int nothing_between(Geometry g, u32 index) { return (g.words[index] ^ g.words[index + 1]) == 1u; }
+
+// Of the two planes of the cut, the stretch between them. A ray aside of the plane that it runs in is on one side of
+// it all the way.
+FN span between_faces(Geometry g, u32 index, GLOBAL const real* p, ray3 r, beside b) {
+    span s = whole_line();
+    u32 i;
+    for (i = 0; i < REVOLVE_FACES; ++i) {
+        const PlaneRef ref = g.words[index + i];
+        if (!b.step || !runs_in(g.planes[ref >> 1], r)) {
+            s = clip_to_face(s, g, index + i, r, i);
+        } else if (goes_out(b, p, r, g.planes[ref >> 1], ref & 1u)) {
+            s.low = REAL_INFINITY;
+            s.high = -REAL_INFINITY;
+        }
+    }
+    return s;
 }
 
-// Nothing lies between the two sides of one plane, not even a ray that runs within it. A ray that runs within two
-// planes runs along the edge where they meet, and is not between them either.
-FN int nothing_between(Geometry g, u32 index, ray3 r) {
-    PlaneRef first = g.words[index], second = g.words[index + 1];
-    return (first ^ second) == 1u || (first != second && runs_within(g, index, r) && runs_within(g, index + 1, r));
-}
-
-FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
+FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
     GLOBAL const real* p = g.reals + solid.first_real;
     sketch s = sketch_of(g, solid);
-    axis_ray a = around_axis(p, r);
+    axis_ray a = around_axis(moved_aside(to_local(p, r), *b, p, r));
     u32 faces = revolve_cut_faces(p), i;
-    u32 flat_lines = solid.plane_count - faces, touched = NONE;
-    const real oz = a.oz;
-    int side = 1;
+    u32 flat_lines = solid.plane_count - faces;
     span between = whole_line();
     cut k;
-    if (faces) {
-        between = clip_to_face(between, g, solid.first_plane, r, 0);
-        between = clip_to_face(between, g, solid.first_plane + 1, r, 1);
-    }
-    if (!faces || nothing_between(g, solid.first_plane, r)) {
+    if (!b->step)
+        for (i = 0; i < solid.plane_count; ++i) {
+            const PlaneRecord plane = g.planes[g.words[solid.first_plane + i] >> 1];
+            if (runs_in(plane, r)) *b = add_plane(*b, plane, r);
+        }
+    if (faces) between = between_faces(g, solid.first_plane, p, r, *b);
+    if (!faces || nothing_between(g, solid.first_plane)) {
         between.low = REAL_INFINITY;
         between.high = -REAL_INFINITY;
     }
-    if (between.touched) c.missed = missed_of_planes(g, solid.first_plane, REVOLVE_FACES, r);
-    for (i = 0; i < flat_lines; ++i)
-        if (runs_in(g.planes[g.words[solid.first_plane + faces + i] >> 1], r)) touched = solid.first_plane + faces + i;
-    // A ray in such a plane touches the flat face, which lies before it or behind it along the axis: the solid is met
-    // beside it.
-    do {
-        k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
-        if (touched != NONE) {
-            const int face_above = faces_above(g.planes[g.words[touched] >> 1]) == !(g.words[touched] & 1u);
-            a.oz = oz + REAL(side) * (REAL(8) * local_rounding(p, r));
-            k.c.missed |= face_above == (side > 0) ? MISSED_BELOW : MISSED_ABOVE;
-        }
-        for (i = 0; i < s.line_count; ++i) {
-            u32 surface = REVOLVE_FACES + i;
-            k = i < flat_lines ? meet_flat_line(k, s.lines + 4 * i, a, g, solid.first_plane + faces + i, r, surface)
-                               : meet_profile(k, s.lines + 4 * i, 1, 2, a, surface);
-        }
-        for (i = 0; i < s.curve_count; ++i)
-            k = meet_profile(k, g.reals + s.curves[2 * i], s.curves[2 * i + 1], 3, a, REVOLVE_FACES + s.line_count + i);
-        k.c = end_cut(k);
-        side = -side;
-    } while (touched != NONE && side < 0 && k.c.ahead + k.c.behind == 0);
-    return k.c;
+    k = start_cut(between, p[REVOLVE_CUT] == REAL(REVOLVE_LESS), c);
+    for (i = 0; i < s.line_count; ++i) {
+        u32 surface = REVOLVE_FACES + i;
+        k = i < flat_lines ? meet_flat_line(k, s.lines + 4 * i, a, g, solid.first_plane + faces + i, r, surface)
+                           : meet_profile(k, s.lines + 4 * i, 1, 2, a, surface);
+    }
+    for (i = 0; i < s.curve_count; ++i)
+        k = meet_profile(k, g.reals + s.curves[2 * i], s.curves[2 * i + 1], 3, a, REVOLVE_FACES + s.line_count + i);
+    return end_cut(k);
 }
 
 // The local normal of what a piece sweeps, where the ray crosses it nearest to t.
@@ -128,7 +122,7 @@ FN vec3 revolve_normal(Geometry g, SolidRecord solid, ray3 r, real t, u32 surfac
     if (face < REVOLVE_FACES) {
         n = face_normal(g, solid.first_plane + face);
     } else {
-        axis_ray a = around_axis(p, r);
+        axis_ray a = around_axis(to_local(p, r));
         vec3 at = local_point(to_local(p, r), t);
         u32 piece = face - REVOLVE_FACES;
         if (piece < s.line_count) {

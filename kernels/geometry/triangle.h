@@ -15,7 +15,7 @@
 #ifndef CSGRT_GEOMETRY_TRIANGLE_H
 #define CSGRT_GEOMETRY_TRIANGLE_H
 
-#include "affine.h"
+#include "beside.h"
 #include "polynomial.h"
 
 #define MESH_RADIUS REAL(1)
@@ -54,11 +54,13 @@ FN upright_ray make_upright(local_ray l) {
 // So small a coordinate is rounding, and products of two of them would leave the range in which they are exact.
 FN real flushed(real x) { return real_abs(x) < REAL(0x1p-50) ? REAL(0) : x; }
 
-// A vertex seen along the ray: (x, y) is 0 on it, z measures along its main axis.
-FN vec3 upright_vertex(upright_ray u, GLOBAL const real* v) {
-    vec3 p = turned(subtract(make_vec3(v[0], v[1], v[2]), u.ray.o), u.axis);
+// A point seen along the ray: (x, y) is 0 on it, z measures along its main axis.
+FN vec3 seen_along(upright_ray u, vec3 point) {
+    const vec3 p = turned(subtract(point, u.ray.o), u.axis);
     return make_vec3(flushed(real_fma(-u.slope_x, p.z, p.x)), flushed(real_fma(-u.slope_y, p.z, p.y)), p.z);
 }
+
+FN vec3 upright_vertex(upright_ray u, GLOBAL const real* v) { return seen_along(u, make_vec3(v[0], v[1], v[2])); }
 
 // On which side of the edge from a to b the ray passes: 1, -1, or 0 for an edge that has no length.
 // `product` is a x b; its rate of change as 0 moves to (e, e^2) decides where it is 0.
@@ -71,7 +73,12 @@ typedef struct {
     int hit;
     real t;         // the ray's own
     int clockwise;  // seen along the ray
+    real most;      // of the products of its edges' ends: next to 0, it is seen edge-on, or very small
+    real least;     // next to 0: the ray passes an edge of it, or the line through one
 } triangle_hit;
+
+// Above this no product is next to 0, however far the ray comes from.
+#define EDGE_ON REAL(0x1p-30)
 
 FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners) {
     triangle_hit h;
@@ -83,6 +90,8 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     real wb = difference_of_products(c.x, a.y, c.y, a.x);
     int side = side_of_edge(a, b, wc);
     real z;
+    h.most = real_max(real_abs(wa), real_max(real_abs(wb), real_abs(wc)));
+    h.least = real_min(real_abs(wa), real_min(real_abs(wb), real_abs(wc)));
     h.hit = side != 0 && side_of_edge(b, c, wa) == side && side_of_edge(c, a, wb) == side;
     h.t = 0;
     h.clockwise = (side > 0) == (turned(u.ray.d, u.axis).z > 0);
@@ -92,6 +101,32 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     z = real_max(real_min(a.z, real_min(b.z, c.z)), real_min(real_max(a.z, real_max(b.z, c.z)), z));
     h.t = u.ray.shift + z / turned(u.ray.d, u.axis).z;
     return h;
+}
+
+// The normal of the plane that is seen as a line through the ray.
+FN vec3 normal_of_line(upright_ray u, vec3 direction) {
+    const real x = -direction.y, y = direction.x;
+    const vec3 n = make_vec3(x, y, -real_fma(u.slope_x, x, u.slope_y * y));
+    return turned(n, u.axis == 2 ? 2 : 1 - u.axis);
+}
+
+// The planes of these corners in which the ray runs: of the triangle, or of its edges and the ray.
+RARE_FN beside add_triangle(beside b, upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners,
+                            int by_edges, GLOBAL const real* place, ray3 r) {
+    const real rounding = IN_FACE * local_rounding(place, r);
+    const vec3 v0 = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
+    const vec3 v1 = upright_vertex(u, vertices + 3 * (size_t)corners[1]);
+    const vec3 v2 = upright_vertex(u, vertices + 3 * (size_t)corners[2]);
+    vec3 direction;
+    if (!by_edges) {
+        if (in_line(v0, v1, v2, v2, rounding, &direction))
+            b = add_local_face(b, normal_of_line(u, direction), place, r);
+        return b;
+    }
+    if (in_line(v0, v1, v1, v1, rounding, &direction)) b = add_local_face(b, normal_of_line(u, direction), place, r);
+    if (in_line(v1, v2, v2, v2, rounding, &direction)) b = add_local_face(b, normal_of_line(u, direction), place, r);
+    if (in_line(v2, v0, v0, v0, rounding, &direction)) b = add_local_face(b, normal_of_line(u, direction), place, r);
+    return b;
 }
 
 // Across the triangle, in the mesh's own space.

@@ -16,6 +16,14 @@ bool same_regions(const std::vector<Partition>& a, const std::vector<Partition>&
                       [](const Partition& p, const Partition& q) { return p.region == q.region; });
 }
 
+constexpr std::uint32_t no_region = 0xffffffff;
+
+std::uint32_t region_at(const std::vector<Partition>& partitions, double t) {
+    for (const Partition& p : partitions)
+        if (p.in <= t && t <= p.out) return p.region;
+    return no_region;
+}
+
 }  // namespace
 
 double length(Vec3 v) { return std::hypot(v.x, v.y, v.z); }
@@ -63,6 +71,30 @@ RegionDifference difference_of(const std::vector<Partition>& exact, const std::v
     for (std::size_t i = before; i < a.size() - behind; ++i) difference.exact.push_back(a[i].region);
     for (std::size_t i = before; i < b.size() - behind; ++i) difference.found.push_back(b[i].region);
     return difference;
+}
+
+bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartitions> neighbours, const Blur& blur) {
+    std::vector<double> ends;
+    const auto add_ends = [&](const std::vector<Partition>& partitions) {
+        for (const Partition& p : partitions) {
+            ends.push_back(p.in);
+            ends.push_back(p.out);
+        }
+    };
+    add_ends(found);
+    for (const RayPartitions& neighbour : neighbours) add_ends(neighbour.partitions);
+    std::sort(ends.begin(), ends.end());
+    const double least = (blur.tolerance + 4 * std::sqrt(blur.size * blur.shift)) / length(blur.direction);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        if (!(ends[i + 1] - ends[i] > least) || std::isinf(ends[i + 1] - ends[i])) continue;
+        const double middle = ends[i] + 0.5 * (ends[i + 1] - ends[i]);
+        const std::uint32_t first = region_at(neighbours.front().partitions, middle);
+        if (region_at(found, middle) != first &&
+            std::all_of(neighbours.begin(), neighbours.end(),
+                        [&](const RayPartitions& n) { return region_at(n.partitions, middle) == first; }))
+            return true;
+    }
+    return false;
 }
 
 bool identical(const RayPartitions& a, const RayPartitions& b) {

@@ -1,6 +1,7 @@
 // Two answers for one ray: have they the same regions, and which of their ends belong to each other?
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <csgrt/verify.hpp>
@@ -36,6 +37,10 @@ Pairing pair(const std::vector<Partition>& a, const std::vector<Partition>& b, c
 /// Where they differ, by the partitions that count.
 RegionDifference difference_of(const std::vector<Partition>& exact, const std::vector<Partition>& found,
                                const Blur& blur);
+
+/// Is there a stretch over which all neighbours meet the same region, or all meet none, and this answer does not? The
+/// stretch is longer than any end may move within the blur.
+bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartitions> neighbours, const Blur& blur);
 
 /// To the last bit, overlaps included.
 bool identical(const RayPartitions& a, const RayPartitions& b);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <span>
 
 #include "verify/answers.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr double roundings = 64, unit_roundoff = 0x1p-53;
 constexpr double most_leap = 4;  ///< of shift / cos; where a ray grazes a surface, a decided end may move by twice that
 constexpr int corners = 8;
+constexpr int few_neighbours = 8, all_neighbours = 64;  ///< on a circle around a tie
 
 Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -45,12 +47,33 @@ struct Judged {
     RayPartitions answer;
     bool tie = false, all_as_they_are = true;
     std::vector<std::array<double, 2>> moved;  ///< by how much each partition's ends did, in units of the direction
+    RegionDifference difference;               ///< of a tie: what became different
 };
 
 // Of infinite ends too: 0 where both are the same.
 double apart(double a, double b) { return a == b ? 0 : std::abs(a - b); }
 
 }  // namespace
+
+/// Some unit vector across `d`.
+Vec3 across(Vec3 d) {
+    const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+    const Vec3 n = x <= y && x <= z ? Vec3{0, -d.z, d.y} : y <= z ? Vec3{d.z, 0, -d.x} : Vec3{-d.y, d.x, 0};
+    return 1 / length(n) * n;
+}
+
+/// Rays beside a ray, all round it.
+std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
+    const Vec3 d = 1 / length(ray.direction) * ray.direction, u = across(d);
+    const Vec3 v{d.y * u.z - d.z * u.y, d.z * u.x - d.x * u.z, d.x * u.y - d.y * u.x};
+    std::vector<Ray> neighbours;
+    for (int i = 0; i < count; ++i) {
+        const double angle = (2 * i + 1) * std::acos(-1.0) / count;
+        const Vec3 step = distance * std::cos(angle) * u + distance * std::sin(angle) * v;
+        neighbours.push_back({ray.origin + step, ray.direction});
+    }
+    return neighbours;
+}
 
 struct Verifier::Impl {
     Settings settings;
@@ -79,6 +102,7 @@ struct Verifier::Impl {
     void compare(Judged& judged, const RayPartitions& other, const NumberedRay& ray);
     void measure(const std::vector<Partition>& found, const Judged& judged, const NumberedRay& ray);
     void add_tie(const NumberedRay& ray, RegionDifference difference);
+    void judge_ties(const std::vector<Ray>& rays, std::vector<Judged>& judged, const std::vector<RayPartitions>& found);
 };
 
 /// With the answer of the ray moved, or with another tolerance.
@@ -89,7 +113,7 @@ void Verifier::Impl::compare(Judged& judged, const RayPartitions& other, const N
     const Pairing paired = pair(a, b, blur);
     if (!paired.same_regions) {
         judged.tie = true;
-        add_tie(ray, difference_of(a, b, blur));
+        judged.difference = difference_of(a, b, blur);
     }
     judged.all_as_they_are = judged.all_as_they_are && paired.as_they_are;
     if (!judged.all_as_they_are) return;
@@ -107,6 +131,35 @@ void Verifier::Impl::add_tie(const NumberedRay& ray, RegionDifference difference
         kind = result.tie_kinds.insert(kind, {{ray}, std::move(difference), 0});
     }
     ++kind->rays;
+}
+
+/// A tie is decided, too, wherever all rays around it meet the same: a ray that runs in a face may be in the solid or
+/// not, but where the solid lies on both sides of the face, it is within. Finer moves than the corners' are asked, so
+/// that one of them is within any edge that the ray may touch.
+void Verifier::Impl::judge_ties(const std::vector<Ray>& rays, std::vector<Judged>& judged,
+                                const std::vector<RayPartitions>& found) {
+    std::vector<std::size_t> suspects;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (judged[i].tie) suspects.push_back(i);
+    for (const int count : {few_neighbours, all_neighbours}) {
+        std::vector<Ray> beside;
+        for (const std::size_t i : suspects) {
+            const std::vector<Ray> all = neighbours_of(rays[i], blur_of(rays[i]).shift, count);
+            beside.insert(beside.end(), all.begin(), all.end());
+        }
+        const std::vector<RayPartitions> answers = shoot(*judge, beside, 0);
+        std::vector<std::size_t> remaining;
+        for (std::size_t k = 0; k < suspects.size(); ++k) {
+            const std::size_t i = suspects[k];
+            const std::span neighbours(answers.data() + k * static_cast<std::size_t>(count),
+                                       static_cast<std::size_t>(count));
+            if (!stands_alone(found[i].partitions, neighbours, blur_of(rays[i]))) continue;
+            remaining.push_back(i);
+            judged[i].answer = neighbours.front();
+        }
+        suspects = std::move(remaining);
+    }
+    for (const std::size_t i : suspects) judged[i].tie = false;
 }
 
 /// The distances of a decided ray whose regions are right.
@@ -222,6 +275,8 @@ void Verifier::shoot(const std::vector<Ray>& rays) {
     }
     for (Renderer& other : impl.other_tolerances) compare(impl.shoot(other, rays, share));
 
+    impl.judge_ties(rays, judged, impl.device ? on_device : on_reference);
+
     Verification& result = impl.result;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const NumberedRay ray{first + i, rays[i]};
@@ -231,6 +286,7 @@ void Verifier::shoot(const std::vector<Ray>& rays) {
         if (differs && ++result.bit_differences <= Verification::kept) result.different_rays.push_back(ray);
         if (judged[i].tie) {
             ++result.ties;
+            impl.add_tie(ray, std::move(judged[i].difference));
             continue;
         }
         ++result.decided;

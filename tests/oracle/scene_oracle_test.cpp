@@ -1,4 +1,6 @@
 // The oracle of whole scenes against answers that can be read off the numbers.
+#include <csgrt/scene_io.hpp>
+
 #include "catch.hpp"
 
 #include "oracle/scene_judge.hpp"
@@ -225,4 +227,26 @@ TEST_CASE("scene judge: an overlap behind the start cuts what reaches across it,
     };
     CHECK(fault(-0.9994).empty());
     CHECK(fault(-0.9).find("no solid has an end") != std::string::npos);
+}
+
+TEST_CASE("scene judge: of a ray in an end face, what lies across the axis is no tie", "[oracle]") {
+    const Scene scene = parse_scene(R"({"csgrt": 1, "objects": ["r"],
+        "solids": {"box": {"type": "box", "low": [-3, -3, -3], "high": [3, 3, 3]},
+                   "ring": {"type": "revolve", "base": [0, 0, 0], "axis": [0, 0, 1], "r": [1, 0, 0], "angle": 270,
+                            "sketch": {"vertices": [[1, -1], [2, -1], [2, 1], [1, 1]],
+                                       "curves": [{"line": [0, 1]}, {"line": [1, 2]}, {"line": [2, 3]},
+                                                  {"line": [3, 0]}]}}},
+        "combinations": {"r": {"region": true, "tree": {"difference": ["box", "ring"]}}}})",
+                                    "ring.json");
+    const SceneOracle oracle(scene, {"r"});
+    RegionInfo region;
+    region.path = "/r";
+    const SceneJudge judge(oracle, {region}, 0);
+    const auto fault = [&](std::vector<Partition> partitions) {
+        std::size_t ties = 0;
+        return judge.judge({{9, 0, 0}, {-1, 0, 0}}, {std::move(partitions), {}}, ties);
+    };
+    const Vec3 in{1, 0, 0}, out{-1, 0, 0};
+    CHECK(fault({{6, 10, in, out, 0, 0, 1}, {11, 12, in, out, 0, 1, 0}}).empty());
+    CHECK(fault({{6, 12, in, out, 0, 0, 0}}).find("is not at") != std::string::npos);
 }

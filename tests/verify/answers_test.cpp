@@ -52,6 +52,24 @@ TEST_CASE("answers pair as they are, without what does not count, or not at all"
     CHECK(!pair(one, {}, blur).same_regions);
 }
 
+TEST_CASE("an answer stands alone where all neighbours meet something else, over more than rounding") {
+    const auto answer = [](std::vector<Partition> partitions) {
+        return csgrt::RayPartitions{std::move(partitions), {}};
+    };
+    const csgrt::Blur fine{along, 0, 1e-12, 100};
+    const csgrt::RayPartitions above = answer({partition(1, 0, 10), partition(1, 20, 30)}),
+                               below = answer({partition(1, 5, 10), partition(1, 20, 40)});
+    const std::vector<csgrt::RayPartitions> both = {above, below};
+    // In the face of which the two neighbours are on either side, a ray may take after one of them anywhere.
+    CHECK(!stands_alone(above.partitions, both, fine));
+    CHECK(!stands_alone({partition(1, 0, 10), partition(1, 20, 40)}, both, fine));
+    CHECK(!stands_alone({partition(1, 0, 10), partition(1, 20, 35)}, both, fine));
+    CHECK(stands_alone({partition(1, 0, 30)}, both, fine));
+    CHECK(stands_alone({partition(1, 0, 10)}, both, fine));
+    CHECK(stands_alone({partition(1, 0, 8), partition(2, 8, 10), partition(1, 20, 30)}, both, fine));
+    CHECK(!stands_alone({partition(1, 0, 10 + 1e-7), partition(1, 20, 30)}, both, fine));
+}
+
 TEST_CASE("a difference leaves out what both have before and behind it") {
     const auto chain = [](std::initializer_list<std::uint32_t> regions) {
         std::vector<Partition> partitions;

@@ -26,18 +26,45 @@ struct Contacts {
 };
 
 constexpr double back = 100;
-constexpr std::size_t flat_parts = 14;
+constexpr std::size_t flat_parts = 24;
+const double pi = std::acos(-1);
+
+/// A closed line through points.
+Sketch polygon(const std::vector<Sketch::Point>& points) {
+    Sketch sketch;
+    sketch.vertices = points;
+    const auto count = static_cast<std::uint32_t>(points.size());
+    for (std::uint32_t i = 0; i < count; ++i) sketch.curves.emplace_back(Sketch::Line{i, (i + 1) % count});
+    sketch.reversed.assign(count, 0);
+    return sketch;
+}
+
+/// A block below z = 0 as triangles: its top is a fan around a point.
+Bot block_of_triangles(const Vec3& top) {
+    Bot bot;
+    bot.vertices = {{-3, -3, -4}, {3, -3, -4}, {3, 3, -4}, {-3, 3, -4}, {-3, -3, 0},
+                    {3, -3, 0},   {3, 3, 0},   {-3, 3, 0}, top};
+    bot.faces = {{0, 2, 1}, {0, 3, 2}};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t next = (i + 1) % 4;
+        bot.faces.push_back({i, next, next + 4});
+        bot.faces.push_back({i, next + 4, i + 4});
+        bot.faces.push_back({i + 4, next + 4, 8});
+    }
+    return bot;
+}
 
 /// A part with a flat top in z = 0 that holds all points closer to the z axis than 2; nothing of it is above.
 Tree flat_part(Builder& to, std::size_t kind, const Matrix& place) {
     const auto solid = [&](Shape shape) { return leaf(to.solid(std::move(shape)), place); };
     const Vec3 down{0, 0, -4}, x{1, 0, 0};
-    const auto square = [] {
-        Sketch sketch;
-        sketch.vertices = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};
-        for (std::uint32_t i = 0; i < 4; ++i) sketch.curves.emplace_back(Sketch::Line{i, (i + 1) % 4});
-        sketch.reversed.assign(4, 0);
-        return sketch;
+    const std::vector<Sketch::Point> square = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};
+    // Extruded along y: the sketch's v is z, and its walls over v = 0 are the top.
+    const auto wall = [&](Sketch sketch) {
+        return solid(Extrude{{0, 3, 0}, {0, -6, 0}, {1, 0, 0}, {0, 0, 1}, std::move(sketch)});
+    };
+    const auto turned = [&](double angle, std::vector<Sketch::Point> points) {
+        return Revolve{{-3, 0, 0}, x, {0, 1, 0}, angle, polygon(points)};
     };
     switch (kind) {
         case 0:
@@ -49,7 +76,7 @@ Tree flat_part(Builder& to, std::size_t kind, const Matrix& place) {
         case 3: {
             Arbn hexagon;
             for (int i = 0; i < 6; ++i)
-                hexagon.planes.push_back({{std::cos(i * std::acos(-1) / 3), std::sin(i * std::acos(-1) / 3), 0}, 2.5});
+                hexagon.planes.push_back({{std::cos(i * pi / 3), std::sin(i * pi / 3), 0}, 2.5});
             hexagon.planes.push_back({{0, 0, 1}, 0});
             hexagon.planes.push_back({{0, 0, -1}, 4});
             return solid(hexagon);
@@ -65,17 +92,74 @@ Tree flat_part(Builder& to, std::size_t kind, const Matrix& place) {
         case 8:
             return solid(Hyp{down, {0, 0, 4}, {3, 0, 0}, 3, 0.5});
         case 9:
-            return solid(Extrude{down, {0, 0, 4}, x, {0, 1, 0}, square()});
+            return solid(Extrude{down, {0, 0, 4}, x, {0, 1, 0}, polygon(square)});
         case 10:
             return operate(Operator::difference, {solid(ball({}, 4)), solid(box({-5, -5, 0}, {5, 5, 5}))});
         case 11:
             return operate(Operator::intersection, {solid(ball({}, 4)), solid(Half{{{0, 0, 1}, 0}})});
         case 12: {
-            Revolve turned{{}, {0, 0, 1}, x, 2 * std::acos(-1), {}};
-            turned.sketch.vertices = {{0, -4}, {3, -4}, {3, 0}, {0, 0}};
-            for (std::uint32_t i = 0; i < 4; ++i) turned.sketch.curves.emplace_back(Sketch::Line{i, (i + 1) % 4});
-            turned.sketch.reversed.assign(4, 0);
-            return solid(turned);
+            return solid(Revolve{{}, {0, 0, 1}, x, 2 * pi, polygon({{0, -4}, {3, -4}, {3, 0}, {0, 0}})});
+        }
+        case 13: {
+            // Turned by half about the x axis: its two end faces are one.
+            Revolve half = turned(pi, {{0, 0}, {3, 0}, {3, 6}, {0, 6}});
+            half.r = {0, -1, 0};
+            return solid(half);
+        }
+        case 14:
+            return solid(block_of_triangles({0.5, 0.25, 0}));
+        case 15:
+            return solid(
+                Nmg{block_of_triangles({}).vertices,
+                    {{{3, 2, 1, 0}}, {{4, 5, 6, 7}}, {{0, 1, 5, 4}}, {{1, 2, 6, 5}}, {{2, 3, 7, 6}}, {{3, 0, 4, 7}}}});
+        case 16:
+            return solid(Ars{{{{0, 0, -4}, {0, 0, -4}, {0, 0, -4}, {0, 0, -4}},
+                              {{-3, -3, -4}, {3, -3, -4}, {3, 3, -4}, {-3, 3, -4}},
+                              {{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}},
+                              {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}});
+        case 17: {
+            Vol vol;
+            vol.width = vol.depth = 3;
+            vol.height = 2;
+            vol.low = 1;
+            vol.cell = {2, 2, 2};
+            vol.matrix = translation({-3, -3, -4});
+            vol.cells.assign(18, 200);
+            return solid(vol);
+        }
+        case 18: {  // cells in x and z
+            Ebm ebm;
+            ebm.width = 3;
+            ebm.depth = 2;
+            ebm.height = 6;
+            ebm.matrix = translation({-3, 3, -4}) * Matrix{2, 0, 0, 0, 0, 0, -1, 0, 0, 2, 0, 0, 0, 0, 0, 1};
+            ebm.cells = {1, 0, 1, 1, 1, 1};
+            return solid(ebm);
+        }
+        case 19: {
+            Dsp dsp;
+            dsp.width = dsp.depth = 4;
+            dsp.matrix = translation({-3, -3, -4}) * Matrix{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+            dsp.heights.assign(16, 4);
+            return solid(dsp);
+        }
+        case 20:  // no outline of one convex piece: an arch
+            return wall(polygon({{-3, 0}, {3, 0}, {3, -4}, {2, -4}, {2, -1}, {-2, -1}, {-2, -4}, {-3, -4}}));
+        case 21: {  // straight above, round below
+            Sketch sketch;
+            sketch.vertices = {{-3, 0}, {3, 0}};
+            sketch.curves.emplace_back(Sketch::Line{0, 1});
+            sketch.curves.emplace_back(Sketch::Arc{1, 0, 3, false, true});
+            sketch.reversed.assign(2, 0);
+            return wall(std::move(sketch));
+        }
+        case 22: {  // many short pieces
+            std::vector<Sketch::Point> points;
+            for (int i = 0; i <= 12; ++i) points.push_back({-3 + 0.5 * i, 0});
+            points.push_back({1, -3});
+            points.push_back({0.5, -1});
+            points.push_back({-1, -4});
+            return wall(polygon(points));
         }
         default: {  // a ridge
             Arb wedge = box({-3, -3, 0}, {3, 3, 0});
@@ -91,14 +175,16 @@ Matrix place_of(Random& random, std::size_t number, bool turned) {
     return turned ? translation(at) * rotation(random) : translation(at);
 }
 
-/// All kinds of flat faces in contact, each with another: seed % flat_parts tells with which.
+/// All kinds of flat faces in contact, each with another: seed % flat_parts tells with which. The one above is turned
+/// upside down, or the mirror image of what would lie below.
 Contacts flat_contacts(std::uint64_t seed, int rays) {
     Builder to("contact", seed, 1);
     Random& random = to.random();
     Contacts all;
     for (std::size_t kind = 0; kind < flat_parts; ++kind) {
         const Matrix place = place_of(random, kind, seed % 2 == 1);
-        const Matrix upside_down = place * Matrix{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+        const double way = kind % 2 == seed % 2 ? 1 : -1;
+        const Matrix upside_down = place * Matrix{1, 0, 0, 0, 0, way, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
         const Tree below = flat_part(to, kind, place), above = flat_part(to, (kind + seed) % flat_parts, upside_down);
         const bool first = random.coin();
         to.region(first ? below : above);
@@ -106,7 +192,7 @@ Contacts flat_contacts(std::uint64_t seed, int rays) {
         for (int i = 0; i < rays; ++i) {
             const Vec3 point = moved_point(place, {random.between(-1, 1), random.between(-1, 1), 0});
             const bool crosses = i % 4 == 0;
-            const double turn = i % 4 == 1 ? 0.5 * random.whole(0, 3) * std::acos(-1) : 7 * random.unit();
+            const double turn = i % 4 == 1 ? 0.5 * random.whole(0, 3) * pi : 7 * random.unit();
             const Vec3 local = crosses ? random.slanted() : Vec3{std::cos(turn), std::sin(turn), 0};
             const auto part = static_cast<std::uint32_t>(2 * kind);
             all.touches.push_back({point, moved_direction(place, local), {part, part + 1}, crosses, crosses ? 0 : 0.5});
@@ -116,13 +202,30 @@ Contacts flat_contacts(std::uint64_t seed, int rays) {
     return all;
 }
 
-/// Three cells around an edge, each with a place of its own as a program computes it: hexagons and rhombs.
+/// What a line through points encloses, from z = -2 to 2, as triangles.
+Bot prism(const std::vector<Sketch::Point>& outline) {
+    Bot bot;
+    const auto count = static_cast<std::uint32_t>(outline.size());
+    for (const double z : {-2.0, 2.0})
+        for (const Sketch::Point& point : outline) bot.vertices.push_back({point.u, point.v, z});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t next = (i + 1) % count;
+        bot.faces.push_back({i, next, next + count});
+        bot.faces.push_back({i, next + count, i + count});
+        if (i == 0 || next == 0) continue;
+        bot.faces.push_back({0, next, i});
+        bot.faces.push_back({count, i + count, next + count});
+    }
+    return bot;
+}
+
+/// Three cells around an edge, each with a place of its own as a program computes it: hexagons, rhombs and wedges.
 Contacts edge_contacts(std::uint64_t seed, int rays) {
     Builder to("cells", seed, 1);
     Random& random = to.random();
     Contacts all;
-    const double third = 2 * std::acos(-1) / 3;
-    for (std::size_t number = 0; number < 12; ++number) {
+    const double third = 2 * pi / 3;
+    for (std::size_t number = 0; number < 15; ++number) {
         const Matrix place = place_of(random, number, seed % 2 == 1);
         const double turn = random.unit(), size = random.between(0.5, 3);
         const Vec3 edge = random.in_cube();
@@ -132,7 +235,7 @@ Contacts edge_contacts(std::uint64_t seed, int rays) {
             const Vec3 center = edge + Vec3{size * std::cos(middle), size * std::sin(middle), 0};
             const double apothem = 0.5 * std::sqrt(3.0) * size;
             std::string cell;
-            if (number % 3 == 0) {  // hexagons by their planes
+            if (number % 5 == 0) {  // hexagons by their planes
                 Arbn arbn;
                 for (int i = 0; i < 6; ++i) {
                     const double a = middle + (i + 0.5) * third / 2;
@@ -141,15 +244,18 @@ Contacts edge_contacts(std::uint64_t seed, int rays) {
                 arbn.planes.push_back({{0, 0, 1}, 2});
                 arbn.planes.push_back({{0, 0, -1}, 2});
                 cell = to.solid(arbn);
-            } else if (number % 3 == 1) {  // by their outlines
-                Extrude extrude{{0, 0, -2}, {0, 0, 4}, {1, 0, 0}, {0, 1, 0}, {}};
-                for (std::uint32_t i = 0; i < 6; ++i) {
-                    const double a = middle + i * third / 2;
-                    extrude.sketch.vertices.push_back({size * std::cos(a), size * std::sin(a)});
-                    extrude.sketch.curves.emplace_back(Sketch::Line{i, (i + 1) % 6});
-                }
-                extrude.sketch.reversed.assign(6, 0);
-                cell = to.solid(extrude);
+            } else if (number % 5 == 1 || number % 5 == 2) {  // by their outlines, and by triangles
+                std::vector<Sketch::Point> points;
+                for (int i = 0; i < 6; ++i)
+                    points.push_back(
+                        {size * std::cos(middle + i * third / 2), size * std::sin(middle + i * third / 2)});
+                cell = number % 5 == 1 ? to.solid(Extrude{{0, 0, -2}, {0, 0, 4}, {1, 0, 0}, {0, 1, 0}, polygon(points)})
+                                       : to.solid(prism(points));
+            } else if (number % 5 == 3) {  // wedges, turned about the edge
+                const Vec3 begin{std::cos(middle + pi - third / 2), std::sin(middle + pi - third / 2), 0};
+                const Vec3 start = edge - center;
+                cell = to.solid(Revolve{
+                    {start.x, start.y, -2}, {0, 0, 1}, begin, third, polygon({{0, 0}, {size, 0}, {size, 4}, {0, 4}})});
             } else {  // rhombs by their corners
                 const Vec3 u{size * std::cos(middle - third / 2), size * std::sin(middle - third / 2), 0};
                 const Vec3 v{size * std::cos(middle + third / 2), size * std::sin(middle + third / 2), 0};
@@ -262,7 +368,7 @@ Contacts curved_contacts(std::uint64_t seed, int rays) {
     return all;
 }
 
-/// Lone boxes, touched along their faces and edges: the ray is in them, as BRL-CAD says.
+/// Lone blocks of several types, touched along their faces and edges: the ray is in them, as BRL-CAD says.
 Contacts lone(std::uint64_t seed, int rays) {
     Builder to("lone", seed, 1);
     Random& random = to.random();
@@ -270,7 +376,18 @@ Contacts lone(std::uint64_t seed, int rays) {
     for (std::uint32_t number = 0; number < 12; ++number) {
         const Matrix place = place_of(random, number, seed % 2 == 1);
         const Vec3 size{random.between(1, 4), random.between(1, 4), random.between(1, 4)};
-        to.region(leaf(to.solid(box(-1 * size, size)), place));
+        Bot triangles = block_of_triangles({});
+        for (Vec3& v : triangles.vertices) v = {size.x * v.x / 3, size.y * v.y / 3, size.z * (v.z / 2 + 1)};
+        Ebm cell;
+        cell.width = cell.depth = 1;
+        cell.height = 2 * size.z;
+        cell.cells = {1};
+        cell.matrix = translation(-1 * size) * Matrix{2 * size.x, 0, 0, 0, 0, 2 * size.y, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        const std::vector<Sketch::Point> points = {
+            {-size.x, -size.y}, {size.x, -size.y}, {size.x, size.y}, {0, 0.5 * size.y}, {-size.x, size.y}};
+        const Shape shapes[] = {box(-1 * size, size), triangles, cell,
+                                Extrude{{0, 0, -size.z}, {0, 0, 2 * size.z}, {1, 0, 0}, {0, 1, 0}, polygon(points)}};
+        to.region(leaf(to.solid(shapes[number % 4]), place));
         for (int i = 0; i < rays; ++i) {
             const double x = random.sign() * size.x, y = random.sign() * size.y;
             const Vec3 in_face{x, random.between(-0.4, 0.4), random.between(-0.4, 0.4)},
@@ -281,6 +398,37 @@ Contacts lone(std::uint64_t seed, int rays) {
                                    {number},
                                    false,
                                    0.5});
+        }
+    }
+    all.made = to.take();
+    return all;
+}
+
+/// Plates side by side, met through the edge in which they meet.
+Contacts plates(std::uint64_t seed, int rays) {
+    Builder to("plates", seed, 1);
+    Random& random = to.random();
+    Contacts all;
+    for (std::uint32_t number = 0; number < 12; ++number) {
+        const Matrix place = place_of(random, number, seed % 2 == 1);
+        Bot half;
+        half.mode = number % 2 ? Bot::Mode::plate : Bot::Mode::plate_nocos;
+        half.vertices = {{0, -3, 0}, {3, -3, 0}, {3, 3, 0}, {0, 3, 0}, {1, 0.5, 0}};
+        half.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+        half.thickness.assign(4, 1);
+        half.append.assign(4, 0);
+        const std::string name = to.solid(half);
+        const Matrix other = number % 3 ? Matrix{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}
+                                        : Matrix{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        to.region(leaf(name, place));
+        to.region(leaf(name, place * other));
+        for (int i = 0; i < rays; ++i) {
+            const Vec3 d = i % 2 ? Vec3{0, 0, 1} : unit({0, random.between(-1, 1), random.between(0.5, 1)});
+            all.touches.push_back({moved_point(place, {0, random.between(-2, 2), 0}),
+                                   moved_direction(place, d),
+                                   {2 * number, 2 * number + 1},
+                                   false,
+                                   0.4});
         }
     }
     all.made = to.take();
@@ -354,6 +502,60 @@ void check_contacts(Contacts contacts, ContactTally& tally) {
     }
 }
 
+/// Blocks less a turned ring, and less two rings that are one all round. Rays run in the plane of an end face, across
+/// the axis: at places along them, is the block there?
+void require_turns(std::uint64_t seeds, int rays) {
+    struct Place {
+        std::size_t ray;
+        double t;
+        bool block;
+    };
+    std::size_t wrong = 0, overlaps = 0;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        Builder to("turns", seed, 1);
+        Random& random = to.random();
+        std::vector<Place> places;
+        std::size_t ray_count = 0;
+        for (std::size_t number = 0; number < 8; ++number) {
+            const Matrix place = place_of(random, number, seed % 2 == 1);
+            const double angle = number == 0 ? pi : random.between(0.2, 2 * pi - 0.2), begin = 7 * random.unit();
+            const bool whole = number % 2 == 1, beyond_half = angle > pi;
+            const auto ring = [&](double from, double turn) {
+                return leaf(to.solid(Revolve{{0, 0, -2},
+                                             {0, 0, 1},
+                                             {std::cos(from), std::sin(from), 0},
+                                             turn,
+                                             polygon({{1, 0}, {3, 0}, {3, 4}, {1, 4}})}),
+                            place);
+            };
+            std::vector<Tree> parts = {leaf(to.solid(box({-4, -4, -3}, {4, 4, 3})), place), ring(begin, angle)};
+            if (whole) parts.push_back(ring(begin + angle, 2 * pi - angle));
+            to.region(operate(Operator::difference, parts));
+            for (int i = 0; i < rays; ++i) {
+                const double face = i % 2 ? begin + angle : begin, rise = i % 4 < 2 ? 0 : random.between(-0.3, 0.3);
+                const Vec3 d{std::cos(face), std::sin(face), rise}, middle{0, 0, random.between(-0.5, 0.5)};
+                for (const double way : {1.0, -1.0}) {
+                    for (const double s : {-3.5, -2.0, -0.5, 0.5, 2.0, 3.5}) {
+                        const bool in_ring = std::abs(s) > 1 && std::abs(s) < 3;
+                        const bool covered = in_ring && (whole || (s < 0 && beyond_half));
+                        places.push_back({ray_count, back + way * s, !covered});
+                    }
+                    to.ray(moved_point(place, middle + (-back * way) * d), moved_direction(place, way * d));
+                    ++ray_count;
+                }
+            }
+        }
+        const StressScene made = to.take();
+        Renderer reference(made.scene, made.objects, on_reference()), device(made.scene, made.objects, on_device());
+        const std::vector<RayPartitions> found = reference.shoot(made.rays);
+        require_same(device.shoot(made.rays), found);
+        for (const Place& at : places) wrong += (owner_at(found[at.ray], at.t, 0.25) != -1) != at.block;
+        for (const RayPartitions& answer : found) overlaps += !answer.overlaps.empty();
+    }
+    CHECK(wrong == 0);
+    CHECK(overlaps == 0);
+}
+
 void require_contact(Contacts (*make)(std::uint64_t, int), std::uint64_t seeds, int rays) {
     ContactTally tally;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) check_contacts(make(seed, rays), tally);
@@ -374,11 +576,42 @@ TEST_CASE("three cells around an edge: a ray along it is in exactly one", "[fiel
     require_contact(edge_contacts, 6, 8);
 }
 TEST_CASE("curved faces in contact: nothing overlaps", "[field]") { require_contact(curved_contacts, 4, 12); }
-TEST_CASE("a ray that touches a lone box along a face or an edge is in it", "[field]") { require_contact(lone, 4, 8); }
+TEST_CASE("a ray that touches a lone block along a face or an edge is in it", "[field]") {
+    require_contact(lone, 4, 8);
+}
+TEST_CASE("plates side by side: a ray through their common edge is in exactly one", "[field]") {
+    require_contact(plates, 4, 12);
+}
+
+TEST_CASE("pictures of a part and its mirror image, straight on: no background between them", "[field]") {
+    for (std::size_t kind = 0; kind < flat_parts; ++kind) {
+        Builder to("mirrored", kind, 1);
+        to.region(flat_part(to, kind, identity));
+        to.region(flat_part(to, kind, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}));
+        const StressScene made = to.take();
+        Renderer renderer(made.scene, made.objects, on_device());
+        for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
+            View view{.width = 65, .height = 65};
+            view.camera.azimuth = azimuth;
+            view.camera.elevation = 0;
+            const Image image = renderer.render(view);
+            INFO("kind " << kind << ", azimuth " << azimuth);
+            const auto regions = image.channel("region"), overlaps = image.channel("overlap");
+            CHECK(std::all_of(overlaps.begin(), overlaps.end(), [](float n) { return n == 0; }));
+            for (std::size_t x = 30; x <= 34; ++x) CHECK(regions[32 * 65 + x] != 0);
+        }
+    }
+}
+
+TEST_CASE("end faces of turns: across the axis a ray in their plane is within the solid, or outside", "[field]") {
+    require_turns(12, 12);
+}
 
 TEST_CASE("a thousand rays through each contact", "[.long]") {
+    require_turns(60, 1000);
     require_contact(flat_contacts, 2 * flat_parts, 1000);
     require_contact(edge_contacts, 20, 1000);
     require_contact(curved_contacts, 20, 1000);
     require_contact(lone, 20, 500);
+    require_contact(plates, 20, 1000);
 }

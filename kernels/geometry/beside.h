@@ -1,0 +1,126 @@
+// A ray that runs in flat faces of a solid whose crossings are found one by one (meshes, extrusions, ...), on whichever
+// side of each face rounding has put it. The solid is asked for what the ray would meet a step aside of all these
+// faces: above them (touch.h), then below. What is met on one side alone is marked with the other.
+//
+//                  above                   Seen along the ray, which is the point 0: the faces are lines through 0.
+//         high \     ^     / low           Their normals are turned to point above, and the two outermost of them are
+//               \ 1  |    /                kept. A step between these goes to one side of every face.
+//          4     \   |   /     3
+//       ----------\--0--/-----------       Where the ray runs in several faces, the solid may lie between them, on the
+//                 /     \                  ray's left and right alone: steps 3 and 4. There it only touches.
+//                /   2   \                 (drawn: the steps and the two outermost faces)
+//
+// A normal n is known by n . above and n . side, where side is across the ray and `above`: n . d is 0.
+#ifndef CSGRT_GEOMETRY_BESIDE_H
+#define CSGRT_GEOMETRY_BESIDE_H
+
+#include "quadratic.h"
+#include "touch.h"
+
+// By how much more than rounding of single numbers a corner of a face may be off the ray, and the ray steps aside.
+#define IN_FACE REAL(4)
+#define ASIDE REAL(16)
+#define STEEPEST REAL(0x1p60)
+#define SAME_FACE REAL(0x1p-20)  // an angle between two normals below which the faces are one
+
+typedef struct {
+    u32 step;        // 0: the ray is where it is, and the faces in which it runs are looked for; else 1 to 4
+    u32 found;       // it runs in some face
+    real low, high;  // n . side / n . above of the outermost
+} beside;
+
+FN beside not_beside(void) {
+    beside b;
+    b.step = b.found = 0;
+    b.low = b.high = 0;
+    return b;
+}
+
+FN vec3 cross3(vec3 a, vec3 b) {
+    return make_vec3(difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+                     difference_of_products(a.x, b.y, a.y, b.x));
+}
+FN vec3 above_faces(void) { return make_vec3(REAL(1), REAL(ABOVE_Y), REAL(ABOVE_Z)); }
+FN vec3 beside_ray(ray3 r) { return cross3(scale(r.d, REAL(1) / real_sqrt(dot3(r.d, r.d))), above_faces()); }
+
+// A face of which the normal has these products with `above` and `side`.
+FN beside add_face(beside b, real n_above, real n_side) {
+    real slope = n_side / n_above;
+    if (!(real_abs(slope) < STEEPEST)) slope = n_side < 0 ? -STEEPEST : STEEPEST;
+    b.low = b.found && b.low < slope ? b.low : slope;
+    b.high = b.found && b.high > slope ? b.high : slope;
+    b.found = 1;
+    return b;
+}
+
+// A face in a plane of the world, and one across n in the solid's own space.
+RARE_FN beside add_plane(beside b, PlaneRecord plane, ray3 r) {
+    const vec3 n = narrow(plane_normal(plane));
+    return add_face(b, dot3(n, above_faces()), dot3(n, beside_ray(r)));
+}
+RARE_FN beside add_local_face(beside b, vec3 n, GLOBAL const real* p, ray3 r) {
+    return add_face(b, dot3(n, affine_linear(p, above_faces())), dot3(n, affine_linear(p, beside_ray(r))));
+}
+
+// In the solid's own space, the normal of a face from these products.
+RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_side) {
+    const vec3 d = affine_linear(p, r.d), above = affine_linear(p, above_faces()),
+               side = affine_linear(p, beside_ray(r));
+    const vec3 n = add_scaled(scale(cross3(side, d), n_above), n_side, cross3(d, above));
+    return normalize3(dot3(d, cross3(above, side)) < 0 ? scale(n, REAL(-1)) : n);
+}
+
+// By how much the local ray is moved.
+RARE_FN vec3 aside(beside b, GLOBAL const real* p, ray3 r) {
+    const vec3 low = local_normal(p, r, REAL(1), b.low), high = local_normal(p, r, REAL(1), b.high);
+    const vec3 way = b.step <= 2 ? add(high, low) : subtract(high, low);
+    const real size = ASIDE * local_rounding(p, r) / real_sqrt(dot3(way, way));
+    return scale(way, b.step & 1u ? size : -size);
+}
+
+// Does it go out of a face of the solid that lies in this plane?
+RARE_FN int goes_out(beside b, GLOBAL const real* p, ray3 r, PlaneRecord plane, u32 flipped) {
+    const vec3 n = narrow(plane_normal(plane));
+    const vec3 out = local_normal(p, r, dot3(n, above_faces()), dot3(n, beside_ray(r)));
+    return (dot3(out, aside(b, p, r)) > 0) == !flipped;
+}
+
+FN local_ray moved_aside(local_ray l, beside b, GLOBAL const real* p, ray3 r) {
+    if (b.step) l.o = add(l.o, aside(b, p, r));
+    return l;
+}
+
+// What the ends are marked with.
+FN u32 missed_beside(beside b) {
+    return b.step == 0 ? 0 : b.step == 1 ? MISSED_BELOW : b.step == 2 ? MISSED_ABOVE : MISSED;
+}
+
+// 0: there are no more steps to take.
+FN u32 next_step(beside* b) {
+    const u32 last = b->high - b->low > SAME_FACE * (REAL(1) + real_abs(b->high * b->low)) ? 4u : 2u;
+    ++b->step;
+    return b->found && b->step <= last;
+}
+
+// Corners seen along the ray, which is the point 0 (triangle.h): do they lie in one line through it, and is it among
+// them, as far as rounding lets one say? Then `direction` is where this line goes.
+RARE_FN int in_line(vec3 a, vec3 b, vec3 c, vec3 d, real rounding, vec3* direction) {
+    const real low_x = real_min(real_min(a.x, b.x), real_min(c.x, d.x));
+    const real high_x = real_max(real_max(a.x, b.x), real_max(c.x, d.x));
+    const real low_y = real_min(real_min(a.y, b.y), real_min(c.y, d.y));
+    const real high_y = real_max(real_max(a.y, b.y), real_max(c.y, d.y));
+    vec3 far = a;
+    real reach;
+    if (low_x > rounding || high_x < -rounding || low_y > rounding || high_y < -rounding) return 0;
+    if (real_abs(b.x) + real_abs(b.y) > real_abs(far.x) + real_abs(far.y)) far = b;
+    if (real_abs(c.x) + real_abs(c.y) > real_abs(far.x) + real_abs(far.y)) far = c;
+    if (real_abs(d.x) + real_abs(d.y) > real_abs(far.x) + real_abs(far.y)) far = d;
+    *direction = far;
+    reach = rounding * (real_abs(far.x) + real_abs(far.y));
+    return reach > 0 && real_abs(difference_of_products(far.x, a.y, far.y, a.x)) <= reach &&
+           real_abs(difference_of_products(far.x, b.y, far.y, b.x)) <= reach &&
+           real_abs(difference_of_products(far.x, c.y, far.y, c.x)) <= reach &&
+           real_abs(difference_of_products(far.x, d.y, far.y, d.x)) <= reach;
+}
+
+#endif
