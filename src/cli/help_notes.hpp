@@ -45,9 +45,8 @@ A partition is a stretch of the ray within one region. Partitions are listed fro
 one on a line of 13 words:
   region         its path in the model, /all.g/left.r
   in out         where the ray enters and leaves it, in lengths of the direction: mm if that is 1.
-                 The point is origin + in * direction. Partitions behind the origin are listed too:
-                 in is negative if the ray starts inside, in and out if it starts behind the
-                 region. -inf or inf: the region has no end there
+                 The point is origin + in * direction. What ends before the origin is left out; in
+                 is negative if the ray starts inside. -inf or inf: the region has no end there
   inx iny inz    unit normal where the ray enters, pointing out of the region: against the ray
   outx outy outz unit normal where the ray leaves, pointing out of the region: along the ray
                  (normal and solid of an infinite end mean nothing)

@@ -34,7 +34,6 @@ RayPartitions to_partitions(const HostKernels& kernels, const kernel::Frame& fra
     for (const ClaimedPartition& claim : claims) {
         if (claim.claimants.size() < 2) continue;
         const double in = distance(claim.in), out = distance(claim.out);
-        if (out < 0) continue;
         if (!result.overlaps.empty()) {
             Overlap& before = result.overlaps.back();
             if (before.out == in && before.regions == claim.claimants) {
@@ -44,6 +43,7 @@ RayPartitions to_partitions(const HostKernels& kernels, const kernel::Frame& fra
         }
         result.overlaps.push_back({in, out, claim.claimants});
     }
+    std::erase_if(result.overlaps, [](const Overlap& overlap) { return overlap.out < 0; });
     return result;
 }
 
