@@ -72,4 +72,7 @@ TEST_CASE("names are one word") {
     text.clear();
     append_name(text, "");
     CHECK(text == "-");
+    text.clear();
+    append_name(text, "-");
+    CHECK(text == "\\055");
 }

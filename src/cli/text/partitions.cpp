@@ -42,7 +42,7 @@ void append_shortest(std::string& out, double value) {
 void append_name(std::string& out, std::string_view name) {
     for (char c : name) {
         auto byte = static_cast<unsigned char>(c);
-        if (byte > ' ' && byte != 0x7f && c != '\\') {
+        if (byte > ' ' && byte != 0x7f && c != '\\' && name != "-") {
             out += c;
         } else {
             out += '\\';
