@@ -7,9 +7,9 @@
 
 namespace csgrt {
 
-/// The view is BRL-CAD's: a rectangle, centred on the model's box by default. Lengths and coordinates are millimetres,
-/// angles degrees. Functions that take a Camera throw Error (usage) if its members contradict each other or are out of
-/// range.
+/// The view is BRL-CAD's: a rectangle, centred on the model's box by default. The sides of that box are moved outward
+/// to whole millimetres, unless its diagonal is less than one. Lengths and coordinates are millimetres, angles degrees.
+/// Functions that take a Camera throw Error (usage) if its members contradict each other or are out of range.
 ///
 /// An orthographic view has no eye. Its rays start on a plane in front of the whole model, so that all of the model is
 /// seen however small the view is. That plane cuts half-spaces, which have no end.

@@ -59,8 +59,8 @@ public:
     /// Draws into memory that is used again, which is faster (see Framebuffer). Any Renderer may draw into it. Throws
     /// as the other does.
     void render(const View& view, Framebuffer& framebuffer);
-    /// Everything along each ray, one element a ray. At most 2^31 - 1 rays. Throws Error: usage (a ray that Limits
-    /// excludes; the message has its index), out_of_memory, device_fault, interrupted.
+    /// Everything along each ray, one element a ray. Throws Error: usage (a ray that Limits excludes; the message has
+    /// its index), out_of_memory, device_fault, interrupted.
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
     /// The rays of a picture, one a pixel, row by row from the top left. Throws Error (usage).

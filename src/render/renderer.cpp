@@ -216,7 +216,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     Impl& impl = *impl_;
     const auto start = Clock::now();
     if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
-        throw Error(Status::usage, "too many rays in one call: shoot them in parts of at most 2^31");
+        throw Error(Status::usage, "too many rays in one call: shoot them in parts of less than 2^31");
     bool in_direction = false, any_scaled = false;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (const std::string fault = ray_fault(rays[i].origin, rays[i].direction, in_direction); !fault.empty())

@@ -27,3 +27,26 @@ TEST_CASE("a call's time and the building of its kernels are told apart") {
         CHECK(renderer.statistics().ms.build == built);
     }
 }
+
+TEST_CASE(
+    "segments and partitions are counted where every partition is computed, also on the rays of first hits that need "
+    "it") {
+    Renderer renderer(bench::scene_of_parts(20), {}, test::on_device());
+    View view;
+    view.width = view.height = 32;
+    const Image image = renderer.render(view);
+    const Statistics every = renderer.statistics();
+    std::uint64_t segments = 0, partitions = 0, overlaps = 0;
+    for (const float depth : image.channel("depth")) segments += static_cast<std::uint64_t>(depth);
+    for (const float count : image.channel("partitions")) partitions += static_cast<std::uint64_t>(count);
+    for (const float count : image.channel("overlap")) overlaps += static_cast<std::uint64_t>(count);
+    CHECK(every.segments == segments);
+    CHECK(every.hits == 2 * every.segments);
+    CHECK(every.partitions_used == partitions);
+    CHECK(every.overlaps == overlaps);
+    CHECK(every.partitions_allocated >= every.partitions_used);
+    view.every_partition = false;
+    renderer.render(view);
+    CHECK(renderer.statistics().segments == 0);
+    CHECK(renderer.statistics().partitions_used == 0);
+}

@@ -107,6 +107,16 @@ TEST_CASE("solid faults: pipes") {
     check_fault(Pipe{{{none, 2, 2, 0}, {x, 2, 1, 0}}}, "must be less than the outer one");
 }
 
+TEST_CASE("solid faults: more points of a pipe than the limit") {
+    const auto many = [](std::uint32_t count) {
+        Pipe pipe;
+        for (std::uint32_t i = 0; i < count; ++i) pipe.points.push_back({{3.0 * i, 0, 0}, 2, 1, 0});
+        return pipe;
+    };
+    check_sound(many(Limits::pipe_points));
+    check_fault(many(Limits::pipe_points + 1), "at most 100000");
+}
+
 TEST_CASE("solid faults: lines with a radius") {
     check_sound(Cline{none, z, 2, 0});
     check_sound(Cline{none, z, 2, 0.5});

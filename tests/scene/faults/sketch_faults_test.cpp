@@ -1,6 +1,7 @@
 // Which outlines enclose something, and what is said of those that do not.
 #include "catch.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "scene/faults/check_faults.hpp"
@@ -52,6 +53,21 @@ TEST_CASE("solid faults: extruded outlines") {
     solid = extrude(square, around);
     solid.sketch.reversed.pop_back();
     check_fault(solid, "directions for 3");
+}
+
+TEST_CASE("solid faults: more curves than the limit") {
+    const auto many = [](std::uint32_t count) {
+        Points points;
+        Curves curves;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double turn = 2 * std::numbers::pi * i / count;
+            points.push_back({std::cos(turn), std::sin(turn)});
+            curves.push_back(Line{i, (i + 1) % count});
+        }
+        return extrude(std::move(points), std::move(curves));
+    };
+    check_sound(many(Limits::curves));
+    check_fault(many(Limits::curves + 1), "at most 100000");
 }
 
 TEST_CASE("solid faults: arcs") {
