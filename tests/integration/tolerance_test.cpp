@@ -149,6 +149,14 @@ TEST_CASE("a ball and the end of a particle are one, which are computed in two w
     CHECK(met > 100);
 }
 
+TEST_CASE("ends that only rounding separates are one, but not by the rule that there is none") {
+    // A ball, and a box whose face all but touches it where the ray goes.
+    const Scene scene = two_of(ball({0, 0, 0}, 1), box({1 + 1e-13, -1, -1}, {2, 1, 1}));
+    const std::vector<Ray> ray = {{{-9, 0, 0}, {1, 0, 0}}};
+    CHECK(shot(scene, "joined", by(Tolerance::surfaces), ray)[0].partitions.size() == 1);
+    CHECK(shot(scene, "joined", by(Tolerance::none), ray)[0].partitions.size() == 2);
+}
+
 TEST_CASE("in BRL-CAD's files ends within 0.0005 mm are one, unless the rule is that of surfaces") {
     const auto database = [](const char* gap) {
         const std::string text =
