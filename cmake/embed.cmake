@@ -33,7 +33,7 @@ file(WRITE ${OUTPUT} "// Made by cmake/embed.cmake from the kernels' own files; 
 namespace csgrt {
 
 const std::vector<KernelFile>& ${FUNCTION}() {
-    static const std::vector<KernelFile> files = {
+    static const auto& files = *new const std::vector<KernelFile>{
 ${entries}    };
     return files;
 }

@@ -20,8 +20,9 @@ struct DeviceInfo {
 };
 
 /// Every device, in the order of the numbers that Settings::device takes: the devices of OpenCL, and the native devices
-/// (platform "csgrt"), which are this machine's processors with kernels that csgrt brings itself. Empty if there is
-/// none. If `notes` is not null, a sentence on each driver that cannot be used is appended to it. Any thread.
+/// (platform "csgrt"), which are this machine's processors with kernels that csgrt brings itself. In a process that was
+/// forked after its parent had used a driver, the native devices only. Empty if there is none. If `notes` is not null,
+/// a sentence on each driver that cannot be used is appended to it. Any thread.
 ///
 /// PoCL, an OpenCL driver for processors, fails or ends the process if it cannot write its cache: POCL_CACHE_DIR, else
 /// XDG_CACHE_HOME/pocl/kcache, else HOME/.cache/pocl/kcache. The library does not change the environment. A program

@@ -39,7 +39,8 @@ struct SolidInfo {
 /// A scene, compiled for one device or for several that share the work. If the device is a GPU, its kernels are
 /// compiled on another thread while a native device computes (see Settings::wait_for_device); the GPU replaces the
 /// native device between two calls. Not copyable. One thread at a time; different Renderers may be used by different
-/// threads at the same time.
+/// threads at the same time. In a child of fork() a Renderer of the parent's throws Error (usage) at every call, and
+/// its destructor does nothing.
 class CSGRT_API Renderer {
 public:
     /// Validates `scene`, compiles it and copies it to the device; the Scene is not needed afterwards. `objects` are
@@ -89,7 +90,12 @@ public:
 
 private:
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    struct Delete {
+        void operator()(Impl* impl) const;
+    };
+    Impl& impl() const;
+
+    std::unique_ptr<Impl, Delete> impl_;
 };
 
 }  // namespace csgrt

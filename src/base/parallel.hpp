@@ -8,10 +8,11 @@
 #include <mutex>
 #include <optional>
 #include <system_error>
-#include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "base/thread.hpp"
 
 namespace csgrt {
 
@@ -23,7 +24,7 @@ inline unsigned thread_count(unsigned wanted) {
 /// Runs work() on this thread and on threads - 1 others, and returns when all have. It must not throw.
 template <class Work>
 void on_threads(unsigned threads, const Work& work) {
-    std::vector<std::thread> others;
+    std::vector<Thread> others;
     for (unsigned i = 1; i < threads; ++i) {
         try {
             others.emplace_back(work);
@@ -32,7 +33,7 @@ void on_threads(unsigned threads, const Work& work) {
         }
     }
     work();
-    for (std::thread& other : others) other.join();
+    for (Thread& other : others) other.join();
 }
 
 /// Calls work(first, last, chunk) for chunk = 0, 1, ... of `size` numbers each that make up 0 ... count - 1, in any

@@ -6,13 +6,12 @@
 #include <limits>
 
 #include "base/decimal.hpp"
+#include "base/letters.hpp"
 #include "scene/nearest.hpp"
 
 namespace csgrt::cli {
 
 namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 std::string_view without_blanks(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));

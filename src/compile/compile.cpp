@@ -178,10 +178,10 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
     pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);
     // Read by one thread while another goes through the regions, which it mostly does alone.
-    std::future<std::uint64_t> geometry = std::async([&compiled] { return hash_of_geometry(compiled); });
+    std::future<std::uint64_t> geometry = start_async([&compiled] { return hash_of_geometry(compiled); });
     pack_regions(flat, order, measured->brlcad_boxes, compiled);
     // Giving much memory back takes a while, too.
-    const std::future<void> cleared = std::async([&] {
+    const std::future<void> cleared = start_async([&] {
         measured.reset();
         flat = {};
     });

@@ -1,6 +1,7 @@
 #include "device/bytes_text.hpp"
 
-#include <cstdio>
+#include <charconv>
+#include <iterator>
 
 namespace csgrt {
 
@@ -10,9 +11,9 @@ std::string bytes_text(std::uint64_t bytes) {
     double value = static_cast<double>(bytes) / 1024;
     int unit = 0;
     for (; value >= 1024 && unit < 3; ++unit) value /= 1024;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f %s", value, units[unit]);
-    return text;
+    char text[32];  // to_chars, since printf writes a locale's comma
+    const auto [end, status] = std::to_chars(std::begin(text), std::end(text), value, std::chars_format::fixed, 1);
+    return std::string(text, end) + ' ' + units[unit];
 }
 
 }  // namespace csgrt

@@ -5,15 +5,10 @@
 #include <charconv>
 #include <sstream>
 
+#include "base/letters.hpp"
 #include "scene/nearest.hpp"
 
 namespace csgrt {
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 namespace {
 

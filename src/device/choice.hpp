@@ -13,9 +13,6 @@ namespace csgrt {
 enum class Kernels { any, compiled_by_device };
 Kernels kernels_for(const Settings& settings);
 
-/// Choices are compared in small letters.
-std::string lower(std::string text);
-
 /// The index of the device that `choice` means (see Device). Throws Error (no_device) that lists what there is.
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice,
                           Kernels kernels = Kernels::any);

@@ -21,7 +21,7 @@ std::size_t end_of(const CopyFeed::Copy& copy) {
 
 CopyFeed::CopyFeed(const Device& device) : device_(device) {
     try {
-        thread_ = std::thread([this] { work(); });
+        thread_.emplace([this] { work(); });
     } catch (const std::system_error&) {  // no more threads: add() waits
     }
 }
@@ -32,7 +32,7 @@ CopyFeed::~CopyFeed() {
         stop_ = true;
     }
     changed_.notify_one();
-    if (thread_.joinable()) thread_.join();
+    if (thread_) thread_->join();
 }
 
 std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies) {
@@ -43,7 +43,7 @@ std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> c
     job->buffer = &buffer;
     job->copies = std::move(copies);
     std::shared_future<void> done = job->done.get_future();
-    if (!thread_.joinable()) {
+    if (!thread_) {
         give(job);
         while (!underway_.empty()) retire();
         return done;

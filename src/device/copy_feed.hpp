@@ -9,9 +9,10 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
 #include <vector>
 
+#include "base/thread.hpp"
 #include "device/buffer.hpp"
 
 namespace csgrt {
@@ -71,8 +72,8 @@ private:
     std::condition_variable changed_;
     // The thread's own.
     std::deque<Underway> underway_;
-    std::size_t bytes_ = 0;  ///< underway
-    std::thread thread_;
+    std::size_t bytes_ = 0;         ///< underway
+    std::optional<Thread> thread_;  ///< none: there was none to be had
 };
 
 }  // namespace csgrt

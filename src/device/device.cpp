@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/thread.hpp"
 #include "device/choice.hpp"
 #include "device/host_memory.hpp"
 #include "native/driver.hpp"
@@ -34,6 +35,7 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned thr
     const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads),
                                                 0};
     cl_int code = CL_SUCCESS;
+    const BlockedSignals blocked;  // drivers start threads now
     context_ =
         Context(cl(), cl().CreateContext(is_native(info_) ? properties : nullptr, 1, &id_, nullptr, nullptr, &code));
     check(code, "clCreateContext (" + info_.name + ")");

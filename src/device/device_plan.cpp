@@ -4,6 +4,9 @@
 #include <future>
 #include <utility>
 
+#include "base/letters.hpp"
+#include "base/process.hpp"
+#include "base/thread.hpp"
 #include "device/choice.hpp"
 
 namespace csgrt {
@@ -111,15 +114,16 @@ DevicePlan plan_devices(const Settings& settings) {
 }
 
 void prepare_devices(const Settings& settings) {
-    if (!looks_for_devices(settings)) return;
+    const FloatingPoint own;
+    if (!looks_for_devices(settings) || !has_drivers()) return;
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread
     // to be had, nothing is looked for before.
-    static const std::future<void> looking = std::async([] {
+    static const std::unique_ptr<std::future<void>, DeleteOwn> looking(new std::future<void>(start_async([] {
         try {
             find_devices();
         } catch (const std::exception&) {
         }
-    });
+    })));
 }
 
 }  // namespace csgrt

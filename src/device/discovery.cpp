@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <mutex>
 
+#include "base/process.hpp"
+#include "base/thread.hpp"
 #include "native/driver.hpp"
 #include "device/opencl.hpp"
 #include "device/opencl_loader.hpp"
@@ -139,6 +141,13 @@ bool has_render_node(const std::filesystem::path& folder) {
 
 }  // namespace
 
+bool has_drivers() {
+    constexpr unsigned nobody = ~0u;
+    static std::atomic<unsigned> user{nobody};
+    unsigned before = nobody;
+    return user.compare_exchange_strong(before, process_number()) || before == process_number();
+}
+
 std::vector<FoundDevice> find_native_devices() {
     Discovery native;
     if (!is_native_hidden) add_devices(native::functions(), native);
@@ -146,15 +155,20 @@ std::vector<FoundDevice> find_native_devices() {
 }
 
 Discovery find_devices() {
-    // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL
-    // crashes.
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
-
     Discovery found;
-    const OpenClLoader& loader = opencl_loader();
-    if (loader.functions) add_devices(*loader.functions, found);
-    if (!loader.fault.empty()) found.notes.push_back("the OpenCL loader cannot be opened: " + loader.fault);
+    if (has_drivers()) {
+        // One thread at a time: where two begin at once, ocl-icd tells the second that there is no device, and PoCL
+        // crashes.
+        static std::mutex mutex;
+        const std::lock_guard lock(mutex);
+        const BlockedSignals blocked;
+        const OpenClLoader& loader = opencl_loader();
+        if (loader.functions) add_devices(*loader.functions, found);
+        if (!loader.fault.empty()) found.notes.push_back("the OpenCL loader cannot be opened: " + loader.fault);
+    } else {
+        found.notes.push_back(
+            "OpenCL cannot be used: its drivers were loaded before this process was forked, and serve the parent only");
+    }
     add_native(found);
     return found;
 }
@@ -199,6 +213,7 @@ std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
 }
 
 std::vector<DeviceInfo> devices(std::vector<std::string>* notes) {
+    const FloatingPoint own;
     Discovery found = find_devices();
     if (notes) *notes = std::move(found.notes);
     return infos_of(found.devices);

@@ -21,6 +21,10 @@ struct Discovery {
     std::vector<std::string> notes;    ///< on drivers that cannot be used, a sentence each
 };
 
+/// Whether OpenCL's drivers are this process's to use: they serve the process that uses them first, and no child that
+/// is forked later. Any thread.
+bool has_drivers();
+
 /// Every device of every platform, and the native ones: the best of them before all other processors. Any thread.
 Discovery find_devices();
 

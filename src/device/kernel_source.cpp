@@ -1,13 +1,14 @@
 #include "device/kernel_source.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "base/letters.hpp"
 
 namespace csgrt {
 
@@ -50,8 +51,7 @@ std::string_view included_file(std::string_view line) {
 /// "geometry/ell.h" -> "CSGRT_GEOMETRY_ELL_H".
 std::string guard_of(const std::string& name) {
     std::string guard = "CSGRT_" + name;
-    for (char& c : guard)
-        c = c == '.' || c == '/' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (char& c : guard) c = c == '.' || c == '/' ? '_' : upper(c);
     return guard;
 }
 

@@ -73,7 +73,7 @@ OpenClLoader open_loader() {
 }  // namespace
 
 const OpenClLoader& opencl_loader() {
-    static const OpenClLoader loader = open_loader();
+    static const auto& loader = *new const OpenClLoader(open_loader());  // for threads that see exit(), too
     return loader;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/floating_point.hpp"
 #include "formats/json/text.hpp"
 
 namespace csgrt {
@@ -37,6 +38,7 @@ void describe(Image& image, const char* channel, const char* attribute, const In
 }  // namespace
 
 void Renderer::name_pixels(Image& image) const {
+    const FloatingPoint own;
     describe(image, "region", "csgrt:regions", regions(), [](const RegionInfo& region) { return region.path; });
     describe(image, "solid", "csgrt:solids", solids(), [](const SolidInfo& solid) { return solid.name; });
 }

@@ -1,7 +1,5 @@
 #include <csgrt/scene_io.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -17,6 +15,8 @@
 #include "formats/mended.hpp"
 #include "formats/brlcad/view_script.hpp"
 #include "formats/text_source.hpp"
+#include "base/floating_point.hpp"
+#include "base/letters.hpp"
 #include "base/new_file.hpp"
 
 namespace csgrt {
@@ -33,16 +33,12 @@ namespace fs = std::filesystem;
     throw Error(Status::file, std::vector{std::move(diagnostic)});
 }
 
-std::string extension_of(const std::string& path) {
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
+std::string extension_of(const std::string& path) { return lower(fs::path(path).extension().string()); }
 
 }  // namespace
 
 Scene load_scene(const std::string& path, bool strict) {
+    const FloatingPoint own;
     if (path == "-") return parse_scene(read_standard_input(), standard_input, strict);
     const std::string extension = extension_of(path);
     if (extension == ".json") return read_json(path);
@@ -53,6 +49,7 @@ Scene load_scene(const std::string& path, bool strict) {
 }
 
 Scene parse_scene(std::string bytes, const std::string& name, bool strict) {
+    const FloatingPoint own;
     try {
         if (bytes.starts_with("\x1f\x8b")) refuse(name, "this is compressed", "gunzip it first");
         if (is_brlcad_g(bytes)) return parse_brlcad_g(ByteSource(name, std::move(bytes)), !strict);
@@ -65,9 +62,13 @@ Scene parse_scene(std::string bytes, const std::string& name, bool strict) {
     }
 }
 
-Camera load_view(const std::string& path) { return parse_view_script(TextSource::read(path)); }
+Camera load_view(const std::string& path) {
+    const FloatingPoint own;
+    return parse_view_script(TextSource::read(path));
+}
 
 void save_scene(const Scene& scene, const std::string& path) {
+    const FloatingPoint own;
     if (path != "-" && extension_of(path) != ".json" && !target_of(path).direct) {
         refuse(path, "scenes are written as .json", "give the file a name that ends in .json");
     }

@@ -8,6 +8,7 @@
 
 #include <csgrt/image.hpp>
 
+#include "base/thread.hpp"
 #include "image/matrix.hpp"
 
 namespace csgrt {
@@ -23,9 +24,7 @@ std::size_t rank(const std::string& name) {
                                     channel_order.begin());
 }
 
-}  // namespace
-
-Image read_image(const std::string& path) {
+Image read(const std::string& path) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
     if (!input) throw Error(Status::file, path + ": cannot read: " + OIIO::geterror());
     if (std::string(input->format_name()) != "openexr") throw Error(Status::file, path + ": is no EXR file");
@@ -65,6 +64,12 @@ Image read_image(const std::string& path) {
         }
     }
     return image;
+}
+
+}  // namespace
+
+Image read_image(const std::string& path) {
+    return start_async([&path] { return read(path); }).get();  // see write_image()
 }
 
 }  // namespace csgrt

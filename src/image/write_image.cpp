@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -9,34 +7,39 @@
 #include <csgrt/image.hpp>
 
 #include "image/encode.hpp"
+#include "base/letters.hpp"
 #include "base/new_file.hpp"
+#include "base/thread.hpp"
 
 namespace csgrt {
 
 namespace {
 
 std::string extension_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower(std::filesystem::path(path).extension().string());
     return extension.empty() ? extension : extension.substr(1);
 }
 
 }  // namespace
 
 void write_image(const Image& image, const std::string& path, const std::string& format) {
+    const FloatingPoint own;
+    // On a thread of its own, from which OpenImageIO's inherit what csgrt's threads have.
+    const auto encoded = [&image](const std::string& as, const std::string& name) {
+        return start_async([&] { return encode(image, as, name); }).get();
+    };
     const auto text = [](const std::vector<unsigned char>& bytes) {
         return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     if (path == "-") {
         std::fflush(stdout);
-        NewFile::write_to(STDOUT_FILENO, text(encode(image, format, "standard output")), "standard output");
+        NewFile::write_to(STDOUT_FILENO, text(encoded(format, "standard output")), "standard output");
         return;
     }
     // The name of a device or a pipe says no format.
     std::string by_name = extension_of(path);
     if (by_name != "exr" && by_name != "png" && target_of(path).direct) by_name = format;
-    const std::vector<unsigned char> bytes = encode(image, by_name, path);
+    const std::vector<unsigned char> bytes = encoded(by_name, path);
     NewFile file(path);
     file.write(text(bytes));
     file.keep();

@@ -22,7 +22,7 @@ Pool::~Pool() {
         stop_ = true;
     }
     begun_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
+    for (Thread& thread : threads_) thread.join();
 }
 
 void Pool::run(const std::function<void()>& work) {

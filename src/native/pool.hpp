@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
+
+#include "base/thread.hpp"
 
 namespace csgrt::native {
 
@@ -34,7 +35,7 @@ private:
     std::size_t number_ = 0;   ///< of the work: a thread that has done it waits for another number
     std::size_t running_ = 0;  ///< threads that have it yet to do
     bool stop_ = false;
-    std::vector<std::thread> threads_;
+    std::vector<Thread> threads_;
 };
 
 }  // namespace csgrt::native

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "compile/flatten/attributes.hpp"
+#include "base/thread.hpp"
 #include "kernel_host/geometry.hpp"
 #include "reference/precision/double_fma.hpp"
 
@@ -188,10 +189,10 @@ void Reference::parallel(std::size_t count, const std::function<bool(double)>& p
             if (!failure) failure = std::current_exception();
         }
     };
-    std::vector<std::thread> others;
-    for (unsigned i = 1; i < threads_; ++i) others.emplace_back(run, false);
+    std::vector<Thread> others;
+    for (unsigned i = 1; i < threads_; ++i) others.emplace_back([&] { run(false); });
     run(true);
-    for (std::thread& thread : others) thread.join();
+    for (Thread& thread : others) thread.join();
     if (failure) std::rethrow_exception(failure);
 }
 

@@ -48,6 +48,7 @@ Channels& Channels::operator=(Channels&& other) noexcept {
 }
 
 bool operator==(const Channels& a, const Channels& b) noexcept {
+    const FloatingPoint own;
     return a.count_ == b.count_ && a.size_ == b.size_ &&
            std::equal(a.values_.get(), a.values_.get() + a.count_ * a.size_, b.values_.get());
 }

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/thread.hpp"
+
 namespace csgrt {
 
 DeviceTakeover::DeviceTakeover(DevicePlan plan, SetUp set_up, bool waits)
@@ -49,9 +51,9 @@ void DeviceTakeover::begin() {
     Made made{std::move(next_), std::exchange(ready_, {})};
     const auto job = [this, made = std::make_shared<Made>(std::move(made))] { return work(std::move(*made)); };
     try {
-        job_ = std::async(std::launch::async, job);
+        job_ = start_async(job, std::launch::async);
     } catch (const std::system_error&) {  // there is no thread to be had: a call waits for it
-        job_ = std::async(std::launch::deferred, job);
+        job_ = start_async(job, std::launch::deferred);
     }
 }
 

@@ -9,6 +9,8 @@
 
 #include "base/clock.hpp"
 #include "base/fnv1a.hpp"
+#include "base/process.hpp"
+#include "base/thread.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
@@ -58,6 +60,7 @@ double tolerance_of(const CompiledScene& scene, const Settings& settings) {
 }  // namespace
 
 struct Renderer::Impl {
+    const unsigned process = process_number();  ///< where it works: its threads, and what drivers keep, are there alone
     Settings settings;
     CompiledScene scene;
     std::string title;
@@ -74,7 +77,8 @@ struct Renderer::Impl {
 };
 
 Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
-    : impl_(std::make_unique<Impl>()) {
+    : impl_(new Impl) {
+    const FloatingPoint own;
     if (settings.precision == Precision::quad && !settings.reference)
         throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
     if (settings.contraction && settings.reference)
@@ -158,6 +162,14 @@ void Renderer::Impl::end_call(Clock::time_point start) {
     statistics.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();
 }
 
+void Renderer::Delete::operator()(Impl* impl) const { DeleteOwn{impl->process}(impl); }
+
+Renderer::Impl& Renderer::impl() const {
+    if (impl_->process != process_number())
+        throw Error(Status::usage, "this Renderer was made before this process was forked: make a new one");
+    return *impl_;
+}
+
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -169,7 +181,8 @@ Image Renderer::render(const View& view) {
 }
 
 void Renderer::render(const View& view, Framebuffer& framebuffer) {
-    Impl& impl = *impl_;
+    const FloatingPoint own;
+    Impl& impl = this->impl();
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
     impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition, view.width,
@@ -186,7 +199,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     }
     const auto fit = [&] { framebuffer.fit(view.width, view.height, std::move(names), std::move(background)); };
     if (framebuffer.covered_.empty()) {
-        std::future<void> fitting = std::async(fit);
+        std::future<void> fitting = start_async(fit);
         impl.prepare(view.every_partition);  // a compiler leaves most processors idle
         fitting.get();
     } else {
@@ -199,7 +212,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         channels.push_back({image.channels[i].data(), framebuffer.background_[i]});
     impl.backend->render(prepared,
                          {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_},
-                         impl.settings.progress);
+                         own.of_host(impl.settings.progress));
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
@@ -213,7 +226,8 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
-    Impl& impl = *impl_;
+    const FloatingPoint own;
+    Impl& impl = this->impl();
     const auto start = Clock::now();
     if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         throw Error(Status::usage, "too many rays in one call: shoot them in parts of less than 2^31");
@@ -234,7 +248,7 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     }
     impl.prepare(true);
     std::vector<RayPartitions> answers =
-        impl.backend->shoot(prepared, any_scaled ? scaled : rays, impl.settings.progress);
+        impl.backend->shoot(prepared, any_scaled ? scaled : rays, own.of_host(impl.settings.progress));
     for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
         if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
     impl.end_call(start);
@@ -242,23 +256,26 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
 }
 
 std::vector<Ray> Renderer::rays_of(const View& view) const {
-    const PreparedFrame prepared = prepare_frame(impl_->scene, view, impl_->statistics.tolerance);
+    const FloatingPoint own;
+    const Impl& impl = this->impl();
+    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
     std::vector<Ray> rays;
     rays.reserve(std::size_t{prepared.frame.width} * prepared.frame.height);
     for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
         for (std::uint32_t x = 0; x < prepared.frame.width; ++x)
-            rays.push_back(impl_->kernels->camera_ray(prepared.frame, x, y));
+            rays.push_back(impl.kernels->camera_ray(prepared.frame, x, y));
     return rays;
 }
 
-const Box& Renderer::bounds() const { return impl_->scene.bounds; }
-const std::vector<RegionInfo>& Renderer::regions() const { return impl_->scene.region_info; }
-const std::vector<SolidInfo>& Renderer::solids() const { return impl_->scene.solid_info; }
-const std::vector<Warning>& Renderer::warnings() const { return impl_->warnings; }
+const Box& Renderer::bounds() const { return impl().scene.bounds; }
+const std::vector<RegionInfo>& Renderer::regions() const { return impl().scene.region_info; }
+const std::vector<SolidInfo>& Renderer::solids() const { return impl().scene.solid_info; }
+const std::vector<Warning>& Renderer::warnings() const { return impl().warnings; }
 
 const Statistics& Renderer::statistics() const {
-    impl_->statistics.awaited_device = impl_->backend->awaited();
-    return impl_->statistics;
+    Impl& impl = this->impl();
+    impl.statistics.awaited_device = impl.backend->awaited();
+    return impl.statistics;
 }
 
 }  // namespace csgrt

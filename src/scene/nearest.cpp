@@ -1,8 +1,9 @@
 #include "scene/nearest.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
+
+#include "base/letters.hpp"
 
 namespace csgrt {
 
@@ -10,8 +11,6 @@ namespace {
 
 /// Longer names are not compared: the distance takes time by the product of the lengths.
 constexpr std::size_t longest = 64;
-
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 /// How many letters must be put in, left out, replaced or swapped with a neighbour, upper and lower case alike.
 std::size_t edit_distance(std::string_view a, std::string_view b) {

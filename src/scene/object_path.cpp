@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/floating_point.hpp"
 #include "scene/nearest.hpp"
 
 namespace csgrt {
@@ -121,6 +122,7 @@ private:
 }  // namespace
 
 const Object* object_at(const Scene& scene, const std::string& path) {
+    const FloatingPoint own;
     const ObjectPath found = find_path(scene, Names(scene), path);
     return found.steps.empty() ? nullptr : &scene.objects[found.object()];
 }

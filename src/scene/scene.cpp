@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/floating_point.hpp"
 #include "scene/names.hpp"
 
 namespace csgrt {
@@ -54,6 +55,7 @@ const Place& place_of(const Object& object) {
 }
 
 std::vector<std::string> top_objects(const Scene& scene) {
+    const FloatingPoint own;  // hash tables compute, too
     return scene.top.empty() ? Names(scene).top_objects() : scene.top;
 }
 

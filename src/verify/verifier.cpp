@@ -6,6 +6,7 @@
 #include <random>
 #include <span>
 
+#include "base/floating_point.hpp"
 #include "verify/answers.hpp"
 
 namespace csgrt {
@@ -77,14 +78,15 @@ std::vector<Ray> neighbours_of(const Ray& ray, double distance, int count) {
 
 struct Verifier::Impl {
     Settings settings;
-    double done = 0, part = 0;  ///< of the present call: before the present shot, and the shot itself
+    std::function<bool(double)> progress;  ///< of the present call
+    double done = 0, part = 0;             ///< of the present call: before the present shot, and the shot itself
     std::optional<Renderer> device, reference, judge;
     std::vector<Renderer> other_tolerances;
     Box box;
     double size = 0;
     Verification result;
 
-    bool report(double fraction) const { return !settings.progress || settings.progress(done + part * fraction); }
+    bool report(double fraction) const { return !progress || progress(done + part * fraction); }
 
     std::vector<RayPartitions> shoot(Renderer& renderer, const std::vector<Ray>& rays, double share) {
         part = share;
@@ -196,6 +198,7 @@ void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& 
 
 Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
     : impl_(std::make_unique<Impl>()) {
+    const FloatingPoint own_state;
     if (settings.contraction) throw Error(Status::usage, "contraction changes the bits that a verification compares");
     if (settings.precision == Precision::quad)
         throw Error(Status::usage, "113-bit precision is what the others are judged by");
@@ -223,6 +226,7 @@ Verifier::Verifier(Verifier&&) noexcept = default;
 Verifier& Verifier::operator=(Verifier&&) noexcept = default;
 
 std::vector<Ray> Verifier::sample(const Camera& camera, std::size_t count, std::uint64_t seed) const {
+    const FloatingPoint own;
     const int side = static_cast<int>(std::sqrt(static_cast<double>(count / 2)));
     std::vector<Ray> rays;
     if (side > 0) rays = impl_->judge->rays_of({.width = side, .height = side, .camera = camera});
@@ -246,7 +250,9 @@ std::vector<Ray> Verifier::sample(const Camera& camera, std::size_t count, std::
 }
 
 void Verifier::shoot(const std::vector<Ray>& rays) {
+    const FloatingPoint own;
     Impl& impl = *impl_;
+    impl.progress = own.of_host(impl.settings.progress);
     const double share = 1.0 / static_cast<double>(1 + corners + impl.other_tolerances.size() + 1);
     impl.done = 0;
     // Those in 113 bits take nearly all of the time.

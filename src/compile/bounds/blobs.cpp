@@ -18,7 +18,7 @@ namespace {
 const std::vector<Wide>& heart_points() {
     constexpr long double pi = 3.14159265358979323846L;
     constexpr int around = 64, upward = 256;
-    static const std::vector<Wide> points = [] {
+    static const auto& points = *new const std::vector<Wide>([] {  // for threads that see exit(), too
         std::vector<Wide> all;
         for (int i = 0; i <= around; ++i)
             for (int k = 0; k <= upward; ++k) {
@@ -34,7 +34,7 @@ const std::vector<Wide>& heart_points() {
                 all.push_back(high * d);
             }
         return all;
-    }();
+    }());
     return points;
 }
 constexpr long double sparse = 5e-4L;

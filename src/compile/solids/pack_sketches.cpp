@@ -1,13 +1,13 @@
 // Solids that outlines make.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "compile/solids/axis_frame.hpp"
 #include "compile/solids/cell_outline.hpp"
 #include "compile/solids/packer.hpp"
 #include "compile/solids/polyhedron.hpp"
 #include "compile/solids/sketch_writer.hpp"
+#include "scene/range.hpp"
 
 namespace csgrt {
 
@@ -90,11 +90,8 @@ void Packer::operator()(const Ebm& s) {
 
 std::string note_on(const Revolve& s) {
     if (turn_of(s) != Turn::none) return {};
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  "it is empty: its angle is %g, and ends of a turn that are no more than %g radians apart are one",
-                  s.angle, PlaneTable::gap);
-    return text;
+    return "it is empty: its angle is " + rounded_text(s.angle) + ", and ends of a turn that are no more than " +
+           rounded_text(PlaneTable::gap) + " radians apart are one";
 }
 
 void Packer::operator()(const Revolve& s) {

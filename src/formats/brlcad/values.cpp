@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 
 #include "base/decimal.hpp"
+#include "base/letters.hpp"
 #include "formats/text_source.hpp"
 
 namespace csgrt {
@@ -94,11 +94,8 @@ constexpr Unit units[] = {
 /// As BRL-CAD compares names of units: without blanks, in small letters, without the s of a plural.
 std::string plain_unit_name(std::string_view name) {
     std::string plain;
-    for (const char c : name) {
-        if (std::isspace(static_cast<unsigned char>(c)) == 0) {
-            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        }
-    }
+    for (const char c : name)
+        if (std::string_view(" \t\n\v\f\r").find(c) == std::string_view::npos) plain += lower(c);
     if (plain.ends_with('s')) plain.pop_back();
     return plain;
 }

@@ -170,7 +170,7 @@ std::vector<JsonForm> all_forms() {
 }  // namespace
 
 const std::vector<JsonForm>& json_forms() {
-    static const std::vector<JsonForm> forms = all_forms();
+    static const auto& forms = *new const std::vector<JsonForm>(all_forms());  // for threads that see exit(), too
     return forms;
 }
 
@@ -183,16 +183,17 @@ const JsonForm& json_form(std::string_view name) {
 }
 
 const std::vector<std::string_view>& json_solid_types() {
-    static const std::vector<std::string_view> types = [] {
+    static const auto& types = *new const std::vector<std::string_view>([] {
         std::vector<std::string_view> names;
         for (const JsonForm& form : solid_forms()) names.push_back(form.name);
         return names;
-    }();
+    }());
     return types;
 }
 
 const std::vector<std::string_view>& json_units() {
-    static const std::vector<std::string_view> units = {"nm", "um", "mm", "cm", "m", "km", "in", "ft", "yd", "mi"};
+    static const auto& units =
+        *new const std::vector<std::string_view>{"nm", "um", "mm", "cm", "m", "km", "in", "ft", "yd", "mi"};
     return units;
 }
 

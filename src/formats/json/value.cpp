@@ -14,6 +14,8 @@
 
 #include <csgrt/scene.hpp>
 
+#include "base/decimal.hpp"
+
 namespace csgrt {
 
 namespace {
@@ -68,7 +70,12 @@ public:
         return add(minus_zero ? -0.0 : static_cast<double>(value));
     }
     bool number_unsigned(std::uint64_t value) { return add(static_cast<double>(value)); }
-    bool number_float(double value, const std::string&) { return add(value); }
+    bool number_float(double value, const std::string& digits) {
+        // The lexer reads with the locale's decimal point, of which it takes one byte.
+        if (read_decimal(std::string_view(text_).substr(start(), digits.size()), value) == Decimal::too_large)
+            value = std::numeric_limits<double>::infinity();
+        return add(value);
+    }
     bool string(std::string& value) { return add(std::move(value)); }
     bool binary(nlohmann::json::binary_t&) { return false; }  // no JSON text holds one
     bool start_object(std::size_t) { return open(JsonMembers{}); }

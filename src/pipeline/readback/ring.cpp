@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/thread.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 
 namespace csgrt {
@@ -102,7 +103,7 @@ void ReadbackRing::copy_by_thread(const kernel::Frame& frame, std::vector<Rectan
         put_rectangles(frame, rectangles, values, target);
     };
     try {
-        staging.done = std::async(std::launch::async, put_all);
+        staging.done = start_async(put_all, std::launch::async);
         next_ = (next_ + 1) % staging_.size();
     } catch (const std::system_error&) {  // no more threads
         put_all();

@@ -8,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
+#include "base/process.hpp"
 
 namespace csgrt {
 namespace {
@@ -105,7 +106,8 @@ std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const C
     drop_claims();
     const std::size_t bytes = channels.size() * pixels * sizeof(float);
     if (bytes == 0) return nullptr;
-    auto registered = std::make_shared<RegisteredMemory>(channels.front().pixels, bytes);
+    const std::shared_ptr<RegisteredMemory> registered(new RegisteredMemory(channels.front().pixels, bytes),
+                                                       DeleteOwn());
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         Device& device = *devices_[i];
         if (!pipelines_[i]->is_asynchronous() || bytes > std::min(device.available() / 2, device.max_buffer()))

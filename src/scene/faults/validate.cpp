@@ -351,6 +351,7 @@ std::vector<Diagnostic> validate(const Scene& scene, Names& names, const std::ve
 
 std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported,
                                  std::vector<Warning>* warnings) {
+    const FloatingPoint own;
     Names names(scene);
     std::vector<Warning> passed_over;
     return validate(scene, names, objects, skip_unsupported, warnings != nullptr ? *warnings : passed_over);

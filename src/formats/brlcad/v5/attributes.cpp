@@ -1,12 +1,12 @@
 #include "formats/brlcad/v5/attributes.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/letters.hpp"
 #include "formats/brlcad/shader.hpp"
 #include "formats/brlcad/values.hpp"
 
@@ -16,12 +16,6 @@ namespace {
 
 constexpr int any_low = -2'147'483'647, any_high = 2'147'483'647;
 
-std::string in_lower_case(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
-
 /// The spelling that BRL-CAD writes today.
 bool is_standard(std::string_view key) {
     constexpr std::string_view keys[] = {"region", "region_id", "aircode", "material_id",
@@ -30,7 +24,7 @@ bool is_standard(std::string_view key) {
 }
 
 bool read_flag(const TclWord& word) {
-    const std::string text = in_lower_case(word.text);
+    const std::string text = lower(std::string(word.text));
     for (const char* yes : {"1", "yes", "y", "true", "on"}) {
         if (text == yes) return true;
     }
@@ -103,7 +97,7 @@ void read_color_table(Scene& scene, const TclWord& value) {
 }  // namespace
 
 bool set_attribute(Combination& combination, const Attribute& attribute) {
-    const std::string key = in_lower_case(attribute.key);
+    const std::string key = lower(std::string(attribute.key));
     const TclWord& value = attribute.value;
     if (key == "region") {
         read_region_flag(combination, value);

@@ -1,0 +1,17 @@
+// Small and capital letters, whatever the host's locale takes for one.
+#pragma once
+
+#include <string>
+
+namespace csgrt {
+
+inline char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+inline char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+inline std::string lower(std::string text) {
+    for (char& c : text) c = lower(c);
+    return text;
+}
+
+}  // namespace csgrt
