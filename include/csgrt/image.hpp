@@ -60,8 +60,8 @@ private:
 /// A picture. Each channel has width x height floats, row by row; the first is the TOP left pixel. A Renderer makes
 /// these channels, in this order, as far as View::channels wants them:
 ///
-///     R G B           linear colour, 0 to 1, more in highlights; the background where the ray hits nothing
-///     A               1 where the ray hits something, else 0
+///     R G B           linear light, 0 to 1, more in highlights; the background where the ray hits nothing
+///     A               1; with View::transparent 0 where the ray hits nothing, as R, G and B there
 ///     Z               distance along the ray in millimetres, infinity where it hits nothing; from the eye, or in an
 ///                     orthographic view from the plane on which its rays start (see the matrix worldToCamera)
 ///     N.X N.Y N.Z     unit normal of the surface, outward from the region, in the model's coordinates
@@ -75,6 +75,8 @@ struct Image {
     int width = 0, height = 0;            ///< pixels
     std::vector<std::string> names = {};  ///< of the channels, one each
     Channels channels = {};
+    /// True: R G B are display values (sRGB), as Settings::display_shading makes them. False: linear light.
+    bool display_values = false;
     std::map<std::string, std::string> attributes = {};       ///< text for the file's header, by name
     std::map<std::string, std::vector<float>> matrices = {};  ///< 4 x 4, row-major, p' = M p, for the header, by name
 
@@ -87,14 +89,21 @@ struct Image {
     std::span<const float> channel(std::string_view name) const&& = delete;
 };
 
-/// Writes a picture file: .exr (every channel, 32-bit floats) or .png (R G B, 8 bits), by the extension of `path`. The
-/// file has a temporary name until it is complete. "-" writes to standard output, in `format` ("exr" or "png"); so do
-/// the names of pipes and devices. Throws Error: usage if the picture has not the channels that the format needs or the
-/// format is unknown, file if the file cannot be written. Any thread. In csgrt::image.
+/// The colours of a picture for a display: R G B A of each pixel, one byte each, row by row from the top left. They are
+/// encoded as sRGB, cut off at 0 and 1, and rounded; A is 255 if the picture has no such channel. Alpha is not
+/// associated: R, G and B are what they were before A weighed them, as PNG has it. Throws Error (usage) if a channel of
+/// R, G and B is missing. Any thread.
+CSGRT_API std::vector<unsigned char> display_pixels(const Image& image);
+
+/// Writes a picture file by the extension of `path`: .exr (every channel, 32-bit floats, R G B in linear light) or .png
+/// (display_pixels(), without A if all pixels are opaque; its header says sRGB). The file has a temporary name until it
+/// is complete. "-" writes to standard output, in `format` ("exr" or "png"); so do the names of pipes and devices.
+/// Throws Error: usage if the picture has not the channels that the format needs or the format is unknown, file if the
+/// file cannot be written. Any thread. In csgrt::image.
 CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr");
 
-/// Reads an .exr with all its channels as 32-bit floats, its text attributes and its matrices. Channels have csgrt's
-/// order; others follow. Throws Error (file). Any thread. In csgrt::image.
+/// Reads an .exr with all its channels as 32-bit floats (R G B in linear light), its text attributes and its matrices.
+/// Channels have csgrt's order; others follow. Throws Error (file). Any thread. In csgrt::image.
 CSGRT_API Image read_image(const std::string& path);
 
 }  // namespace csgrt

@@ -24,7 +24,7 @@ struct RegionInfo {
     std::string path = {};  ///< "/top/.../region"
     Fastgen fastgen = Fastgen::none;
     int region_id = 0, air = 0, material_id = 0, los = 0;  ///< as in Combination
-    Vec3 color{1, 1, 1};                                   ///< red, green, blue; 0 to 1
+    Vec3 color{1, 1, 1};                                   ///< display values: red, green, blue; 0 to 1
     Finish finish = {};
     Box bounds = {};  ///< millimetres; as BRL-CAD computes it, so not always tight
 };

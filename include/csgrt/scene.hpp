@@ -1,5 +1,5 @@
 // The model: solids, combined by Boolean trees, some of which are regions; lights and a camera. Lengths are millimetres
-// throughout; readers convert a file's own units.
+// throughout; readers convert a file's own units. Colours are display values (sRGB): red, green, blue; 0 to 1.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +58,8 @@ struct Emission {
     int shadows = 1;                     ///< kept for conversion
 };
 
-/// BRL-CAD's plastic: colour = material colour x (ambient x cos(eye) + diffuse x cos(light)) + specular x cos^shine.
+/// BRL-CAD's plastic, in linear light: colour = material colour x (ambient x cos(eye) + diffuse x cos(light)) +
+/// specular x cos^shine.
 struct Finish {
     std::string shader = "plastic";
     double specular = 0.7, diffuse = 0.3;

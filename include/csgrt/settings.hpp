@@ -29,7 +29,10 @@ struct Settings {
     double tolerance = -1;          ///< millimetres, for Tolerance::length; negative: the scene's tolerance
     bool air = false;               ///< true: air regions are part of the model
     bool skip_unsupported = false;  ///< true: solids of unknown types are left out with a warning, as in lenient scenes
-    unsigned threads = 0;           ///< of the reference and of a native device; 0: one for each processor
+    /// True: the model's colours are shaded as they are, as BRL-CAD does. False: they are decoded to linear light
+    /// first.
+    bool display_shading = false;
+    unsigned threads = 0;  ///< of the reference and of a native device; 0: one for each processor
     /// Called from time to time during a call with the done fraction, 0 to 1. If it returns false the call stops and
     /// throws Error (interrupted). The library calls it from its own threads or from the caller's, never from two at
     /// once. It must not use the object whose call it reports.

@@ -25,6 +25,7 @@ struct View {
     /// has none of the channels of channel::counts.
     bool every_partition = true;
     std::uint32_t channels = channel::all;  ///< the groups that the picture has, in the order of their bits
+    bool transparent = false;  ///< true: R, G, B and A are 0 where a ray hits nothing, in place of the background
 };
 
 }  // namespace csgrt

@@ -136,7 +136,7 @@ NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g
         PUT(convert_float8(v.sight.color.r), f->background[0]);
         PUT(convert_float8(v.sight.color.g), f->background[1]);
         PUT(convert_float8(v.sight.color.b), f->background[2]);
-        PUT((float8)(1), 0);
+        PUT((float8)(1), f->background[3]);
     }
     if (f->channels & CHANNEL_DISTANCE) PUT(convert_float8(v.sight.t), (float)REAL_INFINITY);
     if (f->channels & CHANNEL_NORMAL) {

@@ -14,10 +14,8 @@ typedef struct {
 
 FN Pixel background_pixel(GLOBAL const Frame* f) {
     Pixel p;
-    p.rgba[0] = f->background[0];
-    p.rgba[1] = f->background[1];
-    p.rgba[2] = f->background[2];
-    p.rgba[3] = 0;
+    u32 i;
+    for (i = 0; i < 4; ++i) p.rgba[i] = f->background[i];
     p.z = (float)REAL_INFINITY;
     p.normal[0] = p.normal[1] = p.normal[2] = 0;
     p.region = p.solid = 0;

@@ -243,7 +243,7 @@ typedef struct {
     wide t_min;      // segments that end before this distance are not wanted
     wide tolerance;  // ends closer than this along the ray are one
     wide ambient;
-    float background[3];
+    float background[4];  // R G B A where a ray hits nothing
     u32 width, height;
     u32 perspective;           // 0 or 1
     u32 work;                  // WORK_x: which rays the kernels are run for

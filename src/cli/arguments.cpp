@@ -148,6 +148,12 @@ void define(Options& options, RenderArguments& arguments) {
     options.flag("--first-hit",
                  "draw first hits only, several times faster: without the channels depth, partitions and overlap",
                  arguments.first_hit);
+    options.flag("--transparent", "no background: red, green, blue and alpha are 0 where nothing is hit",
+                 arguments.transparent);
+    options.flag("--display-shading",
+                 "shade the model's colours as they are, as BRL-CAD does; if not given, they are decoded from sRGB to "
+                 "linear light first",
+                 arguments.settings.display_shading);
     define_either(options, arguments.settings);
     options.text("--stats", "FILE",
                  "write the figures of the frame as JSON, times in milliseconds; - is standard output",

@@ -9,7 +9,7 @@ Methods that are kept for comparison have options of their own: 'csgrt help meth
 Lengths are millimetres, whatever unit the scene's file has; angles are degrees.
 
 An EXR holds these channels, 32-bit floats:
-  R G B A        colours
+  R G B A        linear light; A is 1, or 0 in a transparent background
   Z              distance along the ray, mm; inf where nothing is hit
   N.X N.Y N.Z    unit normal of the surface, outward
   region, solid  numbers from 1; 0 where nothing is hit
@@ -17,7 +17,8 @@ An EXR holds these channels, 32-bit floats:
   partitions     partitions on the ray
   overlap        partitions on the ray that several regions claim
 Its header names the regions and solids that occur in it (csgrt:regions, csgrt:solids: JSON texts
-such as {"17": "/all.g/x.r"}). A PNG holds the colours, 8 bits each, linear.
+such as {"17": "/all.g/x.r"}). A PNG holds the colours, 8 bits each, encoded as sRGB; and A if any
+pixel is transparent.
 
 A picture, and the partitions along one ray:
   csgrt scenes/operators.json -o operators.png

@@ -91,8 +91,12 @@ Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& c
 }
 
 void set_surroundings(const Scene& scene, CompiledScene& compiled) {
-    for (const Light& light : scene.lights) compiled.lights.push_back(light_record(light));
-    compiled.background = {scene.background.x, scene.background.y, scene.background.z};
+    for (Light light : scene.lights) {
+        light.color = compiled.shaded(light.color);
+        compiled.lights.push_back(light_record(light));
+    }
+    const Vec3 background = compiled.shaded(scene.background);
+    compiled.background = {background.x, background.y, background.z};
     compiled.ambient = scene.ambient;
     compiled.tolerance = scene.tolerance;
 }
@@ -158,6 +162,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     std::vector<std::string> roots = objects.empty() ? names.top_objects() : objects;
     CompiledScene compiled;
     compiled.warnings = scene.warnings;
+    compiled.display_shading = options.display_shading;
     if (std::vector<Diagnostic> findings = validate(scene, names, objects, options.skip_unsupported, compiled.warnings);
         !findings.empty())
         throw Error(Status::scene, std::move(findings));

@@ -8,6 +8,7 @@
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>
 
+#include "base/srgb.hpp"
 #include "kernel_host/kernels.hpp"
 
 namespace csgrt {
@@ -57,13 +58,21 @@ struct CompiledScene {
     bool has_large_terms = false;   ///< of more than SCANNED_WORDS words
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4, tolerance = 0;
+    bool display_shading = false;   ///< colours are those that the model gives, not decoded to linear light
     std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
     std::vector<Warning> warnings;  ///< see Renderer::warnings
+
+    /// A colour of the model in the values that are shaded.
+    Vec3 shaded(const Vec3& color) const {
+        if (display_shading) return color;
+        return {linear_of_display(color.x), linear_of_display(color.y), linear_of_display(color.z)};
+    }
 };
 
 struct CompileOptions {
     bool air = false;               ///< keep air regions
     bool skip_unsupported = false;  ///< solids of unknown types are empty sets
+    bool display_shading = false;   ///< see Settings
 };
 
 /// Validates and compiles `objects` of `scene` (empty: its top objects). Throws Error (scene) with every finding.

@@ -214,7 +214,11 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     put(pixel * axes.up, frame.v);
     put(perspective ? center - eye : -axes.back, frame.w);
     frame.t_min = 0;
-    for (int i = 0; i < 3; ++i) frame.background[i] = static_cast<float>(scene.background[static_cast<std::size_t>(i)]);
+    if (!view.transparent) {
+        std::transform(scene.background.begin(), scene.background.end(), frame.background,
+                       [](double x) { return static_cast<float>(x); });
+        frame.background[3] = 1;
+    }
     frame.width = static_cast<std::uint32_t>(view.width);
     frame.height = static_cast<std::uint32_t>(view.height);
     frame.perspective = perspective;

@@ -61,7 +61,7 @@ void add_region_lights(FlatScene& flat, const std::vector<Box>& boxes, CompiledS
         }
         Light found;
         found.position = 0.5 * (box.low + box.high);
-        found.color = region.info.color;
+        found.color = compiled.shaded(region.info.color);
         found.intensity = region.brightness;
         found.infinite = light->infinite;
         found.angle = light->angle;

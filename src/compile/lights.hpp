@@ -14,6 +14,7 @@ inline kernel::LightRecord light_at(const Vec3& position, const Vec3& color) {
             to_float(color.x), to_float(color.y), to_float(color.z), 0};
 }
 
+/// `light` has a colour that is shaded (CompiledScene::shaded).
 kernel::LightRecord light_record(const Light& light);
 
 /// The lights of the regions that shine, by BRL-CAD's rules, and in each such region its brightness. `boxes`:

@@ -5,6 +5,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "base/srgb.hpp"
 #include "image/matrix.hpp"
 
 namespace csgrt {
@@ -30,28 +31,22 @@ void check_form(const Image& image, const std::string& name) {
     }
 }
 
-/// Pixel by pixel, as image files want it.
+/// Pixel by pixel, as image files want it. R G B as linear light.
 std::vector<float> interleave(const Image& image) {
     const std::size_t count = image.channels.size();
     std::vector<float> pixels(count * image.channels[0].size());
     for (std::size_t c = 0; c < count; ++c) {
         for (std::size_t i = 0; i < image.channels[c].size(); ++i) pixels[i * count + c] = image.channels[c][i];
     }
-    return pixels;
-}
-
-/// R G B in 8 bits, linear, as BRL-CAD writes them: 0..1 becomes 0..255, rounded.
-std::vector<unsigned char> quantize(const Image& image, const std::string& name) {
-    std::vector<unsigned char> pixels(3 * image.channels[0].size());
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::string color(1, "RGB"[c]);
-        if (!image.has_channel(color))
-            throw Error(Status::usage, name + ": the picture has no channel " + color + ", which a PNG needs");
-        const std::span<const float> channel = image.channel(color);
-        for (std::size_t i = 0; i < channel.size(); ++i) {
-            const float value = channel[i];
-            const float clamped = value > 0 ? (value < 1 ? value : 1) : 0;  // NaN is 0
-            pixels[3 * i + c] = static_cast<unsigned char>(static_cast<double>(255 * clamped) + 0.5);
+    if (!image.display_values) return pixels;
+    std::span<const float> alpha;
+    if (image.has_channel("A")) alpha = image.channel("A");
+    for (std::size_t c = 0; c < count; ++c) {
+        if (image.names[c] != "R" && image.names[c] != "G" && image.names[c] != "B") continue;
+        for (std::size_t i = 0; i < image.channels[c].size(); ++i) {
+            float& value = pixels[i * count + c];
+            const double weight = !alpha.empty() && alpha[i] > 0 ? alpha[i] : 1;
+            value = static_cast<float>(weight * linear_of_display(value / weight));
         }
     }
     return pixels;
@@ -77,14 +72,22 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
     check_form(image, name);
     const bool exr = format == "exr";
     const std::vector<float> floats = exr ? interleave(image) : std::vector<float>();
-    const std::vector<unsigned char> colors = exr ? std::vector<unsigned char>() : quantize(image, name);
+    for (const char* color : {"R", "G", "B"})
+        if (!exr && !image.has_channel(color))
+            throw Error(Status::usage, name + ": the picture has no channel " + color + ", which a PNG needs");
+    const std::vector<unsigned char> colors = exr ? std::vector<unsigned char>() : display_pixels(image);
+    bool opaque = true;
+    for (std::size_t i = 3; i < colors.size(); i += 4) opaque = opaque && colors[i] == 255;
 
-    OIIO::ImageSpec spec(image.width, image.height, exr ? static_cast<int>(image.names.size()) : 3,
-                         exr ? OIIO::TypeFloat : OIIO::TypeUInt8);
+    const int count = exr ? static_cast<int>(image.names.size()) : opaque ? 3 : 4;
+    OIIO::ImageSpec spec(image.width, image.height, count, exr ? OIIO::TypeFloat : OIIO::TypeUInt8);
     if (exr) {
         spec.channelnames = image.names;
         spec.attribute("compression", "zip");
         spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day, and no two files are the same
+    } else {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("oiio:UnassociatedAlpha", 1);  // what OpenImageIO is given, too
     }
     describe(spec, image, exr);
 
@@ -97,7 +100,7 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
     };
     check(output->open("csgrt." + format, spec));
     check(exr ? output->write_image(OIIO::TypeFloat, floats.data())
-              : output->write_image(OIIO::TypeUInt8, colors.data()));
+              : output->write_image(OIIO::TypeUInt8, colors.data(), 4));
     check(output->close());
     return bytes;
 }

@@ -88,7 +88,10 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.title = scene.title;
     prepare_devices(settings);
     const auto start = Clock::now();
-    impl.scene = compile(scene, objects, {.air = settings.air, .skip_unsupported = settings.skip_unsupported});
+    impl.scene = compile(scene, objects,
+                         {.air = settings.air,
+                          .skip_unsupported = settings.skip_unsupported,
+                          .display_shading = settings.display_shading});
     impl.statistics.ms.compile = milliseconds_since(start);
     impl.warnings = impl.scene.warnings;
     impl.statistics.precision = name_of(precision_names, settings.precision);
@@ -213,12 +216,14 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
     impl.backend->render(prepared,
                          {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_},
                          own.of_host(impl.settings.progress));
+    image.display_values = impl.settings.display_shading;
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = impl.title;
     image.attributes["csgrt:precision"] = impl.statistics.precision;
     image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " + impl.statistics.quartic +
                                        (impl.settings.contraction ? ", contraction" : "");
+    image.attributes["csgrt:shading"] = impl.settings.display_shading ? "display values" : "linear light";
     image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
     if (!impl.scene.warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(impl.scene.warnings);
     describe_camera(prepared, image);

@@ -219,6 +219,30 @@ TEST_CASE("one render writes several pictures, whole and nothing beside them") {
     CHECK(*std::max_element(regions.begin(), regions.end()) == 2);
 }
 
+TEST_CASE("--transparent and --display-shading reach the picture and its header") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls), exr = folder / "a.exr";
+    const auto draw = [&](std::vector<std::string> options) {
+        options.insert(options.end(), {scene, "--reference", "--size", "32", "-o", exr});
+        REQUIRE(run(options).status == 0);
+        return csgrt::read_image(exr);
+    };
+    const auto alpha_of_nothing = [](const csgrt::Image& image) {
+        return image.channel("A")[0] + 2 * image.channel("region")[0];
+    };
+    const csgrt::Image usual = draw({}), transparent = draw({"--transparent"}), display = draw({"--display-shading"});
+    CHECK(alpha_of_nothing(usual) == 1);
+    CHECK(alpha_of_nothing(display) == 1);
+    CHECK(alpha_of_nothing(transparent) == 0);
+    CHECK(usual.attributes.at("csgrt:shading") == "linear light");
+    CHECK(display.attributes.at("csgrt:shading") == "display values");
+    CHECK(transparent.attributes.at("csgrt:command").ends_with(" --transparent"));
+    CHECK(display.attributes.at("csgrt:command").ends_with(" --display-shading"));
+    CHECK(std::ranges::equal(usual.channel("Z"), display.channel("Z")));
+    CHECK_FALSE(std::ranges::equal(usual.channel("R"), display.channel("R")));
+}
+
 TEST_CASE("-o - writes the same picture to standard output") {
     NEEDS_COMMAND();
     const Folder folder;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/srgb.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
@@ -196,10 +197,26 @@ TEST_CASE("lights, background, ambient and tolerance come along") {
     REQUIRE(c.lights.size() == 1);
     CHECK(c.lights[0].y == 2);
     CHECK(c.lights[0].r == 2);
-    CHECK(c.lights[0].b == 0.5f);
-    CHECK(c.background == std::vector<double>{0.1, 0.2, 0.3});
+    CHECK(c.lights[0].b == static_cast<float>(2 * linear_of_display(0.25)));
+    CHECK(c.background == std::vector{linear_of_display(0.1), linear_of_display(0.2), linear_of_display(0.3)});
     CHECK(c.ambient == 0.25);
     CHECK(c.tolerance == 1e-6);
+}
+
+TEST_CASE("materials have linear light, or with display shading what the model says") {
+    Scene s = plate_with_hole();
+    s.lights = {{{1, 2, 3}, {1, 0.5, 0.25}, 2}};
+    s.background = {0.1, 0.2, 0.3};
+    std::get<Combination>(s.objects[5]).color = Vec3{0.5, 1, 0};
+    const CompiledScene linear = compile(s), display = compile(s, {}, {.display_shading = true});
+    CHECK(linear.materials[1].r == static_cast<float>(linear_of_display(0.5)));
+    CHECK(linear.materials[1].g == 1);
+    CHECK(linear.materials[1].b == 0);
+    CHECK(linear.region_info[1].color == Vec3{0.5, 1, 0});
+    CHECK(display.materials[1].r == 0.5f);
+    CHECK(display.lights[0].b == 0.5f);
+    CHECK(display.background == std::vector<double>{0.1, 0.2, 0.3});
+    CHECK(display.hash != linear.hash);
 }
 
 TEST_CASE("the hash is the scene's: the same for the same, another for any change") {

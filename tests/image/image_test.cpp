@@ -10,7 +10,9 @@
 
 #include <unistd.h>
 
-#include <csgrt/image.hpp>
+#include <OpenImageIO/imageio.h>
+
+#include <csgrt/csgrt.hpp>
 
 #include "image/encode.hpp"
 
@@ -116,21 +118,74 @@ TEST_CASE("channels that csgrt does not know keep their place after those it kno
     CHECK(read_image(folder / "a.exr").names == std::vector<std::string>{"G", "Z", "extra"});
 }
 
-TEST_CASE("a PNG has 8 bits, rounded, clamped, linear", "[image]") {
-    // One row, so the file's only filter and the uncompressed bytes are told by the encoder's own reader: the picture
-    // of the quantized values must be the very same file.
-    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    const auto of = [](float v) { return encode(gray({v, 0.25f}), "png", "test"); };
-    CHECK(of(0.5f) == of(128 / 255.0f));
-    CHECK(of(0.5f) != of(127 / 255.0f));
-    CHECK(of(0.499f / 255) == of(0));
-    CHECK(of(0.501f / 255) == of(1 / 255.0f));
-    CHECK(of(254.6f / 255) == of(1));
-    CHECK(of(254.4f / 255) == of(254 / 255.0f));
-    CHECK(of(-3) == of(0));
-    CHECK(of(7) == of(1));
-    CHECK(of(infinity) == of(1));
-    CHECK(of(nan) == of(0));
+TEST_CASE("a PNG says that it is sRGB and has alpha where a pixel is not opaque", "[image]") {
+    Image image = gray({0.5f, 0.25f});
+    const auto file = [&] {
+        const std::vector<unsigned char> bytes = encode(image, "png", "test");
+        return std::string(bytes.begin(), bytes.end());
+    };
+    constexpr char rgb = 2, rgba = 6;  // the header's type of colour
+    constexpr std::size_t type_at = 25;
+    const std::string srgb{'\0', '\0', '\0', '\1', 's', 'R', 'G', 'B'},
+        gamma{'g', 'A', 'M', 'A', '\0', '\0', '\xb1', '\x8f'};
+    CHECK(file().find(srgb) != std::string::npos);
+    CHECK(file().find(gamma) != std::string::npos);  // 45455: what sRGB is for readers that do not know it
+    CHECK(file().find("cHRM") != std::string::npos);
+    CHECK(file()[type_at] == rgb);
+    image.names.emplace_back("A");
+    image.channels = std::vector<std::vector<float>>{{0.5f, 0.25f}, {0.5f, 0.25f}, {0.5f, 0.25f}, {1, 1}};
+    CHECK(file()[type_at] == rgb);
+    image.channels[3][1] = 0.5f;
+    CHECK(file()[type_at] == rgba);
+    CHECK(file().find(srgb) != std::string::npos);
+}
+
+TEST_CASE("EXR and PNG of one picture look the same, however it was drawn", "[image]") {
+    const Folder folder;
+    const char* scenes = std::getenv("CSGRT_SCENES");
+    REQUIRE(scenes != nullptr);
+    const Scene scene = load_scene(std::string(scenes) + "/operators.json");
+    Settings settings;
+    settings.reference = true;
+    settings.display_shading = GENERATE(false, true);
+    View view{.width = 60, .height = 50, .camera = scene.camera, .every_partition = false};
+    view.transparent = GENERATE(false, true);
+    INFO("display shading " << settings.display_shading << ", transparent " << view.transparent);
+    Image image = Renderer(scene, {}, settings).render(view);
+    if (view.transparent)  // a veil over the upper half, as a viewer may blend it; associated
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < 60 * 25; ++i) image.channels[c][i] *= 0.75f;
+    write_image(image, folder / "a.exr");
+    write_image(image, folder / "a.png");
+    const Image exr = read_image(folder / "a.exr");
+    CHECK_FALSE(exr.display_values);
+
+    OIIO::ImageSpec as_it_is;
+    as_it_is.attribute("oiio:UnassociatedAlpha", 1);
+    const auto png = OIIO::ImageInput::open(folder / "a.png", &as_it_is);
+    REQUIRE(png);
+    const auto count = static_cast<std::size_t>(png->spec().nchannels);
+    CHECK(count == (view.transparent ? 4 : 3));
+    CHECK(png->spec().get_string_attribute("oiio:ColorSpace") == "sRGB");
+    std::vector<unsigned char> bytes(count * 60 * 50);
+    REQUIRE(png->read_image(0, 0, 0, -1, OIIO::TypeUInt8, bytes.data()));
+    std::size_t seen = 0, far = 0;
+    for (std::size_t i = 0; i < 60 * 50; ++i) {
+        const double alpha = exr.channels[3][i];
+        if (count == 4) far += bytes[4 * i + 3] != int(255 * alpha + 0.5);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double light = std::min(exr.channels[c][i] / std::max(alpha, 0.5), 1.0);
+            const double display = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+            far += std::abs(bytes[count * i + c] - 255 * display) > 0.501;
+            seen += bytes[count * i + c] > 60;
+        }
+    }
+    CHECK(far == 0);
+    CHECK(seen > 500);
+    // Shown as they are, the values that were shaded are the bytes.
+    if (settings.display_shading && !view.transparent)
+        for (std::size_t i = 0; i < 60 * 50; ++i)
+            CHECK(bytes[3 * i] == int(255 * double(std::min(image.channels[0][i], 1.0f)) + 0.5));
 }
 
 TEST_CASE("the same picture gives the same bytes at any time", "[image]") {

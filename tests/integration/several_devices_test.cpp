@@ -113,7 +113,7 @@ TEST_CASE("two devices read a picture back asynchronously", "[.two_devices]") {
     Channels pixels(301 * 257, std::vector<float>(6));
     std::vector<ChannelMemory> planes;
     const PreparedFrame any = prepare_frame(compiled, view, one.statistics().tolerance);
-    for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 3 ? any.frame.background[p] : 0});
+    for (std::size_t p = 0; p < 6; ++p) planes.push_back({pixels[p].data(), p < 4 ? any.frame.background[p] : 0});
     std::vector<std::uint8_t> drawn(38 * 33, 1);
     std::shared_ptr<RegisteredMemory> registered;
     std::uint64_t registered_bytes = 0;

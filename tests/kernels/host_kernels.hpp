@@ -80,7 +80,7 @@ inline std::vector<float> picture_of(const kernel::Frame& frame, const std::vect
     std::vector<ChannelMemory> planes;
     for (std::size_t i = 0; i < channels; ++i) {
         planes.push_back({picture.data() + i * size, 0});
-        if (i < 3) planes.back().background = frame.background[i];
+        if (i < 4) planes.back().background = frame.background[i];
         if (i == 4) planes.back().background = std::numeric_limits<float>::infinity();
         std::fill_n(planes.back().pixels, size, planes.back().background);
     }

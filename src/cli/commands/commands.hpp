@@ -28,7 +28,7 @@ struct RenderArguments : SceneArguments {
     std::optional<double> azimuth, elevation, perspective, view_size;  ///< absent: the scene's
     std::optional<Vec3> center, eye, look_at, up;
     std::string view;  ///< file of a saved view; empty: none
-    bool first_hit = false;
+    bool first_hit = false, transparent = false;
     std::string stats;  ///< file, "-" or empty
     int repeat = 1;
 };

@@ -152,6 +152,8 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
     if (arguments.strict) text += " --strict";
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
     if (arguments.first_hit) text += " --first-hit";
+    if (arguments.transparent) text += " --transparent";
+    if (arguments.settings.display_shading) text += " --display-shading";
     return text;
 }
 #endif
@@ -202,6 +204,7 @@ Status run(const RenderArguments& arguments) {
     Scene scene = load_with_progress(arguments.scene, arguments.strict);
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
+    view.transparent = arguments.transparent;
     if (only_colors(arguments)) {
         view.every_partition = false;
         view.channels = channel::color;

@@ -26,12 +26,14 @@ struct RegionChunk {
     Box bounds = empty_box;
 };
 
-kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, double ambient) {
+kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, const CompiledScene& compiled) {
     const Finish& f = info.finish;
+    const Vec3 color = compiled.shaded(info.color);
+    const double ambient = compiled.ambient;
     const auto to_float = [](double x) { return static_cast<float>(x); };
-    kernel::MaterialRecord m{to_float(info.color.x),
-                             to_float(info.color.y),
-                             to_float(info.color.z),
+    kernel::MaterialRecord m{to_float(color.x),
+                             to_float(color.y),
+                             to_float(color.z),
                              to_float(f.specular),
                              to_float(f.diffuse),
                              to_float(f.ambient),
@@ -76,7 +78,7 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
             }
             const LinearTree tree = linearize(region.tree, chunk.words);
             compiled.regions[i] = {tree.first_word, tree.word_count};
-            compiled.materials[i] = material_of(region.info, region.brightness, compiled.ambient);
+            compiled.materials[i] = material_of(region.info, region.brightness, compiled);
             compiled.region_info[i] = std::move(region.info);
             compiled.flat_trees[i] = std::move(region.tree);
         }

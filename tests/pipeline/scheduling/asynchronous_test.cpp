@@ -66,14 +66,14 @@ TEST_CASE("asynchronous: the picture is made, whatever was there before and howe
         view.every_partition = every_partition;
         renderer.render(view, framebuffer);
         const Image& image = framebuffer.image();
+        const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         std::vector<ChannelMemory> planes;
         if (pixels.empty()) {
             pixels = Channels(77 * 61, std::vector<float>(image.channels.size(), -1));
             registered.emplace(pixels[0].data(), pixels.size() * pixels[0].size() * sizeof(float));
             drawn.assign(10 * 8, 1);
             background.assign(image.channels.size(), 0);
-            background[0] = 0.2f;
-            background[2] = 0.4f;
+            std::ranges::copy(prepared.frame.background, background.begin());
             background[4] = std::numeric_limits<float>::infinity();
         }
         for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), background[p]});
@@ -82,7 +82,6 @@ TEST_CASE("asynchronous: the picture is made, whatever was there before and howe
             REQUIRE(registered->has(device));
             REQUIRE_FALSE(registered->has(first));
         }
-        const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
         PipelineCounts counts;
         const RenderTarget target{.channels = planes, .covered = drawn, .registered = &*registered};
         pipeline.render(prepared, ranges_of(prepared.rays, prepared.rays), target, nullptr, counts);
@@ -145,8 +144,10 @@ struct Lined {
         const std::size_t size = std::size_t(width) * std::size_t(height);
         Channels pixels(size, std::vector<float>(image.channels.size(), -1));
         std::vector<ChannelMemory> planes;
-        for (std::size_t p = 0; p < pixels.size(); ++p)
-            planes.push_back({pixels[p].data(), image.names[p] == "Z" ? std::numeric_limits<float>::infinity() : 0.0f});
+        for (std::size_t p = 0; p < pixels.size(); ++p) {
+            const float far = std::numeric_limits<float>::infinity(), opaque = image.names[p] == "A" ? 1 : 0;
+            planes.push_back({pixels[p].data(), image.names[p] == "Z" ? far : opaque});
+        }
         std::vector<std::uint8_t> drawn((width + TILE - 1) / TILE * ((height + TILE - 1) / TILE), 1);
         const RenderTarget target{.channels = planes, .covered = drawn};
         const PreparedFrame prepared = prepare_frame(compiled, view, renderer.statistics().tolerance);
@@ -427,9 +428,9 @@ TEST_CASE("asynchronous: parts of one device's picture, a frame like the last on
     view.height = 1000;
     view.camera.view_size = lined.compiled.radius;  // from edge to edge
     view.channels = channel::color | channel::ids;
-    Channels pixels(1600 * 1000, std::vector<float>(6));
+    Channels pixels(1600 * 1000, std::vector<float>{0, 0, 0, 1, 0, 0});
     std::vector<ChannelMemory> planes;
-    for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), 0});
+    for (std::size_t p = 0; p < pixels.size(); ++p) planes.push_back({pixels[p].data(), pixels[p][0]});
     std::vector<std::uint8_t> drawn(200 * 125);
     for (const bool every_partition : {false, true})
         for (const bool sees : {true, false, true}) {
