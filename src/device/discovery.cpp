@@ -142,10 +142,8 @@ bool has_render_node(const std::filesystem::path& folder) {
 }  // namespace
 
 bool has_drivers() {
-    constexpr unsigned nobody = ~0u;
-    static std::atomic<unsigned> user{nobody};
-    unsigned before = nobody;
-    return user.compare_exchange_strong(before, process_number()) || before == process_number();
+    static FirstUser user;
+    return user.is_this_process();
 }
 
 std::vector<FoundDevice> find_native_devices() {

@@ -8,8 +8,8 @@
 
 #include <csgrt/image.hpp>
 
-#include "base/thread.hpp"
 #include "image/matrix.hpp"
+#include "image/threads.hpp"
 
 namespace csgrt {
 
@@ -69,7 +69,7 @@ Image read(const std::string& path) {
 }  // namespace
 
 Image read_image(const std::string& path) {
-    return start_async([&path] { return read(path); }).get();  // see write_image()
+    return with_image_threads(path, [&path] { return read(path); });
 }
 
 }  // namespace csgrt

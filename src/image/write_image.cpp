@@ -7,9 +7,9 @@
 #include <csgrt/image.hpp>
 
 #include "image/encode.hpp"
+#include "image/threads.hpp"
 #include "base/letters.hpp"
 #include "base/new_file.hpp"
-#include "base/thread.hpp"
 
 namespace csgrt {
 
@@ -24,9 +24,8 @@ std::string extension_of(const std::string& path) {
 
 void write_image(const Image& image, const std::string& path, const std::string& format) {
     const FloatingPoint own;
-    // On a thread of its own, from which OpenImageIO's inherit what csgrt's threads have.
     const auto encoded = [&image](const std::string& as, const std::string& name) {
-        return start_async([&] { return encode(image, as, name); }).get();
+        return with_image_threads(name, [&] { return encode(image, as, name); });
     };
     const auto text = [](const std::vector<unsigned char>& bytes) {
         return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
