@@ -166,6 +166,8 @@ struct Limits {
     static constexpr double least_direction = 1e-250;         ///< largest component of a ray's direction, at least
     static constexpr double greatest_direction = 1e250;       ///< and at most
     static constexpr int shine = 10'000;                      ///< of a finish: with more a highlight is a point
+    /// Of a metaball of that method: its fields reach everywhere, so its time grows with their square.
+    static constexpr std::uint32_t isopotential_points = 1'000;
 };
 
 /// Checks the objects that `objects` (names or paths; none: the top objects) reach: members that do not exist, cycles,

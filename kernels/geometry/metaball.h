@@ -1,18 +1,21 @@
 // Metaball. Parameters: affine (12; locally distances are as the fields want them, and everything lies within
-// 1 of the origin), method, threshold, and
-// for each of `words[first_word]` points x, y, z, then two of its field phi of v, the square of the distance:
-//   0  (1 - b v)^2 while b v < 1            unused, b
-//   1  a / v                                a, unused
-//   2  2^(a - b v)                          a, b
-// Surface 0.
+// 1 of the origin), method, threshold, faint, and for each point x, y, z, then two of its field phi of v, the square of
+// the distance:
+//   0  (1 - b v)^2 while b v < 1                  unused, b
+//   1  a / v                                      a, unused
+//   2  2^(a - b v) while a - b v > faint          a, b
+// Words: how many points, where in inner_nodes the hierarchy over the balls that they reach begins and how many nodes
+// that has (0: none). Surface 0.
 //
 //   F = threshold - sum of phi < 0
 //
 // Along the ray v = m + (u - u0)^2 for each point, so its range over a piece is known exactly; phi and its derivatives
-// by v are monotone. The ranges of F, F' and F'' are sums of ranges; pieces are walked as in superell.h.
+// by v are monotone. The ranges of F, F' and F'' are sums of ranges; pieces are walked as in superell.h. Points whose
+// balls the piece does not meet are left out of the sums, so a ray past n balls takes n log n steps.
 #ifndef CSGRT_GEOMETRY_METABALL_H
 #define CSGRT_GEOMETRY_METABALL_H
 
+#include "../traversal/bvh_cursor.h"
 #include "affine.h"
 #include "crossings.h"
 #include "power.h"
@@ -22,16 +25,25 @@
     BY_PRECISION(1.0001, 1.000001, \
                  1.000001)  // the searched piece is a little larger than the solid, so its ends are outside
 #define METABALL_LEAST BY_PRECISION(0x1p-18, 0x1p-45, 0x1p-90)  // of the piece
-#define METABALL_STEPS 2000
+// Halvings that decide nothing, for the solid and for each point, before the least piece is METABALL_COARSER times as
+// large: where F is 0 all along the ray but for rounding, halving would not end. What lies behind is looked at still.
+#define METABALL_STEPS 500
+#define METABALL_POINT_STEPS 64
+#define METABALL_COARSER 32
 #define METABALL_NOISE BY_PRECISION(1e-5, 1e-14, 1e-32)  // in thresholds
+#define METABALL_TURN_STEPS (sizeof(real) == 16 ? 120 : 60)
 #define METABALL_ROOT_STEPS (sizeof(real) == 16 ? 240 : 120)
-#define METABALL_POINT 5  // reals
+#define METABALL_SETTLED BY_PRECISION(1e-7, 1e-16, 1e-34)  // a root; Newton's last step
+#define METABALL_POINTS 15                                 // where they begin
+#define METABALL_POINT 5                                   // reals
 
 typedef struct {
     GLOBAL const real* points;
-    u32 count, method;
-    real threshold;
+    GLOBAL const BvhNode* nodes;
+    u32 count, node_count, method;
+    real threshold, faint;
     vec3 o, d;  // d is a unit vector
+    slab_ray slab;
 } metaball_ray;
 
 typedef struct {
@@ -43,14 +55,17 @@ typedef struct {
     real value, first, second;
 } metaball_field;
 
-FN metaball_field metaball_phi(u32 method, real a, real b, real v) {
+FN metaball_field metaball_field_of(metaball_ray l, u32 i, real v) {
+    GLOBAL const real* p = l.points + METABALL_POINT * (size_t)i;
+    const real a = p[3], b = p[4];
     metaball_field f;
-    if (method == 1) {
+    if (l.method == 1) {
         f.value = a / v;
         f.first = -f.value / v;
         f.second = REAL(-2) * f.first / v;
-    } else if (method == 2) {
-        f.value = exp_2(real_fma(-b, v, a));
+    } else if (l.method == 2) {
+        real power = real_fma(-b, v, a);
+        f.value = power > l.faint ? exp_2(power) : REAL(0);
         f.first = REAL(-0.6931471805599453) * b * f.value;
         f.second = REAL(-0.6931471805599453) * b * f.first;
     } else {
@@ -62,13 +77,61 @@ FN metaball_field metaball_phi(u32 method, real a, real b, real v) {
     return f;
 }
 
+FN metaball_ray metaball_ray_of(Geometry g, SolidRecord solid, vec3 o, vec3 d) {
+    GLOBAL const real* p = g.reals + solid.first_real;
+    GLOBAL const u32* words = g.words + solid.first_word;
+    metaball_ray l;
+    l.points = p + METABALL_POINTS;
+    l.count = words[0];
+    l.nodes = g.inner_nodes + words[1];
+    l.node_count = words[2];
+    l.method = (u32)p[12];
+    l.threshold = p[13];
+    l.faint = p[14];
+    l.o = o;
+    l.d = d;
+    l.slab = make_slab_ray(offset_from(widen(make_vec3(0, 0, 0)), widen(o)), d, 1, -REAL_INFINITY);
+    return l;
+}
+
+// The points whose fields reach a piece of the ray, or more of them, in order.
+typedef struct {
+    bvh_cursor cursor;
+    single from, to;
+    u32 next, last;  // points of the leaf that are left
+} metaball_walk;
+
+FN metaball_walk metaball_near(metaball_ray l, real from, real to) {
+    metaball_walk w;
+    w.cursor = bvh_over(l.node_count);
+    w.from = to_single(from - SLAB_SLACK);
+    w.to = to_single(to + SLAB_SLACK);
+    w.next = 0;
+    w.last = l.node_count ? 0 : l.count;
+    return w;
+}
+FN u32 metaball_next(metaball_ray l, metaball_walk* w) {
+    while (w->next == w->last) {
+        BvhNode node;
+        single in, out;
+        u32 leaf;
+        if (!bvh_goes_on(w->cursor)) return NONE;
+        node = l.nodes[w->cursor.node];
+        in = box_passage(l.slab, node, &out);
+        leaf = bvh_step(&w->cursor, node, in <= single_min(out, w->to) && out >= w->from);
+        w->next = leaf >> BVH_LEAF_SHIFT;
+        w->last = w->next + (leaf & BVH_LEAF_MASK);
+    }
+    return w->next++;
+}
+
 // Of one point: where along the ray it is nearest, and the square of that distance.
 typedef struct {
     real at, least;
 } metaball_pass;
 
 FN metaball_pass metaball_pass_of(metaball_ray l, u32 i) {
-    GLOBAL const real* p = l.points + METABALL_POINT * i;
+    GLOBAL const real* p = l.points + METABALL_POINT * (size_t)i;
     vec3 o = make_vec3(l.o.x - p[0], l.o.y - p[1], l.o.z - p[2]);
     real x = difference_of_products(o.y, l.d.z, o.z, l.d.y);
     real y = difference_of_products(o.z, l.d.x, o.x, l.d.z);
@@ -80,16 +143,16 @@ FN metaball_pass metaball_pass_of(metaball_ray l, u32 i) {
 }
 
 FN metaball_point metaball_at(metaball_ray l, real u) {
+    metaball_walk w = metaball_near(l, u, u);
     metaball_point p;
     u32 i;
     p.u = u;
     p.value = l.threshold;
     p.slope = 0;
-    for (i = 0; i < l.count; ++i) {
+    while ((i = metaball_next(l, &w)) != NONE) {
         metaball_pass pass = metaball_pass_of(l, i);
         real from = u - pass.at;
-        metaball_field f = metaball_phi(l.method, l.points[METABALL_POINT * i + 3], l.points[METABALL_POINT * i + 4],
-                                        real_fma(from, from, pass.least));
+        metaball_field f = metaball_field_of(l, i, real_fma(from, from, pass.least));
         p.value = p.value - f.value;
         p.slope = p.slope - REAL(2) * product_or_0(from, f.first);
     }
@@ -101,16 +164,16 @@ FN metaball_point metaball_at(metaball_ray l, real u) {
 #define METABALL_BENT 2      // turns once at most
 
 FN int metaball_look(metaball_ray l, real a, real b) {
+    metaball_walk w = metaball_near(l, a, b);
     range value, slope, bend;
     u32 i;
     value.low = value.high = l.threshold;
     slope.low = slope.high = bend.low = bend.high = 0;
-    for (i = 0; i < l.count; ++i) {
+    while ((i = metaball_next(l, &w)) != NONE) {
         metaball_pass pass = metaball_pass_of(l, i);
         range from = range_between(a - pass.at, b - pass.at), square = range_square(from);
-        real p3 = l.points[METABALL_POINT * i + 3], p4 = l.points[METABALL_POINT * i + 4];
-        metaball_field near = metaball_phi(l.method, p3, p4, pass.least + square.low);
-        metaball_field far = metaball_phi(l.method, p3, p4, pass.least + square.high);
+        metaball_field near = metaball_field_of(l, i, pass.least + square.low);
+        metaball_field far = metaball_field_of(l, i, pass.least + square.high);
         range first = range_between(near.first, far.first), second = range_between(near.second, far.second);
         value.low = value.low - near.value;
         value.high = value.high - far.value;
@@ -125,61 +188,59 @@ FN int metaball_look(metaball_ray l, real a, real b) {
     return range_has_0(bend) ? METABALL_UNDECIDED : METABALL_BENT;
 }
 
-// The root between a and b, where F changes its sign once; see superell_root.
+// The root between a and b, where F changes its sign once: Newton's method, and halving where that leaves the bracket
+// or does not halve its own step in two.
 FN real metaball_root(metaball_ray l, metaball_point a, metaball_point b) {
-    real low = a.u, high = b.u, u = REAL(0.5) * (low + high), width = REAL_INFINITY;
+    real low = a.u, high = b.u, u = REAL(0.5) * (low + high), last = high - low, before = last;
     u32 negative = a.value < 0;
     int step;
     for (step = 0; step < METABALL_ROOT_STEPS; ++step) {
         metaball_point m = metaball_at(l, u);
         real next = u - m.value / m.slope;
+        if (real_abs(next - u) < METABALL_SETTLED) return next;
         if ((m.value < 0) == negative) {
             low = u;
         } else {
             high = u;
         }
-        if (!(next > low && next < high)) next = REAL(0.5) * (low + high);
-        if ((step & 1) && !(high - low <= REAL(0.5) * width)) next = REAL(0.5) * (low + high);
-        if (step & 1) width = high - low;
-        if (next == u || next <= low || next >= high || real_abs(next - u) < BY_PRECISION(1e-9, 1e-17, 1e-35))
-            return next;
+        if (!(next > low && next < high && real_abs(next - u) <= REAL(0.5) * before)) next = REAL(0.5) * (low + high);
+        if (!(next > low && next < high)) return next;
+        before = last;
+        last = real_abs(next - u);
         u = next;
     }
     return u;
 }
 
+// Between a and b, of one sign, F bends towards 0: see superell_turn.
 FN metaball_point metaball_turn(metaball_ray l, metaball_point a, metaball_point b) {
-    real low = a.u, high = b.u;
-    u32 falling = a.slope < 0;
+    u32 falling = a.slope < 0, negative = a.value < 0;
     metaball_point m = a;
     int step;
-    for (step = 0; step < 60; ++step) {
-        real u = REAL(0.5) * (low + high);
-        if (!(u > low && u < high)) return m;
+    for (step = 0; step < METABALL_TURN_STEPS; ++step) {
+        real from = real_abs(a.slope), to = real_abs(b.slope), u = REAL(0.5) * (a.u + b.u);
+        real meet = real_abs(a.value) * to + real_abs(b.value) * from - from * to * (b.u - a.u);
+        if (meet > METABALL_NOISE * l.threshold * (from + to) || !(u > a.u && u < b.u)) return m;
         m = metaball_at(l, u);
+        if ((m.value < 0) != negative) return m;
         if ((m.slope < 0) == falling) {
-            low = u;
+            a = m;
         } else {
-            high = u;
+            b = m;
         }
     }
     return m;
 }
 
 FN crossings metaball_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) {
-    GLOBAL const real* p = g.reals + solid.first_real;
-    local_ray l = to_local(p, r);
+    local_ray l = to_local(g.reals + solid.first_real, r);
     real length = real_sqrt(dot3(l.d, l.d)), reach2 = METABALL_REACH2 - dot3(l.o, l.o), width, least, high;
     metaball_ray ray;
     metaball_point a;
-    int steps = 0;
+    u32 steps, most;
     if (!(reach2 > 0)) return c;
-    ray.points = p + 14;
-    ray.count = g.words[solid.first_word];
-    ray.method = (u32)p[12];
-    ray.threshold = p[13];
-    ray.o = l.o;
-    ray.d = scale(l.d, REAL(1) / length);
+    ray = metaball_ray_of(g, solid, l.o, scale(l.d, REAL(1) / length));
+    steps = most = METABALL_STEPS + METABALL_POINT_STEPS * ray.count;
     high = real_sqrt(reach2);
     width = REAL(2) * high;
     least = width * METABALL_LEAST;
@@ -189,14 +250,18 @@ FN crossings metaball_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) 
         real to = a.u + width;
         int known = METABALL_MONOTONE;
         if (!(to < high - least)) to = high;
-        if (steps < METABALL_STEPS && to - a.u > least) known = metaball_look(ray, a.u, to);
+        if (to - a.u > least) known = metaball_look(ray, a.u, to);
         if (known == METABALL_UNDECIDED) {
             width = REAL(0.5) * (to - a.u);
-            ++steps;
+            if (--steps == 0) {
+                least = METABALL_COARSER * least;
+                steps = most;
+            }
             continue;
         }
         b = metaball_at(ray, to);
-        if (known == METABALL_BENT && (a.slope < 0) != (b.slope < 0)) {
+        if (known == METABALL_BENT && (a.value < 0) == (b.value < 0) && (a.slope < 0) != (b.slope < 0) &&
+            (a.slope < 0) != (a.value < 0)) {
             metaball_point m = metaball_turn(ray, a, b);
             if ((a.value < 0) != (m.value < 0)) c = cross(c, l.shift + metaball_root(ray, a, m) / length, 0);
             a = m;
@@ -210,12 +275,16 @@ FN crossings metaball_cross(Geometry g, SolidRecord solid, ray3 r, crossings c) 
 
 FN vec3 metaball_normal(Geometry g, SolidRecord solid, ray3 r, real t) {
     GLOBAL const real* p = g.reals + solid.first_real;
-    vec3 at = local_point(to_local(p, r), t), n = make_vec3(0, 0, 0);
-    u32 i, count = g.words[solid.first_word], method = (u32)p[12];
-    for (i = 0; i < count; ++i) {
-        GLOBAL const real* q = p + 14 + METABALL_POINT * i;
+    local_ray l = to_local(p, r);
+    real length = real_sqrt(dot3(l.d, l.d)), u = (t - l.shift) * length;
+    metaball_ray ray = metaball_ray_of(g, solid, l.o, scale(l.d, REAL(1) / length));
+    metaball_walk w = metaball_near(ray, u, u);
+    vec3 at = local_point(l, t), n = make_vec3(0, 0, 0);
+    u32 i;
+    while ((i = metaball_next(ray, &w)) != NONE) {
+        GLOBAL const real* q = ray.points + METABALL_POINT * (size_t)i;
         vec3 from = make_vec3(at.x - q[0], at.y - q[1], at.z - q[2]);
-        n = add_scaled(n, -metaball_phi(method, q[3], q[4], dot3(from, from)).first, from);
+        n = add_scaled(n, -metaball_field_of(ray, i, dot3(from, from)).first, from);
     }
     return affine_normal(p, n);
 }

@@ -1,6 +1,8 @@
 // Hearts and metaballs: how far they reach has no closed form.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <queue>
 #include <vector>
 
@@ -39,11 +41,15 @@ const std::vector<Wide>& heart_points() {
 }
 constexpr long double sparse = 5e-4L;
 
-/// A cube within -1 to 1 and how far it reaches in the direction that is asked
-/// for.
+/// Numbers of points.
+using Points = std::vector<std::uint32_t>;
+
+/// A cube within -1 to 1, how far it reaches in the direction that is asked for, and the points whose fields reach it,
+/// or more of them.
 struct Cube {
     Wide center;
     long double half, reach;
+    std::shared_ptr<const Points> near;
     bool operator<(const Cube& other) const { return reach < other.reach; }
 };
 
@@ -53,36 +59,58 @@ struct Cube {
 class FieldSupport {
 public:
     explicit FieldSupport(const Metaball& s) : s_(s), frame_(frame_of(s)) {
-        for (const Metaball::Point& p : s.points) points_.push_back((wide(p.position) - frame_.center) / frame_.reach);
+        Points all;
+        for (const Metaball::Point& p : s.points) {
+            all.push_back(static_cast<std::uint32_t>(all.size()));
+            points_.push_back((wide(p.position) - frame_.center) / frame_.reach);
+            reaches_.push_back(reach_of(s, p) / frame_.reach);
+        }
+        all_ = std::make_shared<const Points>(std::move(all));
     }
 
     long double operator()(long double x, long double y, long double z) const {
         const Wide n(x, y, z);
         const long double width = std::fabs(x) + std::fabs(y) + std::fabs(z);
         constexpr long double smallest = 1.0L / 4096;
-        std::size_t budget = 20'000'000 / (points_.size() + 10);
+        std::size_t looks = 0;  // at a point from a cube
         std::priority_queue<Cube> cubes;
-        cubes.push({Wide(0), 1, width});
+        cubes.push({Wide(0), 1, width, all_});
         while (!cubes.empty()) {
             const Cube cube = cubes.top();
-            if (cube.half < smallest || budget < 8) return cube.reach;
+            if (cube.half < smallest || looks > most_looks) return cube.reach;
             cubes.pop();
-            for (int corner = 0; corner < 8; ++corner, --budget) {
+            const std::shared_ptr<const Points> near = near_to(cube);
+            looks += cube.near->size() + 8 * near->size();
+            for (int corner = 0; corner < 8; ++corner) {
                 const long double half = 0.5L * cube.half;
                 const Wide at =
                     cube.center + half * Wide(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-                if (may_hold(at, half)) cubes.push({at, half, glm::dot(n, at) + half * width});
+                if (may_hold(at, half, *near)) cubes.push({at, half, glm::dot(n, at) + half * width, near});
             }
         }
         return 0;  // nowhere
     }
 
 private:
-    bool may_hold(const Wide& at, long double half) const {
+    static constexpr std::size_t most_looks = 2'000'000;
+
+    /// The square of the distance of a point from a cube.
+    long double away2(std::uint32_t point, const Wide& at, long double half) const {
+        const Wide away = glm::max(glm::abs(at - points_[point]) - Wide(half), Wide(0));
+        return glm::dot(away, away);
+    }
+
+    std::shared_ptr<const Points> near_to(const Cube& cube) const {
+        Points near;
+        for (const std::uint32_t i : *cube.near)
+            if (away2(i, cube.center, cube.half) < reaches_[i] * reaches_[i]) near.push_back(i);
+        return near.size() == cube.near->size() ? cube.near : std::make_shared<const Points>(std::move(near));
+    }
+
+    bool may_hold(const Wide& at, long double half, const Points& near) const {
         long double sum = 0;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            const Wide away = glm::max(glm::abs(at - points_[i]) - Wide(half), Wide(0));
-            sum += field(s_, s_.points[i], glm::dot(away, away) * frame_.reach * frame_.reach);
+        for (const std::uint32_t i : near) {
+            sum += field(s_, s_.points[i], away2(i, at, half) * frame_.reach * frame_.reach);
             if (sum >= s_.threshold) return true;
         }
         return false;
@@ -91,6 +119,8 @@ private:
     const Metaball& s_;
     MetaballFrame frame_;
     std::vector<Wide> points_;
+    std::vector<long double> reaches_;
+    std::shared_ptr<const Points> all_;
 };
 
 }  // namespace

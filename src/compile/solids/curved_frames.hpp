@@ -65,6 +65,22 @@ inline long double field(const Metaball& s, const Metaball::Point& p, long doubl
         }
     }
 }
+/// The natural logarithm of a field that is nothing beside the threshold, in 113 bits too, even if every point had it.
+inline long double faint(const Metaball& s) {
+    constexpr long double below = 83;  // 2^-120
+    return std::log(static_cast<long double>(s.threshold) / s.points.size()) - below;
+}
+/// How far from a point its field reaches: a blob's is cut off where it is faint.
+inline long double reach_of(const Metaball& s, const Metaball::Point& p) {
+    switch (s.method) {
+        case Metaball::Method::isopotential:
+            return HUGE_VALL;
+        case Metaball::Method::blob:
+            return p.strength * std::sqrt(std::fmax(0.0L, 1 - faint(s) / p.softness));
+        default:
+            return p.strength;
+    }
+}
 /// A ball that holds a metaball.
 struct MetaballFrame {
     Wide center;

@@ -2,11 +2,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/bvh/build.hpp"
 #include "compile/solids/curved_frames.hpp"
 #include "compile/solids/packer.hpp"
 #include "compile/solids/polyhedron.hpp"
+#include "compile/solids/sketch_writer.hpp"
 
 namespace csgrt {
+
+namespace {
+
+constexpr long double log2_e = 1.44269504088896340736L;
+
+}  // namespace
 
 void Packer::face(const Wide& point, const Wide& a, const Wide& b, const Wide& inside) {
     Wide normal = glm::cross(transform_direction(matrix, a), transform_direction(matrix, b));
@@ -138,17 +146,34 @@ void Packer::operator()(const Hrt& s) {
 
 void Packer::operator()(const Metaball& s) {
     record.type = SOLID_METABALL;
-    record.first_word = static_cast<std::uint32_t>(scene.words.size());
-    scene.words.push_back(static_cast<std::uint32_t>(s.points.size()));
     const MetaballFrame f = frame_of(s);
+    const auto local = [&](const Metaball::Point& p) { return (wide(p.position) - f.center) / f.reach; };
+    // The box of what a point's field reaches, as far as it is searched.
+    const auto box_of = [&](std::size_t i) {
+        constexpr long double searched = 1.001L;
+        const long double reach = reach_of(s, s.points[i]) / f.reach;
+        const Wide at = local(s.points[i]), most(searched);
+        return Box{narrow(glm::max(at - Wide(reach), -most)), narrow(glm::min(at + Wide(reach), most))};
+    };
+    constexpr std::size_t few = 16;
+    Hierarchy hierarchy;
+    if (s.method != Metaball::Method::isopotential && s.points.size() > few)
+        hierarchy = build_bvh(s.points.size(), box_of, {}, 1, 0);
+    record.first_word = position_of(scene.words.size());
+    for (const std::size_t word : {s.points.size(), scene.inner_nodes.size(), hierarchy.nodes.size()})
+        scene.words.push_back(position_of(word));
+    scene.inner_nodes.insert(scene.inner_nodes.end(), hierarchy.nodes.begin(), hierarchy.nodes.end());
+
     frame(f.center, WideMatrix(f.reach));
     real(s.method == Metaball::Method::metaball ? 0 : s.method == Metaball::Method::isopotential ? 1 : 2);
     real(s.threshold);
-    for (const Metaball::Point& point : s.points) {
-        const Wide at = (wide(point.position) - f.center) / f.reach;
-        for (int i = 0; i < 3; ++i) real(at[i]);
+    real(faint(s) * log2_e);
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+        const Metaball::Point& point = s.points[hierarchy.order.empty() ? i : hierarchy.order[i]];
+        const Wide at = local(point);
+        for (int k = 0; k < 3; ++k) real(at[k]);
         const long double strength = point.strength / f.reach, strength2 = strength * strength;
-        const long double softness = point.softness * 1.44269504088896340736L;  // base 2
+        const long double softness = point.softness * log2_e;
         switch (s.method) {
             case Metaball::Method::metaball:
                 real(0);

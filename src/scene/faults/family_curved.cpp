@@ -81,7 +81,10 @@ Faults FaultsOf::operator()(const Hrt& s) const {
 
 Faults FaultsOf::operator()(const Metaball& s) const {
     Faults faults;
-    if (!require_at_most(faults, "points", s.points.size(), Limits::metaball_points)) return faults;
+    const bool everywhere = s.method == Metaball::Method::isopotential;
+    if (!require_at_most(faults, everywhere ? "points whose fields reach everywhere" : "points", s.points.size(),
+                         everywhere ? Limits::isopotential_points : Limits::metaball_points))
+        return faults;
     if (s.points.empty()) return {"it has no points"};
     if (!all_finite(faults, s.threshold)) return faults;
     for (const Metaball::Point& p : s.points) {

@@ -86,6 +86,15 @@ TEST_CASE("solid faults: metaballs") {
     check_fault(Metaball{Method::blob, 1, {{none, 5, 1}, {x, 5, 0}}}, "the softness of point 1");
     check_fault(Metaball{Method::isopotential, 0, {{none, 0, 0}}}, "the threshold must be greater than 0", 2);
     check_fault(Metaball{Method::isopotential, 1, {{none, infinite, 0}}}, "not finite");
+    const auto points = [](std::size_t count) { return std::vector<Metaball::Point>(count, {none, 5, 1}); };
+    check_sound(Metaball{Method::isopotential, 1, points(Limits::isopotential_points)});
+    check_fault(Metaball{Method::isopotential, 1, points(Limits::isopotential_points + 1)},
+                "it has 1001 points whose fields reach everywhere; at most 1000 are supported");
+    for (const Method method : {Method::metaball, Method::blob}) {
+        check_sound(Metaball{method, 1, points(Limits::metaball_points)});
+        check_fault(Metaball{method, 1, points(Limits::metaball_points + 1)},
+                    "it has 10001 points; at most 10000 are supported");
+    }
 }
 
 TEST_CASE("solid faults: pipes") {
