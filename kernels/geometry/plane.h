@@ -18,8 +18,8 @@ FN lane_mask runs_in(PlaneRecord plane, ray3 r) {
 }
 
 // Clips `s` to the side n . p <= d of a plane, in units of the ray's direction. An empty result has low >= high. A ray
-// that runs in the plane is on the side that is kept: it touches the face, on whichever side of it rounding has put the
-// ray.
+// that is parallel to the plane, as far as rounding lets one say, stays on its side. If it runs in the plane it is on
+// the side that is kept: it touches the face, on whichever side of it rounding has put the ray.
 FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
     const real above = plane_above(plane, r), rate = dot3(narrow(plane_normal(plane)), r.d), t = -above / rate;
     const lane_mask parallel = real_abs(rate) <= ROUNDING * sum_of_sizes(r.d);
@@ -27,9 +27,9 @@ FN span clip(span s, PlaneRecord plane, u32 flipped, ray3 r, u32 surface) {
     if (!no_lane(parallel)) {
         const real sizes = sum_of_sizes(narrow(r.o)) + real_abs(REAL(plane.d));
         const lane_mask within = parallel && real_abs(above) <= ROUNDING * sizes;
-        const lane_mask outside = rate == 0 && !within && (flipped ? above < 0 : above > 0);
-        enters = enters && !within;
-        leaves = leaves && !within;
+        const lane_mask outside = parallel && !within && (flipped ? above < 0 : above > 0);
+        enters = enters && !parallel;
+        leaves = leaves && !parallel;
         s.touched = s.touched || within;
         s.low = outside ? REAL_INFINITY : s.low;
         s.high = outside ? -REAL_INFINITY : s.high;

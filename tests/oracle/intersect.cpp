@@ -21,10 +21,9 @@ struct ScaledRay {
     QVec world_direction;
     std::vector<quad> look_at;
 
-    /// Is every product in normal . direction 0 by itself? Then no rounding can make the ray meet the plane.
-    bool crosses_no_axis_of(const QVec& normal) const {
-        const QVec n = componentwise_absolute(normal), d = componentwise_absolute(world_direction);
-        return dot(n, d) <= length(d) * quad(1e-25);
+    /// How fast it comes nearer to a plane, in units of double's rounding, 2^-53.
+    quad approach(const QVec& normal) const {
+        return absolute(dot(normal, world_direction)) / length(world_direction) / quad(double_epsilon);
     }
 };
 
@@ -115,9 +114,11 @@ Sets solve(const ImplicitSolid& solid, std::size_t k, const ScaledRay& ray, quad
     if (f.degree == 1) {
         Sets sets;
         const quad e = change_at(0), c0 = f.c[0], c1 = f.c[1];
-        const bool parallel = absolute(c1) <= e * quad(1e-12);  // up to the rounding of 113 bits
-        const bool unsure_slope =
-            parallel ? !ray.crosses_no_axis_of(solid.normal(k, solid.center)) : absolute(c1) <= e * ray.turn;
+        // Of a bounded solid: up to the rounding of 113 bits. Of a half-space: of the direction's and the normal's own
+        // numbers. With some roundings more the slope is not sure.
+        const quad approach = solid.bounded ? quad(0) : ray.approach(solid.normal(k, solid.center));
+        const bool parallel = solid.bounded ? absolute(c1) <= e * quad(1e-12) : approach <= 8;
+        const bool unsure_slope = parallel ? approach > 4 : absolute(c1) <= e * ray.turn;
         const quad end = parallel ? quad(0) : -c0 / c1;
         if (parallel)
             sets.exact = c0 <= 0 ? everything() : Spans{};

@@ -13,8 +13,8 @@
 // itself, ulps x 2^-53 x terms (solid.hpp), which is more than that only where the gradient all but vanishes: where a
 // torus touches itself, on the ends of a wedge. The answer is decided if inner, exact and outer have the same number of
 // intervals, one in the other; otherwise rounding may decide either way, and the ray is a tie. A half-space is the one
-// unbounded solid: a ray that is parallel to it up to rounding is a tie wherever it runs, unless zeros keep it
-// parallel.
+// unbounded solid: a ray that is parallel to its plane, up to the rounding of their own numbers, stays on its side; one
+// that is a few roundings off is a tie wherever it runs.
 //
 // An end of a decided interval may be off by
 //

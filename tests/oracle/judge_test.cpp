@@ -100,7 +100,9 @@ TEST_CASE("judge: rays in faces, through edges and corners, and past an apex are
     CHECK_FALSE(tie(cone, {{0, 0, 3}, {0, 0, -1}}));
     const Shape half = Half{{{0.6, 0.8, 0}, 0}};
     CHECK(tie(half, {{0, 0, 0}, {0, 0, 1}}));
-    CHECK(tie(half, {{1, 1, 0}, {0.8, -0.6, 0}}));  // parallel up to the rounding of 0.6 and 0.8: may meet far away
+    CHECK_FALSE(tie(half, {{1, 1, 0}, {0.8, -0.6, 0}}));  // parallel up to the rounding of 0.6 and 0.8, outside
+    CHECK(intersect(implicit(half, to_affine(identity)), {{1, 1, 0}, {0.8, -0.6, 0}}).intervals.empty());
+    CHECK(tie(half, {{1, 1, 0}, {0.8, -0.6 - 1e-15, 0}}));  // some roundings off: may meet far away
     CHECK_FALSE(tie(half, {{1, 1, 0}, {0, 0, 1}}));
 }
 
