@@ -107,8 +107,9 @@ void find_plane(const Arb& arb, Outline& outline) {
 /// What is asked of all faces together.
 struct Form {
     std::array<Outline, 6> faces;
+    double size = 0;
     double rounding = 0;  ///< how far vertices may lie from where they are meant to be
-    bool is_concave = false;
+    bool is_flat = false, is_concave = false;
 };
 
 Form form_of(const Arb& arb) {
@@ -126,6 +127,8 @@ Form form_of(const Arb& arb) {
             uneven = std::max(uneven, std::abs(face.above(arb.vertices[face.corners[k]])));
     }
     if (uneven > std::min(most_uneven, most_uneven_relative * size)) return form;
+    form.is_flat = true;
+    form.size = size;
     form.rounding = uneven + 4 * std::numeric_limits<double>::epsilon() * reach;
     for (const Outline& face : form.faces) {
         if (face.count == 0) continue;
@@ -157,6 +160,23 @@ bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
 }  // namespace
 
 bool is_concave(const Arb& arb) { return !plainly_convex(arb) && form_of(arb).is_concave; }
+
+bool is_without_volume(const Arb& arb) {
+    if (plainly_convex(arb)) return false;
+    const Form form = form_of(arb);
+    if (!form.is_flat) return false;
+    // The volumes of pyramids over the faces' triangles, with their signs, and the faces' areas.
+    long double volume = 0, area = 0;
+    for (const Outline& face : form.faces)
+        for (std::size_t i = 2; i < face.count; ++i) {
+            const Vec3 &a = arb.vertices[face.corners[0]], &b = arb.vertices[face.corners[i - 1]];
+            const Wide n = cross(from_to(a, b), from_to(a, arb.vertices[face.corners[i]]));
+            volume += dot(n, from_to(arb.vertices[0], a)) / 6;
+            area += length(n) / 2;
+        }
+    // A tetrahedron has more than 1/6 of its height times its faces.
+    return 8 * std::abs(volume) <= std::max(least_depth_relative * form.size / 4, form.rounding) * area;
+}
 
 std::optional<std::size_t> crossing_face(const Arb& arb) {
     if (plainly_convex(arb)) return std::nullopt;

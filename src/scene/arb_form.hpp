@@ -23,6 +23,10 @@ bool is_concave(const Arb& arb);
 /// Which face of a concave arb crosses itself: an index into arb_face_vertices.
 std::optional<std::size_t> crossing_face(const Arb& arb);
 
+/// Its faces are flat and enclose nothing: they lie on one another, as where vertices are repeated across the arb. For
+/// numbers that are finite.
+bool is_without_volume(const Arb& arb);
+
 /// The outlines of its faces, as numbers of vertices; of equal vertices the first. Faces of two vertices are none.
 std::vector<std::vector<std::uint32_t>> outlines_of(const Arb& arb);
 

@@ -43,16 +43,22 @@ void check_volume(Faults& faults, const Arb& s) {
     for (const Vec3& p : s.vertices) {
         thickness = std::max(thickness, std::abs(dot(unit(normal), p - s.vertices[0])));
     }
-    const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach;
-    const bool flat = thickness <= std::max(1e-12 * size, rounding);
-    if (flat || length(normal) <= size * std::max(1e-12 * size, rounding)) {
+    const double of_size = 1e-12 * size, rounding = 8 * std::numeric_limits<double>::epsilon() * reach;
+    const double least = std::max(of_size, rounding), width = size > 0 ? length(normal) / size : 0;
+    if (thickness > least && width > least) return;
+    if (thickness > rounding && width > rounding) {
+        faults.push_back("it is too thin: its vertices lie within " + rounded_text(std::min(thickness, width)) +
+                         " mm of one plane, and within " + rounded_text(least) +
+                         " mm, 1e-12 of its size, there is no " + "volume");
+    } else {
         faults.push_back("the vertices lie in one plane: there is no volume");
     }
 }
 
 }  // namespace
 
-/// Some triangle of vertices has an area, and some vertex lies off its plane; no face of a surface crosses itself.
+/// Some triangle of vertices has an area, and some vertex lies off its plane; the faces do not lie on one another; no
+/// face of a surface crosses itself.
 Faults FaultsOf::operator()(const Arb& s) const {
     Faults faults;
     for (const Vec3& vertex : s.vertices) {
@@ -60,6 +66,7 @@ Faults FaultsOf::operator()(const Arb& s) const {
     }
     check_volume(faults, s);
     if (!faults.empty()) return faults;
+    if (is_without_volume(s)) return {"its faces lie on one another: there is no volume"};
     if (const std::optional<std::size_t> face = crossing_face(s)) {
         std::string which;
         for (const std::uint32_t vertex : arb_face_vertices[*face]) which += " " + std::to_string(vertex);
