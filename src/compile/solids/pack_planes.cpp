@@ -191,7 +191,10 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i) {
             const PackedChunk::Part& part = chunks[number].parts[i];
             const std::size_t first = own.size();
-            if (const auto thickness = thickness_of_film({plane, plane + part.faces}))
+            // Only of a polyhedron has a wall's plane an inner side: of an outline that is not convex two walls that
+            // look away from each other may lie in one plane. Its ends have one.
+            const bool is_extrude = compiled.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
+            if (const auto thickness = thickness_of_film({plane, plane + (is_extrude ? 2 : part.faces)}))
                 films[number].push_back({number * PackedChunk::size + i, *thickness});
             append(part.faces);
             if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
