@@ -168,6 +168,8 @@ struct Limits {
     static constexpr int shine = 10'000;                      ///< of a finish: with more a highlight is a point
     /// Of a metaball of that method: its fields reach everywhere, so its time grows with their square.
     static constexpr std::uint32_t isopotential_points = 1'000;
+    /// By what part of its diameter an arc's chord may be longer: it is a half circle, its radius had few digits.
+    static constexpr double half_circle = 1e-5;
 };
 
 /// Checks the objects that `objects` (names or paths; none: the top objects) reach: members that do not exist, cycles,

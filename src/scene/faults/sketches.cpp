@@ -11,9 +11,6 @@ namespace csgrt {
 
 namespace {
 
-/// What a chord may pass the diameter by that it was computed to equal.
-constexpr double rounding = 1e-9;
-
 /// The first fault of a curve, or nothing.
 struct CurveFault {
     const std::vector<Sketch::Point>& vertices;
@@ -41,8 +38,11 @@ struct CurveFault {
         const double chord = std::hypot(q.u - p.u, q.v - p.v);
         if (chord == 0) return c.radius < 0 ? " is a circle of radius 0" : " is an arc from a place to itself";
         if (c.radius == 0) return " is an arc of radius 0";
-        if (c.radius > 0 && chord > 2 * c.radius * (1 + rounding)) {
-            return " is an arc of too small a radius: its ends are farther apart than the diameter";
+        if (c.radius > 0 && chord > 2 * c.radius * (1 + Limits::half_circle)) {
+            return " is an arc of too small a radius, " + number_text(c.radius) + ": its ends are " +
+                   number_text(chord) + " apart, which is more than the diameter by " +
+                   rounded_text(chord / (2 * c.radius) - 1) + " of it; at most " + rounded_text(Limits::half_circle) +
+                   " is taken for a half circle";
         }
         return {};
     }

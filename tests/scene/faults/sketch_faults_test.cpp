@@ -72,7 +72,11 @@ TEST_CASE("solid faults: more curves than the limit") {
 
 TEST_CASE("solid faults: arcs") {
     check_sound(extrude(square, {Arc{0, 1, 2, false, false}, Line{1, 0}}));  // half a circle
-    check_fault(extrude(square, {Arc{0, 1, 1.9, false, false}, Line{1, 0}}), "too small a radius");
+    check_sound(extrude(square, {Arc{0, 1, 2 / (1 + 0.99e-5), false, false}, Line{1, 0}}));
+    check_fault(extrude(square, {Arc{0, 1, 2 / (1 + 1.01e-5), false, false}, Line{1, 0}}), "too small a radius");
+    check_fault(extrude(square, {Arc{0, 1, 1.9, false, false}, Line{1, 0}}),
+                "too small a radius, 1.9: its ends are 4 apart, which is more than the diameter by 0.0526316 of it; at "
+                "most 1e-05 is taken for a half circle");
     check_fault(extrude(square, {Arc{0, 1, 0, false, false}, Line{1, 0}}), "an arc of radius 0");
     check_fault(extrude(square, {Arc{1, 1, 3, false, false}}), "from a place to itself");
     check_fault(extrude(square, {Arc{1, 1, -1, false, false}}), "a circle of radius 0");
