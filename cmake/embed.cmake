@@ -1,9 +1,9 @@
-# embed_kernels(FOLDER OUTPUT [FUNCTION]): writes OUTPUT, a C++ file that holds every .h and .cl file under FOLDER as
+# csgrt_embed_kernels(FOLDER OUTPUT [FUNCTION]): writes OUTPUT, a C++ file that holds every .h and .cl file under FOLDER as
 # text. FUNCTION returns the table; its usual name is kernel_files, which src/device/kernel_source.hpp declares. Written
 # anew when one of the files changes, appears or goes.
 # The same file is the script that does it: cmake -DFOLDER=... -DOUTPUT=... -P embed.cmake
 if(NOT CMAKE_SCRIPT_MODE_FILE)
-    function(embed_kernels folder output)
+    function(csgrt_embed_kernels folder output)
         set(function ${ARGN} kernel_files)
         list(GET function 0 function)
         file(GLOB_RECURSE files CONFIGURE_DEPENDS ${folder}/*.h ${folder}/*.cl)

@@ -1,6 +1,6 @@
 # The native device: the files of kernels/, compiled ahead of time by clang's OpenCL C front end.
 #
-# native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without clang, or
+# csgrt_native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without clang, or
 # with CSGRT_NATIVE=OFF, the table is empty. The same file is the script that writes what is compiled: cmake
 # -DFOLDER=... -DOUTPUT=... -DLEVELS=... -P native_kernels.cmake
 #
@@ -57,7 +57,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             "OpenCL alone draws.")
     endif()
 
-    function(native_kernels target)
+    function(csgrt_native_kernels target)
         set(folder ${CMAKE_CURRENT_BINARY_DIR}/native)
         set(sources "")
         foreach(program IN LISTS programs)
@@ -190,7 +190,8 @@ function(entry_of kernel name_out count_out text_out)
     set(${text_out} "__constant uint NATIVE_NAME(${name}_sizes)[] = {${sizes}};
 void NATIVE_NAME(${name})(ulong first_item, ulong end_item, const ulong* arguments) {
     WorkItem* const item = csgrt_native_item();
-${taken}    for (; first_item < end_item; ++first_item) {
+${taken}    const volatile uchar* const stop = item->stop;
+    for (; first_item < end_item && !*stop; ++first_item) {
         item->id = first_item;
         ${name}(${names});
     }

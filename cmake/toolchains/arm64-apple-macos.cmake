@@ -1,7 +1,7 @@
 # macOS on Apple's processors, without Apple's SDK: clang compiles the kernels, which need no header but its own, and
 # nothing else (docs/portability.md).
 #   cmake -G Ninja -S . -B build-macos -DCMAKE_TOOLCHAIN_FILE=cmake/toolchains/arm64-apple-macos.cmake \
-#       -DBUILD_TESTING=OFF
+#       -DCSGRT_TESTS=OFF
 #   cmake --build build-macos --target csgrt_native_kernels
 # Under macOS itself no toolchain file is needed.
 set(CMAKE_SYSTEM_NAME Darwin)

@@ -1,7 +1,7 @@
 # Windows on x86-64, from Linux. Debian, Ubuntu: g++-mingw-w64-x86-64-posix. The library is compiled only
 # (docs/portability.md):
 #   cmake -G Ninja -S . -B build-windows -DCMAKE_TOOLCHAIN_FILE=cmake/toolchains/x86_64-w64-mingw32.cmake \
-#       -DBUILD_TESTING=OFF
+#       -DCSGRT_TESTS=OFF
 #   cmake --build build-windows --target csgrt_core csgrt_native
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)

@@ -35,7 +35,7 @@ public:
 
 private:
     friend class Renderer;
-    void fit(int width, int height, std::vector<std::string> names, std::vector<float> background);
+    void fit(int width, int height, std::vector<std::string> names, std::vector<float> background, const Watch& watch);
 
     Image image_;
     std::vector<float> background_;                 ///< one value a channel

@@ -16,6 +16,8 @@
 
 namespace csgrt {
 
+class Watch;
+
 /// The values of several channels, the same number of floats for each. All are in one piece of memory, one channel
 /// after the other, so that a GPU can copy a part of all channels at once. Copies are deep. Several threads may read at
 /// the same time, and may write to different values.
@@ -47,10 +49,12 @@ public:
     CSGRT_API friend bool operator==(const Channels& a, const Channels& b) noexcept;
 
 private:
+    friend class Framebuffer;
     static constexpr std::align_val_t alignment{64};  // a processor's cache line, which a GPU writes at once
     struct Free {
         void operator()(float* values) const noexcept { ::operator delete(values, alignment); }
     };
+    Channels(std::size_t size, std::span<const float> values, const Watch* watch);
     void allocate(std::size_t count, std::size_t size);
 
     std::size_t count_ = 0, size_ = 0;

@@ -33,9 +33,11 @@ struct Settings {
     /// first.
     bool display_shading = false;
     unsigned threads = 0;  ///< of the reference and of a native device; 0: one for each processor
-    /// Called from time to time during a call with the done fraction, 0 to 1. If it returns false the call stops and
-    /// throws Error (interrupted). The library calls it from its own threads or from the caller's, never from two at
-    /// once. It must not use the object whose call it reports.
+    /// Called with the done fraction, by the thread whose call it is, which waits while others work: with 0 at the
+    /// beginning of a call, then every 20 ms, and with 1 when all is done. If it returns false before that, the call
+    /// ends and throws Error (interrupted): on a processor within 50 ms, but for a single ray that takes longer and
+    /// for a driver that compiles kernels; on a GPU after the kernels that are queued. The answer to the last call
+    /// changes nothing. It must not use the object whose call it reports.
     std::function<bool(double)> progress = {};
 };
 

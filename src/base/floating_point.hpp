@@ -5,7 +5,7 @@
 
 #include <cfenv>
 
-#include "base/progress.hpp"
+#include "base/watch.hpp"
 
 namespace csgrt {
 

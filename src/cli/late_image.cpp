@@ -19,6 +19,7 @@ namespace csgrt {
 namespace {
 
 std::jthread loading;
+bool has_begun = false;  ///< to load
 
 /// In the folder of libcsgrt, which is loaded already: a sanitizer's dlopen does not use this program's search path.
 std::string library_path() {
@@ -32,10 +33,8 @@ std::string library_path() {
 const ImageFunctions& functions() {
     static const ImageFunctions* found = [] {
         const std::string path = library_path();
-        if (loading.joinable())
-            loading.join();
-        else
-            cli::load_leaves_first(path);
+        if (loading.joinable()) loading.join();
+        if (!has_begun) cli::load_leaves_first(path);
         void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
         if (!library) library = dlopen(CSGRT_IMAGE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
         void* symbol = library ? dlsym(library, image_functions_name) : nullptr;
@@ -69,7 +68,9 @@ ImageLoading::ImageLoading(const Command& command) {
             } catch (const std::exception&) {  // no memory: functions() tries again, and reports it
             }
         });
-    } catch (const std::system_error&) {  // no thread: functions() loads them
+        has_begun = true;
+        if (render->repeat > 1) loading.join();  // or the first frames would be timed beside it
+    } catch (const std::system_error&) {         // no thread: functions() loads them
     }
 }
 

@@ -33,6 +33,7 @@ Device::Device(const std::string& choice, std::uint64_t max_memory) : Device(cho
 Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads)
     : info_(device.info), cl_(device.cl), id_(device.id) {
     const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads),
+                                                native::stop_property, reinterpret_cast<cl_context_properties>(&stop_),
                                                 0};
     cl_int code = CL_SUCCESS;
     const BlockedSignals blocked;  // drivers start threads now
@@ -50,6 +51,10 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned thr
     check(cl().GetDeviceInfo(id_, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified, nullptr), "clGetDeviceInfo");
     budget_ = max_memory ? max_memory : default_budget(info_, unified || info_.type == "cpu");
     max_buffer_ = std::min(budget_, info_.max_allocation);
+}
+
+void Device::check_end() const {
+    if (stop_ && *stop_) throw Error(Status::interrupted, "interrupted");
 }
 
 void Device::flush() const { check(cl().Flush(queue()), "clFlush"); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -43,6 +44,13 @@ public:
     class OnQueue;
     static constexpr std::size_t queues = 2;
 
+    /// As long as `stop` is true, no kernel begins: Kernel::launch() throws Error (interrupted), and a native device's
+    /// kernels leave out the work-items that have not begun. Null, as at first: none is to end.
+    void end_by(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
+    bool may_end() const noexcept { return stop_ != nullptr; }
+    /// Throws Error (interrupted) if `stop` is true.
+    void check_end() const;
+
     /// Hands what is queued, but for copies and other queues, to the device without waiting.
     void flush() const;
     void flush_copies() const;  ///< the same of copies
@@ -74,6 +82,7 @@ private:
     std::array<Queue, queues> queues_;
     Queue copy_queue_;
     std::size_t current_ = 0;
+    const std::atomic<bool>* stop_ = nullptr;
     std::uint64_t budget_ = 0, max_buffer_ = 0, allocated_ = 0;
     std::map<std::string, std::uint64_t> allocations_;
 };

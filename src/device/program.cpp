@@ -158,6 +158,7 @@ void Kernel::check_count(std::size_t count) const {
 
 Event Kernel::queue(std::size_t items, std::size_t group) {
     if (items == 0) return {};
+    device_->check_end();
     const std::size_t padded = (items + group - 1) / group * group;
     cl_event event = nullptr;
     const cl_int code = device_->cl().EnqueueNDRangeKernel(device_->queue(), kernel_.get(), 1, nullptr, &padded, &group,
@@ -166,7 +167,9 @@ Event Kernel::queue(std::size_t items, std::size_t group) {
         check(code, "clEnqueueNDRangeKernel (" + name_ + ", " + std::to_string(items) + " items in groups of " +
                         std::to_string(group) + ")");
     }
-    return Event(device_->cl(), event);
+    Event queued(device_->cl(), event);
+    device_->check_end();  // a native device has left items out
+    return queued;
 }
 
 std::size_t Kernel::max_group() const {

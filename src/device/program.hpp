@@ -25,7 +25,7 @@ public:
     /// LocalMemory, or a plain value of the very type that the kernel has (cl_uint, cl_double, a struct of
     /// kernels/shared/layout.h).
     /// Does not wait. 0 items: nothing is queued, and the event is empty.
-    /// Throws Error (device_fault, out_of_memory) that names the kernel.
+    /// Throws Error (device_fault, out_of_memory) that names the kernel, or Error (interrupted), see Device::end_by().
     template <class... Arguments>
     Event launch(std::size_t items, std::size_t group, const Arguments&... arguments) {
         cl_uint position = 0;

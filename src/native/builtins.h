@@ -8,6 +8,7 @@
 // (driver.cpp). ----
 typedef struct {
     size_t id, size;
+    const volatile uchar* stop;  // not 0: no item begins any more
 } WorkItem;
 WorkItem* csgrt_native_item(void) __attribute__((const));
 INLINE size_t get_global_id(uint dimension) { return csgrt_native_item()->id; }

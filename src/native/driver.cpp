@@ -23,7 +23,10 @@ namespace {
 /// Which work-item runs, as builtins.h has it.
 struct WorkItem {
     std::size_t id, size;
+    const std::atomic<bool>* stop;
 };
+static_assert(sizeof(std::atomic<bool>) == 1 && std::atomic<bool>::is_always_lock_free, "kernels read it as a byte");
+const std::atomic<bool> never{false};
 thread_local WorkItem item;
 
 }  // namespace
@@ -37,9 +40,8 @@ namespace {
 // ---- What OpenCL's handles point to ----
 
 struct Context {
-    explicit Context(unsigned threads) : threads_wanted(threads) {}
-
-    unsigned threads_wanted;
+    unsigned threads_wanted = 0;
+    const std::atomic<bool>* const* stop = nullptr;
     std::mutex kernels;        ///< one runs at a time
     std::optional<Pool> pool;  ///< from the first kernel on
 };
@@ -160,11 +162,14 @@ cl_int get_device_info(cl_device_id device, cl_device_info what, std::size_t roo
 
 cl_context create_context(const cl_context_properties* properties, cl_uint, const cl_device_id*,
                           void (*)(const char*, const void*, std::size_t, void*), void*, cl_int* code) {
-    unsigned threads = 0;
-    for (; properties && properties[0] != 0; properties += 2)
-        if (properties[0] == threads_property) threads = static_cast<unsigned>(properties[1]);
+    auto* const context = new Context;
+    for (; properties && properties[0] != 0; properties += 2) {
+        if (properties[0] == threads_property) context->threads_wanted = static_cast<unsigned>(properties[1]);
+        if (properties[0] == stop_property)
+            context->stop = reinterpret_cast<const std::atomic<bool>* const*>(properties[1]);
+    }
     set(code, CL_SUCCESS);
-    return handle_of<cl_context>(new Context(threads));
+    return handle_of<cl_context>(context);
 }
 cl_int release_context(cl_context context) {
     delete &as<Context>(context);
@@ -360,8 +365,10 @@ void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* ar
     const std::size_t groups = items / group;
     const std::size_t each = std::min(groups / (context.pool->threads() * parts_a_thread), most_items / group) + 1;
     std::atomic<std::size_t> next{0};
+    const std::atomic<bool>* const stop = context.stop && *context.stop ? *context.stop : &never;
     const auto work = [&] {
         item.size = items;
+        item.stop = stop;
         for (std::size_t first; (first = next.fetch_add(each, std::memory_order_relaxed)) < groups;)
             kernel.run(first * group, std::min(groups, first + each) * group, arguments);
     };

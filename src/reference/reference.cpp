@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <thread>
 
+#include "base/parallel.hpp"
 #include "compile/flatten/attributes.hpp"
-#include "base/thread.hpp"
 #include "kernel_host/geometry.hpp"
 #include "reference/precision/double_fma.hpp"
 
@@ -46,10 +45,7 @@ Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, st
 }
 
 Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads)
-    : scene_(scene),
-      kernels_(kernels),
-      near_(scene),
-      threads_(threads ? threads : std::max(1u, std::thread::hardware_concurrency())) {
+    : scene_(scene), kernels_(kernels), near_(scene), threads_(thread_count(threads)) {
     regions_of_.resize(scene.solids.size());
     for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
         for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
@@ -167,42 +163,39 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
 
 // Work is handed out in pieces of 64; which thread does a piece changes nothing in its result.
 template <class Work>
-void Reference::parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const {
+void Reference::parallel(std::size_t count, Watch* watch, const Work& work) const {
     constexpr std::size_t piece = 64;
+    if (watch) watch->begin(count);
     std::atomic<std::size_t> next{0};
     std::atomic<bool> stop{false};
     std::exception_ptr failure;
     std::mutex mutex;
-    const auto run = [&](bool reports) {
+    on_threads(threads_, [&] {
         try {
             Claims claims;
             for (;;) {
-                const std::size_t begin = next.fetch_add(piece);
+                const std::size_t begin = next.fetch_add(piece), end = std::min(begin + piece, count);
                 if (begin >= count || stop) return;
-                work(begin, std::min(begin + piece, count), claims, mutex);
-                if (reports && progress && !progress(static_cast<double>(begin) / static_cast<double>(count)))
-                    throw Error(Status::interrupted, "interrupted");
+                work(begin, end, claims, mutex);
+                if (watch) watch->add(end - begin);
             }
         } catch (...) {
             stop = true;
             const std::lock_guard lock(mutex);
             if (!failure) failure = std::current_exception();
         }
-    };
-    std::vector<Thread> others;
-    for (unsigned i = 1; i < threads_; ++i) others.emplace_back([&] { run(false); });
-    run(true);
-    for (Thread& thread : others) thread.join();
+    });
     if (failure) std::rethrow_exception(failure);
 }
 
-std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
+std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watch* watch,
                                              ReferenceCounts& counts) const {
     const kernel::Frame& frame = prepared.frame;
     std::vector<kernel::Pixel> pixels(std::size_t{frame.width} * frame.height);
-    parallel(pixels.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+    parallel(pixels.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;
         for (std::size_t i = begin; i < end; ++i) {
+            if (watch) watch->check();
             const Ray ray = kernels_.camera_ray(frame, static_cast<std::uint32_t>(i % frame.width),
                                                 static_cast<std::uint32_t>(i / frame.width));
             evaluate(frame, ray, claims);
@@ -232,13 +225,13 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, cons
     return pixels;
 }
 
-std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                            const std::function<bool(double)>& progress,
+std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
                                             ReferenceCounts& counts) const {
     std::vector<RayPartitions> results(rays.size());
-    parallel(rays.size(), progress, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+    parallel(rays.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;
         for (std::size_t i = begin; i < end; ++i) {
+            if (watch) watch->check();
             evaluate(prepared.frame, rays[i], claims);
             results[i] = to_partitions(kernels_, prepared.frame, rays[i], claims.partitions);
             sum.hits += claims.ends.size();

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "base/watch.hpp"
 #include "compile/regions/claims.hpp"
 #include "compile/frame.hpp"
 #include "reference/reference_kernels.hpp"
@@ -21,11 +21,10 @@ public:
     /// Both must outlive it.
     Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads);
 
-    /// Pixels by row from the top left. Throws Error (interrupted) if `progress` returns false.
-    std::vector<kernel::Pixel> render(const PreparedFrame& prepared, const std::function<bool(double)>& progress,
-                                      ReferenceCounts& counts) const;
-    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                     const std::function<bool(double)>& progress, ReferenceCounts& counts) const;
+    /// Pixels by row from the top left. Throws Error (interrupted) if `watch`, which may be null, says so.
+    std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts) const;
+    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
+                                     ReferenceCounts& counts) const;
 
 private:
     struct Claims;
@@ -39,7 +38,7 @@ private:
     bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids,
                 std::vector<std::uint8_t>& values) const;
     template <class Work>
-    void parallel(std::size_t count, const std::function<bool(double)>& progress, const Work& work) const;
+    void parallel(std::size_t count, Watch* watch, const Work& work) const;
 
     const CompiledScene& scene_;
     const ReferenceKernels& kernels_;

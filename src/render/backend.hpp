@@ -10,7 +10,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "base/progress.hpp"
+#include "base/watch.hpp"
 #include "compile/frame.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/readback/picture.hpp"
@@ -34,9 +34,9 @@ public:
 
     /// Before each call of render() or shoot() of that kind: waits until somebody has the kernels for it.
     virtual void prepare(bool every_partition) = 0;
-    virtual void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) = 0;
+    virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
     virtual std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                             const Progress& progress) = 0;
+                                             Watch& watch) = 0;
 
     /// Who answers the next call: a device's name, or several.
     virtual std::string name() const = 0;

@@ -4,6 +4,7 @@
 #include <csgrt/image.hpp>
 
 #include "base/parallel.hpp"
+#include "base/watch.hpp"
 
 namespace csgrt {
 
@@ -13,10 +14,13 @@ void Channels::allocate(std::size_t count, std::size_t size) {
     values_.reset(static_cast<float*>(::operator new(count* size * sizeof(float), alignment)));
 }
 
-Channels::Channels(std::size_t size, std::span<const float> values) {
+Channels::Channels(std::size_t size, std::span<const float> values) : Channels(size, values, nullptr) {}
+
+Channels::Channels(std::size_t size, std::span<const float> values, const Watch* watch) {
     constexpr std::size_t piece = 1 << 18;  // floats that are worth a thread
     allocate(values.size(), size);
     for_chunks(count_ * size_, piece, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        if (watch) watch->check();
         for (std::size_t c = first / size_; first < last; ++c) {
             const std::size_t end = std::min(last, (c + 1) * size_);
             std::fill(values_.get() + first, values_.get() + end, values[c]);

@@ -31,7 +31,7 @@ void DeviceBackend::counted(const Call& call) {
     build_ms_in_call_ += drawer_->build_ms() - built_ms;
 }
 
-void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) {
+void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) {
     const std::size_t pixels = std::size_t{frame.frame.width} * frame.frame.height;
     if (std::exchange(memory.drawn_by, drawer_->number()) != drawer_->number())
         memory.registered = nullptr;
@@ -40,7 +40,7 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
     const RenderTarget target{
         .channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
     try {
-        counted([&] { drawer_->render(frame, target, progress, counts_); });
+        counted([&] { drawer_->render(frame, target, &watch, counts_); });
     } catch (...) {  // pixels may be missing of tiles that are covered
         std::ranges::fill(memory.covered, std::uint8_t{1});
         throw;
@@ -48,9 +48,9 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
 }
 
 std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                                const Progress& progress) {
+                                                Watch& watch) {
     std::vector<RayPartitions> answers;
-    counted([&] { answers = drawer_->shoot(frame, rays, progress, counts_); });
+    counted([&] { answers = drawer_->shoot(frame, rays, &watch, counts_); });
     return answers;
 }
 

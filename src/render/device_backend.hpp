@@ -13,9 +13,8 @@ public:
                   double search_ms);
 
     void prepare(bool every_partition) override;
-    void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) override;
-    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                     const Progress& progress) override;
+    void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
+    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, Watch& watch) override;
     std::string name() const override { return group().name(); }
     void report(Statistics& statistics) const override;
     std::string method(bool every_partition) const override;

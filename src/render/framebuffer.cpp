@@ -34,8 +34,9 @@ Image Framebuffer::take() {
     return std::exchange(*this, {}).image_;
 }
 
-/// Makes it a picture of that form; new memory is background.
-void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background) {
+/// Makes it a picture of that form; new memory is background. Throws Error (interrupted) if `watch` says so.
+void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background,
+                      const Watch& watch) {
     const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
     const std::size_t tiles = tiles_along(width) * tiles_along(height);
     const bool fits =  // what was moved away keeps its size, but no tiles
@@ -43,7 +44,7 @@ void Framebuffer::fit(int width, int height, std::vector<std::string> names, std
     if (!fits) {
         *this = {};  // before there is more memory; and whole, if there is none
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        Channels channels(pixels, background);
+        Channels channels(pixels, background, &watch);
         image_.width = width;
         image_.height = height;
         image_.names = std::move(names);

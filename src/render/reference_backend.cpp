@@ -6,12 +6,12 @@
 
 namespace csgrt {
 
-void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) {
+void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) {
     std::ranges::fill(memory.covered, std::uint8_t{1});
     memory.drawn_by = 0;
     memory.registered = nullptr;
     counts_ = {};
-    const std::vector<kernel::Pixel> seen = reference_.render(frame, progress, counts_);
+    const std::vector<kernel::Pixel> seen = reference_.render(frame, &watch, counts_);
     for_chunks(seen.size(), 16'384, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t c = 0; c < memory.sources.size(); ++c)
             for (std::size_t i = first; i < last; ++i) memory.channels[c].pixels[i] = memory.sources[c]->value(seen[i]);
@@ -19,9 +19,9 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
 }
 
 std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                                   const Progress& progress) {
+                                                   Watch& watch) {
     counts_ = {};
-    return reference_.shoot(frame, rays, progress, counts_);
+    return reference_.shoot(frame, rays, &watch, counts_);
 }
 
 void ReferenceBackend::report(Statistics& statistics) const {

@@ -13,9 +13,8 @@ public:
         : reference_(scene, kernels, threads), threads_(threads) {}
 
     void prepare(bool) override {}
-    void render(const PreparedFrame& frame, const FrameMemory& memory, const Progress& progress) override;
-    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                     const Progress& progress) override;
+    void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
+    std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays, Watch& watch) override;
     std::string name() const override { return "reference"; }
     void report(Statistics& statistics) const override;
     std::string method(bool) const override { return "every solid near the ray, unique lists"; }

@@ -74,6 +74,8 @@ struct Renderer::Impl {
     void start_call(std::uint64_t rays, bool every_partition, int width, int height);
     void prepare(bool every_partition);
     void end_call(Clock::time_point start);
+    void render(const View& view, Framebuffer& framebuffer, Watch& watch);
+    std::vector<RayPartitions> shoot(const std::vector<Ray>& rays, Watch& watch);
 };
 
 Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
@@ -186,10 +188,13 @@ Image Renderer::render(const View& view) {
 void Renderer::render(const View& view, Framebuffer& framebuffer) {
     const FloatingPoint own;
     Impl& impl = this->impl();
+    Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) { impl.render(view, framebuffer, watch); });
+}
+
+void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& watch) {
     const auto start = Clock::now();
-    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
-    impl.start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition, view.width,
-                    view.height);
+    const PreparedFrame prepared = prepare_frame(scene, view, statistics.tolerance);
+    start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition, view.width, view.height);
     const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
     std::vector<const ChannelSource*> sources;
     std::vector<std::string> names;
@@ -200,39 +205,44 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
         names.emplace_back(source.name);
         background.push_back(source.value(background_pixel));
     }
-    const auto fit = [&] { framebuffer.fit(view.width, view.height, std::move(names), std::move(background)); };
+    const auto fit = [&] { framebuffer.fit(view.width, view.height, std::move(names), std::move(background), watch); };
     if (framebuffer.covered_.empty()) {
         std::future<void> fitting = start_async(fit);
-        impl.prepare(view.every_partition);  // a compiler leaves most processors idle
+        prepare(view.every_partition);  // a compiler leaves most processors idle
         fitting.get();
     } else {
-        impl.prepare(view.every_partition);
+        prepare(view.every_partition);
         fit();
     }
     Image& image = framebuffer.image_;
     std::vector<ChannelMemory> channels;
     for (std::size_t i = 0; i < sources.size(); ++i)
         channels.push_back({image.channels[i].data(), framebuffer.background_[i]});
-    impl.backend->render(prepared,
-                         {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_},
-                         own.of_host(impl.settings.progress));
-    image.display_values = impl.settings.display_shading;
+    backend->render(prepared, {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_},
+                    watch);
+    image.display_values = settings.display_shading;
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();
-    image.attributes["csgrt:title"] = impl.title;
-    image.attributes["csgrt:precision"] = impl.statistics.precision;
-    image.attributes["csgrt:method"] = impl.statistics.method + ", quartics " + impl.statistics.quartic +
-                                       (impl.settings.contraction ? ", contraction" : "");
-    image.attributes["csgrt:shading"] = impl.settings.display_shading ? "display values" : "linear light";
-    image.attributes["csgrt:scene_hash"] = hexadecimal(impl.scene.hash);
-    if (!impl.scene.warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(impl.scene.warnings);
+    image.attributes["csgrt:title"] = title;
+    image.attributes["csgrt:precision"] = statistics.precision;
+    image.attributes["csgrt:method"] =
+        statistics.method + ", quartics " + statistics.quartic + (settings.contraction ? ", contraction" : "");
+    image.attributes["csgrt:shading"] = settings.display_shading ? "display values" : "linear light";
+    image.attributes["csgrt:scene_hash"] = hexadecimal(scene.hash);
+    if (!scene.warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene.warnings);
     describe_camera(prepared, image);
-    impl.end_call(start);
+    end_call(start);
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     const FloatingPoint own;
     Impl& impl = this->impl();
+    std::vector<RayPartitions> answers;
+    Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) { answers = impl.shoot(rays, watch); });
+    return answers;
+}
+
+std::vector<RayPartitions> Renderer::Impl::shoot(const std::vector<Ray>& rays, Watch& watch) {
     const auto start = Clock::now();
     if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         throw Error(Status::usage, "too many rays in one call: shoot them in parts of less than 2^31");
@@ -242,21 +252,19 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
             throw Error(Status::usage, "ray " + std::to_string(i) + ": " + fault);
         any_scaled = any_scaled || exponent_of(rays[i].direction) != 0;
     }
-    const PreparedFrame prepared =
-        prepare_rays(impl.scene, static_cast<std::uint32_t>(rays.size()), impl.statistics.tolerance);
-    impl.kernels->check(rays);
-    impl.start_call(rays.size(), true, 0, 0);
+    const PreparedFrame prepared = prepare_rays(scene, static_cast<std::uint32_t>(rays.size()), statistics.tolerance);
+    kernels->check(rays);
+    start_call(rays.size(), true, 0, 0);
     std::vector<Ray> scaled;
     if (any_scaled) {
         scaled = rays;
         for (Ray& ray : scaled) ray.direction = times_power(ray.direction, -exponent_of(ray.direction));
     }
-    impl.prepare(true);
-    std::vector<RayPartitions> answers =
-        impl.backend->shoot(prepared, any_scaled ? scaled : rays, own.of_host(impl.settings.progress));
+    prepare(true);
+    std::vector<RayPartitions> answers = backend->shoot(prepared, any_scaled ? scaled : rays, watch);
     for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
         if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
-    impl.end_call(start);
+    end_call(start);
     return answers;
 }
 

@@ -10,5 +10,5 @@ endif()
 # Without optimization, except of the kernels: it compiles sooner and finds the same errors.
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${ROOT} -B ${WORK}
     -DCMAKE_TOOLCHAIN_FILE=${ROOT}/cmake/toolchains/${TOOLCHAIN}.cmake -DCSGRT_NATIVE=ON -DCSGRT_WERROR=ON
-    -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
+    -DCSGRT_TESTS=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
 run(${CMAKE_COMMAND} --build ${WORK} --target ${TARGETS})

@@ -113,8 +113,13 @@ TEST_CASE("a framebuffer with memory for a few rays at a time, and after frames 
     CHECK(few.statistics().batches > 40 * 32 / 64);  // parts of tiles, too
     require_redrawn(few, framebuffer, view_of(renderer, 40, 32, 35, -0.3, 0.5));
     for (int calls = 0; calls < 20; calls += 3) {
-        left = calls;
-        CHECK_THROWS_AS(few.render(view_of(renderer, 40, 32, 10, 0, 2), framebuffer), Error);
+        left = calls;  // at first before anything is drawn, then at some time that the machine decides
+        try {
+            few.render(view_of(renderer, 40, 32, 10, 0, 2), framebuffer);
+            CHECK(calls > 0);
+        } catch (const Error& error) {
+            CHECK(error.status() == Status::interrupted);
+        }
         left = -1;
         require_redrawn(renderer, framebuffer, view_of(renderer, 40, 32, 35, 0.1 * calls, 0.5));
     }

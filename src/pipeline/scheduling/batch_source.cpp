@@ -32,10 +32,10 @@ bool BatchSource::is_empty() {
     return left_.empty();
 }
 
-RayBatch BatchSource::next() {
+RayBatch BatchSource::next(std::uint64_t most) {
     if (is_empty()) return {};
     RayRange& range = left_.back();
-    const std::uint64_t first = std::exchange(range.first, end_of_batch(range, size_, row_));
+    const std::uint64_t first = std::exchange(range.first, end_of_batch(range, std::min(size_, most), row_));
     const RayBatch batch{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(range.first - first)};
     if (range.first == range.end) left_.pop_back();
     return batch;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,8 @@ public:
 
     /// Takes the next range if nothing is left of the last one.
     bool is_empty();
-    /// Of no rays if there are none left.
-    RayBatch next();
+    /// Of no rays if there are none left. `most`: a further limit.
+    RayBatch next(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
     /// The batch is to come again, before all others: the last one first, if there are several.
     void give_back(const RayBatch& batch) { left_.push_back({batch.first, std::uint64_t{batch.first} + batch.rays}); }
     /// The same in smaller batches. Throws Error (out_of_memory), which tells of `budget`, if it is of one ray.

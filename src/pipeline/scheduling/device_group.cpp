@@ -44,14 +44,13 @@ std::uint64_t DeviceGroup::parts_of(const RayCosts& costs, bool every_partition)
 }
 
 // A thread for each device. What the first of the devices threw is thrown, once all threads have stopped.
-void DeviceGroup::share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts,
+void DeviceGroup::share(const RayCosts& costs, bool every_partition, Watch* watch, PipelineCounts& counts,
                         const Work& work) {
     const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
     const bool is_one = parts_each == 1 || rays <= tile_rays;
     const std::size_t devices = is_one ? 1 : pipelines_.size();
     Parts parts(costs, pipelines_.size(), parts_each, !every_partition);
     std::mutex mutex;
-    std::uint64_t done = 0;
     bool is_taken = false;
     std::vector<std::exception_ptr> thrown(devices);
     const TakeRays take = [&] {
@@ -59,16 +58,18 @@ void DeviceGroup::share(const RayCosts& costs, bool every_partition, const Progr
         if (!is_one) return parts.take();
         return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, rays};
     };
-    const auto tell = [&] {
-        if (progress && !progress(rays == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(rays)))
-            throw Error(Status::interrupted, "interrupted");
-    };
+    if (watch) watch->begin(rays);
     const Told told = [&](std::uint64_t more) {
-        const std::lock_guard lock(mutex);
-        done += more;
-        tell();
+        if (watch) watch->add(more);
     };
-    if (rays == 0) tell();
+    struct Following {
+        Following(DeviceGroup& g, const std::atomic<bool>* stop) : group(g) { set(stop); }
+        ~Following() { set(nullptr); }
+        void set(const std::atomic<bool>* stop) {
+            for (const auto& device : group.devices_) device->end_by(stop);
+        }
+        DeviceGroup& group;
+    } following(*this, watch ? watch->stop() : nullptr);
     std::atomic<std::size_t> joined{0};
     on_threads(static_cast<unsigned>(devices), [&] {
         const std::size_t own_number = joined++;
@@ -120,7 +121,7 @@ std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const C
     return registered;
 }
 
-void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
+void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch,
                          PipelineCounts& counts) {
     drop_claims();
     RenderTarget shared = target;  // until nothing more comes into it
@@ -131,7 +132,7 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(RayCosts(prepared.frame, target), prepared.frame.every_partition, progress, counts,
+    share(RayCosts(prepared.frame, target), prepared.frame.every_partition, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
               pipeline.render(prepared, take, shared, told, own);
           });
@@ -139,11 +140,11 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
     for (const auto& pipeline : pipelines_) pipeline->finish();
 }
 
-std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                              const Progress& progress, PipelineCounts& counts) {
+std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
+                                              PipelineCounts& counts) {
     drop_claims();
     std::vector<RayPartitions> answers(rays.size());
-    share(RayCosts(rays.size()), true, progress, counts,
+    share(RayCosts(rays.size()), true, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
               pipeline.shoot(prepared, rays, take, answers.data(), told, own);
           });

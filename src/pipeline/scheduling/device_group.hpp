@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/watch.hpp"
 #include "device/discovery.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/scheduling/pipeline.hpp"
@@ -27,11 +27,10 @@ public:
     /// Registers the memory of a picture that will be drawn into again with those GPUs that have room for it: `pixels`
     /// floats of each channel, one channel after the other. It must outlive what is returned; this group need not.
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
-    /// As Pipeline's. One thread at a time calls `progress`. Throws Error (interrupted), too, if it says not to go on.
-    void render(const PreparedFrame& prepared, const RenderTarget& target, const Progress& progress,
-                PipelineCounts& counts);
-    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays,
-                                     const Progress& progress, PipelineCounts& counts);
+    /// As Pipeline's. Throws Error (interrupted), too, if `watch`, which may be null, says so.
+    void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
+    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
+                                     PipelineCounts& counts);
 
     std::string name() const;            ///< "A", or "A + B"
     std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and what drivers hold of registered memory
@@ -40,8 +39,7 @@ public:
 private:
     using Work = std::function<void(Pipeline&, const TakeRays&, const Told&, PipelineCounts&)>;
     std::uint64_t parts_of(const RayCosts& costs, bool every_partition) const;
-    void share(const RayCosts& costs, bool every_partition, const Progress& progress, PipelineCounts& counts,
-               const Work& work);
+    void share(const RayCosts& costs, bool every_partition, Watch* watch, PipelineCounts& counts, const Work& work);
 
     void drop_claims();
 

@@ -11,7 +11,7 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       synchronous_(
           passes_, [this] { return memory(); }, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
     // A processor shares the host's memory, and has no time beside its kernels.
-    if (readback == Readback::asynchronous || device.info().type != "cpu") asynchronous_.emplace(passes_, synchronous_);
+    if (readback == Readback::asynchronous || !is_processor()) asynchronous_.emplace(passes_, synchronous_);
 }
 
 void Pipeline::prepare(bool every_partition) {
@@ -33,7 +33,9 @@ void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const
     prepare(frame.every_partition);
     const FrameShape shape = shape_of(frame, target.channels.size());
     const std::uint32_t underway = asynchronous_ ? 2 : 1;
-    const auto most = [&] { return plan_memory(shape, memory(), underway, most_rays_).batch_rays; };
+    const std::uint64_t limit =
+        asynchronous_ ? most_rays_ : std::min(most_rays_, most_rays_on_processor(frame.every_partition));
+    const auto most = [&] { return plan_memory(shape, memory(), underway, limit).batch_rays; };
     BatchSource source(take, most, std::uint64_t{shape.tiles_across} * tile_rays);
     const FrameJob job{frame, source, target, told, counts};
     asynchronous_ ? asynchronous_->render(job) : synchronous_.render(job);
@@ -51,8 +53,11 @@ void Pipeline::abandon() noexcept {
 void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take,
                      RayPartitions* answers, const Told& told, PipelineCounts& counts) {
     passes_.cancel_tallies();  // of a call that threw
-    BatchSource source(
-        take, [&] { return rays_fitting(memory(), synchronous_.shot_ray_bytes()); }, 0);
+    const auto most = [&] {
+        const std::uint64_t fitting = rays_fitting(memory(), synchronous_.shot_ray_bytes());
+        return is_processor() ? std::min(fitting, most_rays_on_processor(true)) : fitting;
+    };
+    BatchSource source(take, most, 0);
     synchronous_.shoot(prepared.frame, rays, source, answers, told, counts);
 }
 

@@ -15,6 +15,10 @@ class Pipeline {
 public:
     /// Of a picture's batch: the pixels of one are copied while the next is drawn.
     static constexpr std::uint64_t most_rays_drawn = 1u << 22;
+    /// Of a processor's batch, of a picture or of a list: it takes some 16 to 64 MiB then (docs/performance.md).
+    static constexpr std::uint64_t most_rays_on_processor(bool every_partition) {
+        return every_partition ? 1u << 17 : 1u << 20;
+    }
 
     /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same
     /// precision. `most_rays`: of a picture's batch. All three objects must outlive the pipeline.
@@ -40,6 +44,7 @@ public:
 
 private:
     DeviceMemory memory() const;
+    bool is_processor() const { return passes_.device.info().type == "cpu"; }
 
     DevicePasses passes_;
     std::uint64_t most_rays_;

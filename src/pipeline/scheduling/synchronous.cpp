@@ -1,20 +1,31 @@
 #include "pipeline/scheduling/synchronous.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "base/clock.hpp"
+#include "device/discovery.hpp"
+
 namespace csgrt {
-namespace {
 
-/// Gives each batch of the source to `work`; one that does not fit the memory (false) comes again in halves.
+/// Gives each batch of the source to `work`; one that does not fit the memory (false) comes again in halves. A driver's
+/// kernels do not end when a call is to: there batches are so small that it can end between two.
 template <class Work>
-void for_each_batch(BatchSource& source, const Device& device, const Work& work) {
-    for (RayBatch batch = source.next(); batch.rays > 0; batch = source.next())
+void SynchronousSchedule::for_each_batch(BatchSource& source, const Work& work) {
+    const Device& device = passes_.device;
+    const bool is_paced = device.may_end() && device.info().type == "cpu" && !is_native(device.info());
+    constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
+    for (;;) {
+        const auto start = Clock::now();
+        const RayBatch batch = source.next(is_paced ? pace_.rays() : any);
+        if (batch.rays == 0) return;
+        seen_ = batch.rays;
         if (!work(batch)) source.halve(batch, device.budget());
+        pace_.add(seen_, milliseconds_since(start));
+    }
 }
-
-}  // namespace
 
 SynchronousSchedule::SynchronousSchedule(DevicePasses& passes, std::function<DeviceMemory()> memory,
                                          std::function<bool()> reclaim)
@@ -63,7 +74,7 @@ void SynchronousSchedule::finish_trace(std::uint32_t rays, bool are_tallied, Tim
 }
 
 void SynchronousSchedule::render(const FrameJob& job) {
-    for_each_batch(job.source, passes_.device, [&](const RayBatch& batch) {
+    for_each_batch(job.source, [&](const RayBatch& batch) {
         if (!batch.is_whole_tiles())
             draw_part_of_tile(job, batch);
         else if (!draw_tiles(job, batch))
@@ -100,6 +111,7 @@ bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch)
                   job.target);
     }
     draw_pixels(job, overflown);
+    seen_ = seen.size() * tile_rays;
     return true;
 }
 
@@ -130,7 +142,7 @@ void SynchronousSchedule::draw_pixels(const FrameJob& job, std::span<const std::
     const auto take = [left = RayRange{0, numbers.size()}]() mutable { return std::exchange(left, RayRange{}); };
     BatchSource source(
         take, [&] { return rays_fitting(memory_(), ray_bytes); }, 0);
-    for_each_batch(source, passes_.device, [&](const RayBatch& batch) {
+    for_each_batch(source, [&](const RayBatch& batch) {
         const auto some = numbers.subspan(batch.first, batch.rays);
         kernel::Frame frame = job.frame;
         start_work(frame, Work::pixels, some, pixel_bytes, PartitionMemory::ray_bytes);
@@ -151,7 +163,7 @@ void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> 
                                 RayPartitions* answers, const Told& told, PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();
     picture_.release();
-    for_each_batch(source, passes_.device, [&](const RayBatch& batch) {
+    for_each_batch(source, [&](const RayBatch& batch) {
         const std::span<const Ray> some = rays.subspan(batch.first, batch.rays);
         make_room(batch.rays * shot_ray_bytes(), batch_.rays.size());
         batch_.rays.reserve(batch.rays * passes_.kernels.ray_bytes());
@@ -166,6 +178,7 @@ void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> 
         finish_trace(batch.rays, true, timed, counts);
         const TracedPartitions traced = pass.read(batch.rays);
         for (std::uint32_t i = 0; i < batch.rays; ++i) {
+            passes_.device.check_end();
             const std::vector<ClaimedPartition> claims = claimed_partitions(passes_.scene, traced, i);
             answers[batch.first + i] = to_partitions(passes_.kernels, shot, some[i], claims);
             for (const ClaimedPartition& claim : claims) counts.overlaps += !claim.claimants.empty();

@@ -3,6 +3,7 @@
 // traced.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -10,6 +11,22 @@
 #include "pipeline/scheduling/device_passes.hpp"
 
 namespace csgrt {
+
+/// How many rays a batch has that takes some 10 ms, as far as the last ones tell.
+class Pace {
+public:
+    std::uint64_t rays() const { return rays_; }
+    /// So many rays that see something, or of a list, took so long.
+    void add(std::uint64_t rays, double ms) {
+        if (rays == 0) return;
+        ms_a_ray_ = std::max(ms / static_cast<double>(rays), 0.9 * ms_a_ray_);
+        rays_ = std::clamp(static_cast<std::uint64_t>(10 / ms_a_ray_), std::uint64_t{tile_rays}, 2 * rays_);
+    }
+
+private:
+    double ms_a_ray_ = 0;  ///< of the costliest batch, which is forgotten by and by
+    std::uint64_t rays_ = 1 << 13;
+};
 
 class SynchronousSchedule {
 public:
@@ -30,6 +47,8 @@ public:
     std::uint64_t held() const { return batch_.held() + picture_.size(); }
 
 private:
+    template <class Work>
+    void for_each_batch(BatchSource& source, const Work& work);
     bool draw_tiles(const FrameJob& job, const RayBatch& batch);
     void draw_first_hits(const FrameJob& job, std::uint32_t rays, std::vector<std::uint32_t>& overflown);
     bool draw_partitions(const FrameJob& job, Work work, std::uint32_t rays, bool are_tallied);
@@ -49,6 +68,8 @@ private:
     BatchBuffers batch_;
     Buffer picture_;  ///< of each channel a float a ray
     QueuedUpload frame_upload_, list_upload_;
+    Pace pace_;
+    std::uint64_t seen_ = 0;  ///< rays of the last batch that see something
 };
 
 }  // namespace csgrt
