@@ -1,7 +1,7 @@
-# csgrt_embed_kernels(FOLDER OUTPUT [FUNCTION]): writes OUTPUT, a C++ file that holds every .h and .cl file under FOLDER as
-# text. FUNCTION returns the table; its usual name is kernel_files, which src/device/kernel_source.hpp declares. Written
-# anew when one of the files changes, appears or goes.
-# The same file is the script that does it: cmake -DFOLDER=... -DOUTPUT=... -P embed.cmake
+# csgrt_embed_kernels(FOLDER OUTPUT [FUNCTION]): writes OUTPUT, a C++ file that holds every .h and .cl file under
+# FOLDER as text. FUNCTION returns the table; its usual name is kernel_files, which src/device/kernel_source.hpp
+# declares. Written anew when one of the files changes, appears or goes. The same file is the script that does it:
+# cmake -DFOLDER=... -DOUTPUT=... -P embed.cmake
 if(NOT CMAKE_SCRIPT_MODE_FILE)
     function(csgrt_embed_kernels folder output)
         set(function ${ARGN} kernel_files)

@@ -1,7 +1,7 @@
-# csgrt_find_header_only(NAME HEADER PACKAGE): the interface target csgrt_NAME for a library that is headers alone. Looks in
-# NAME_ROOT, CMAKE_INCLUDE_PATH, CMAKE_PREFIX_PATH and the system; the headers of others raise no warnings here. Package
-# files (find_package(NAME CONFIG)) do not do: a folder with nothing but the headers has none, and those of Debian and
-# Ubuntu name /usr/include, which a cross compiler must not see.
+# csgrt_find_header_only(NAME HEADER PACKAGE): the interface target csgrt_NAME for a library that is headers alone.
+# Looks in NAME_ROOT, CMAKE_INCLUDE_PATH, CMAKE_PREFIX_PATH and the system; the headers of others raise no warnings
+# here. Package files (find_package(NAME CONFIG)) do not do: a folder with nothing but the headers has none, and those
+# of Debian and Ubuntu name /usr/include, which a cross compiler must not see.
 function(csgrt_find_header_only name header package)
     find_path(CSGRT_${name}_INCLUDE_DIR ${header} HINTS ${${name}_ROOT} PATH_SUFFIXES include
               DOC "Folder that holds ${header}")

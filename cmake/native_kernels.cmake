@@ -1,7 +1,7 @@
 # The native device: the files of kernels/, compiled ahead of time by clang's OpenCL C front end.
 #
-# csgrt_native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without clang, or
-# with CSGRT_NATIVE=OFF, the table is empty. The same file is the script that writes what is compiled: cmake
+# csgrt_native_kernels(TARGET): the library TARGET of the objects and their table (src/native/kernels.hpp). Without
+# clang, or with CSGRT_NATIVE=OFF, the table is empty. The same file is the script that writes what is compiled: cmake
 # -DFOLDER=... -DOUTPUT=... -DLEVELS=... -P native_kernels.cmake
 #
 # A program is compiled with all types of solids and all lights: for one scene's own this costs 1 to 5 %. An entry is a
