@@ -13,6 +13,7 @@ namespace {
 constexpr double most_uneven = 0.0005;          // millimetres
 constexpr double most_uneven_relative = 1e-6;   // of the arb's size, if that is less
 constexpr double least_depth_relative = 4e-12;  // above what polyhedron.cpp takes for flat
+constexpr double cancelled = 1e-9;              // of what is summed up
 
 double sum_of_sizes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
@@ -110,6 +111,12 @@ struct Form {
     double size = 0;
     double rounding = 0;  ///< how far vertices may lie from where they are meant to be
     bool is_flat = false, is_concave = false;
+
+    /// How far from a face's plane a vertex may lie that is in it. A face that is a sliver is tilted by the rounding of
+    /// its vertices.
+    double depth_of(const Outline& face) const {
+        return std::max(least_depth_relative * size, 4 * rounding * (1 + size / face.height));
+    }
 };
 
 Form form_of(const Arb& arb) {
@@ -138,9 +145,7 @@ Form form_of(const Arb& arb) {
             above = std::max(above, off);
             below = std::max(below, -off);
         }
-        // A face that is a sliver is tilted by the rounding of its vertices.
-        const double least = std::max(least_depth_relative * size, 4 * form.rounding * (1 + size / face.height));
-        form.is_concave = form.is_concave || std::min(above, below) > least;
+        form.is_concave = form.is_concave || std::min(above, below) > form.depth_of(face);
     }
     return form;
 }
@@ -162,20 +167,41 @@ bool crosses_itself(const Arb& arb, const Outline& face, double rounding) {
 bool is_concave(const Arb& arb) { return !plainly_convex(arb) && form_of(arb).is_concave; }
 
 bool is_without_volume(const Arb& arb) {
-    if (plainly_convex(arb)) return false;
+    // Most arbs need no closer look.
+    const auto& v = arb.vertices;
+    double size = 0, rough = 0;
+    for (std::size_t i = 1; i < 8; ++i) size = std::max(size, sum_of_sizes(v[i] - v[0]));
+    for (const auto& face : arb_face_vertices)
+        for (std::size_t i = 2; i < 4; ++i)
+            rough += dot(v[face[0]] - v[0], cross(v[face[i - 1]] - v[0], v[face[i]] - v[0]));
+    if (std::abs(rough) > 1e-9 * size * size * size) return false;
     const Form form = form_of(arb);
     if (!form.is_flat) return false;
-    // The volumes of pyramids over the faces' triangles, with their signs, and the faces' areas.
-    long double volume = 0, area = 0;
-    for (const Outline& face : form.faces)
-        for (std::size_t i = 2; i < face.count; ++i) {
-            const Vec3 &a = arb.vertices[face.corners[0]], &b = arb.vertices[face.corners[i - 1]];
-            const Wide n = cross(from_to(a, b), from_to(a, arb.vertices[face.corners[i]]));
-            volume += dot(n, from_to(arb.vertices[0], a)) / 6;
-            area += length(n) / 2;
+    // In each plane the areas of the faces, with their signs, and the first moments of them cancel.
+    for (const Outline& plane : form.faces) {
+        if (plane.count == 0) continue;
+        const double near = form.depth_of(plane);
+        long double area = 0, all = 0;
+        Wide moment;
+        for (const Outline& face : form.faces) {
+            const auto lies_off = [&](std::uint32_t i) { return std::abs(plane.above(v[i])) > near; };
+            if (std::any_of(face.corners.begin(), face.corners.begin() + static_cast<std::ptrdiff_t>(face.count),
+                            lies_off))
+                continue;
+            for (std::size_t i = 2; i < face.count; ++i) {
+                const Vec3 &p = v[face.corners[0]], &q = v[face.corners[i - 1]], &r = v[face.corners[i]];
+                const long double part = dot(plane.normal, cross(from_to(p, q), from_to(p, r)));
+                const Wide x = from_to(plane.on, p), y = from_to(plane.on, q), z = from_to(plane.on, r);
+                area += part;
+                all += std::abs(part);
+                moment.x += part * (x.x + y.x + z.x);
+                moment.y += part * (x.y + y.y + z.y);
+                moment.z += part * (x.z + y.z + z.z);
+            }
         }
-    // A tetrahedron has more than 1/6 of its height times its faces.
-    return 8 * std::abs(volume) <= std::max(least_depth_relative * form.size / 4, form.rounding) * area;
+        if (std::abs(area) > cancelled * all || length(moment) > cancelled * all * form.size) return false;
+    }
+    return true;
 }
 
 std::optional<std::size_t> crossing_face(const Arb& arb) {
