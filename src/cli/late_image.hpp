@@ -6,9 +6,10 @@
 namespace csgrt::cli {
 
 /// If `command` writes pictures and names no OpenCL device, the constructor starts a thread that loads the libraries of
-/// csgrt::image. A failure is reported when the first picture is written. The destructor stops the thread and waits
-/// until it has loaded the present library (about a millisecond, 40 at most): exit() must not run while constructors of
-/// libraries do. At most one object at a time.
+/// csgrt::image; if there are several frames, whose time is measured, it waits until they are loaded. A failure is
+/// reported when the first picture is written. The destructor stops the thread and waits until it has loaded the
+/// present library (about a millisecond, 40 at most): exit() must not run while constructors of libraries do. At most
+/// one object at a time.
 class ImageLoading {
 public:
     explicit ImageLoading(const Command& command);

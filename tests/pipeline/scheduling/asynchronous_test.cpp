@@ -4,6 +4,7 @@
 #include "pipeline/scheduling/pipeline.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include <csgrt/renderer.hpp>
 
@@ -441,24 +442,22 @@ TEST_CASE("asynchronous: parts of one device's picture, a frame like the last on
             Image image = lined.renderer.render(view);
             const PreparedFrame prepared = prepare_frame(lined.compiled, view, lined.renderer.statistics().tolerance);
             CHECK((prepared.rays > 0) == sees);
-            double told = 0;
+            Watch watch;
             PipelineCounts counts;
-            pipelines.render(
-                prepared, {.channels = planes, .covered = drawn},
-                [&](double part) {
-                    told = part;
-                    return true;
-                },
-                counts);
-            CHECK(told == 1);
+            pipelines.render(prepared, {.channels = planes, .covered = drawn}, &watch, counts);
+            CHECK(watch.done() == (sees ? 1 : 0));
             if (sees && !every_partition) CHECK(counts.batches > 1);
             Image packed = image;
             packed.channels = pixels;
             test::require_same(packed, image);
             CHECK((std::count(drawn.begin(), drawn.end(), 0) < std::ptrdiff_t(drawn.size())) == sees);
         }
-    CHECK_THROWS_AS(pipelines.render(
-                        prepare_frame(lined.compiled, view), {.channels = planes, .covered = drawn},
-                        [](double) { return false; }, *std::make_unique<PipelineCounts>()),
-                    Error);
+    int calls = 0;
+    const auto end_at_second = [&](double) { return ++calls < 2; };
+    const auto draw_when_ended = [&](Watch& watch) {
+        while (!*watch.stop()) std::this_thread::yield();
+        PipelineCounts counts;
+        pipelines.render(prepare_frame(lined.compiled, view), {.channels = planes, .covered = drawn}, &watch, counts);
+    };
+    CHECK_THROWS_AS(Watch::over(end_at_second, draw_when_ended), Error);
 }
