@@ -18,10 +18,19 @@
 #include "touch.h"
 
 // By how much more than rounding of single numbers a corner of a face may be off the ray, and the ray steps aside.
-#define IN_FACE REAL(4)
-#define ASIDE REAL(16)
+#define IN_FACE REAL(1)
+#define ASIDE REAL(8)
 #define STEEPEST REAL(0x1p60)
 #define SAME_FACE REAL(0x1p-20)  // an angle between two normals below which the faces are one
+
+// local_rounding of each coordinate: that of a thin solid's thickness is far more than the others.
+FN vec3 local_roundings(GLOBAL const parameter* p, ray3 r) {
+    const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
+    const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
+    return make_vec3(ROUNDING * (REAL(1) + real_abs(p[3]) * x + real_abs(p[4]) * y + real_abs(p[5]) * z),
+                     ROUNDING * (REAL(1) + real_abs(p[6]) * x + real_abs(p[7]) * y + real_abs(p[8]) * z),
+                     ROUNDING * (REAL(1) + real_abs(p[9]) * x + real_abs(p[10]) * y + real_abs(p[11]) * z));
+}
 
 typedef struct {
     u32 step;        // 0: the ray is where it is, and the faces in which it runs are looked for; else 1 to 4
@@ -74,7 +83,9 @@ RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_sid
 RARE_FN vec3 aside(beside b, GLOBAL const real* p, ray3 r) {
     const vec3 low = local_normal(p, r, REAL(1), b.low), high = local_normal(p, r, REAL(1), b.high);
     const vec3 way = b.step <= 2 ? add(high, low) : subtract(high, low);
-    const real size = ASIDE * local_rounding(p, r) / real_sqrt(dot3(way, way));
+    const vec3 e = local_roundings(p, r);
+    const real most = real_abs(way.x) * e.x + real_abs(way.y) * e.y + real_abs(way.z) * e.z;
+    const real size = ASIDE * most / dot3(way, way);
     return scale(way, b.step & 1u ? size : -size);
 }
 

@@ -37,7 +37,7 @@ FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* 
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, r, c, b);
 #endif
 #if HAS_SOLID(SOLID_PLATE)
-    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c, b);
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c);
 #endif
     return 0;
 }
@@ -62,7 +62,10 @@ FN u32 collect_flat_faced(Geometry g, SolidRecord solid, u32 index, ray3 r, real
     } while (next_step(&b));
     // The first step's are stored before it is known that the ray runs in a face: their room counts, too.
     for (; count < stored; ++count)
-        if (ends) ends[2 * (size_t)count + 1] = ends[2 * (size_t)count];
+        if (ends) {
+            ends[2 * (size_t)count].surface |= MISSED;
+            ends[2 * (size_t)count + 1] = ends[2 * (size_t)count];
+        }
     return count;
 }
 #endif

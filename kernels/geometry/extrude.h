@@ -85,7 +85,7 @@ RARE_FN beside add_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL con
     const vec3 high0 = seen_along(u, make_vec3(p[0], p[1], REAL(1)));
     const vec3 high1 = seen_along(u, make_vec3(p[2], p[3], REAL(1)));
     vec3 direction;
-    if (in_line(low0, low1, high0, high1, IN_FACE * local_rounding(place, r), &direction))
+    if (in_line(low0, low1, high0, high1, seen_rounding(u, place, r), &direction))
         b = add_local_face(b, normal_of_line(u, direction), place, r);
     return b;
 }

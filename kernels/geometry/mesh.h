@@ -21,10 +21,8 @@ typedef struct {
     u32 triangle;    // the one that was met; NONE: no more
     real t;          // where
     int clockwise;   // its corners, seen along the ray
-    int near;        // the ray has come near a triangle that is seen edge-on, or near an edge (IN_FACES, AT_EDGES)
+    int near;        // the ray has come near a triangle that is seen edge-on
 } mesh_walk;
-#define IN_FACES 0
-#define AT_EDGES 1
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, beside b) {
     mesh_walk w;
@@ -43,15 +41,14 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
     return w;
 }
 
-// `what`: IN_FACES or AT_EDGES.
-FN mesh_walk next_triangle(mesh_walk w, int what) {
+FN mesh_walk next_triangle(mesh_walk w) {
     w.triangle = NONE;
     for (;;) {
         u32 leaf;
         while (w.next < w.last) {
             triangle_hit h = meet_triangle(w.ray, w.vertices, w.triangles + 3 * (size_t)w.next);
             ++w.next;
-            w.near |= (what == AT_EDGES ? h.least : h.most) <= EDGE_ON;
+            w.near |= h.most <= EDGE_ON;
             if (h.hit) {
                 w.triangle = w.next - 1;
                 w.t = h.t;
@@ -66,25 +63,27 @@ FN mesh_walk next_triangle(mesh_walk w, int what) {
     }
 }
 
-// The faces in which the ray runs, or the edges that it passes: known when all that is near has been seen.
-RARE_FN beside find_faces(beside b, Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, int what) {
+// The faces in which the ray runs.
+RARE_FN beside find_faces(beside b, Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {
     mesh_walk w = start_mesh_walk(g, mesh, place, r, b);
     u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
     while (leaf) {
         const u32 first = leaf >> BVH_LEAF_SHIFT, end = first + (leaf & BVH_LEAF_MASK);
         u32 i;
-        for (i = first; i < end; ++i)
-            b = add_triangle(b, w.ray, w.vertices, w.triangles + 3 * (size_t)i, what == AT_EDGES, place, r);
+        for (i = first; i < end; ++i) b = add_triangle(b, w.ray, w.vertices, w.triangles + 3 * (size_t)i, place, r);
         leaf = next_leaf(w.slab, w.nodes, &w.cursor);
     }
     return b;
 }
 
+// Farther along a triangle that the ray all but runs along it has not moved, but slid.
+#define MOST_BACK REAL(0x1p-16)
+
 // Where the ray as it is meets the plane of a triangle that it meets aside of a face.
 RARE_FN real moved_back(mesh_walk w, beside b, GLOBAL const real* place, ray3 r) {
     const vec3 n = triangle_normal(w.vertices, w.triangles + 3 * (size_t)w.triangle);
     const real back = dot3(n, aside(b, place, r)) / dot3(n, w.ray.ray.d);
-    return real_abs(back) * real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d)) < EDGE_ON ? w.t + back : w.t;
+    return real_abs(back) * real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d)) < MOST_BACK ? w.t + back : w.t;
 }
 
 FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
@@ -94,7 +93,7 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* 
     mesh_walk w = start_mesh_walk(g, mesh, place, r, *b);
     for (;;) {
         int leaves;
-        w = next_triangle(w, IN_FACES);
+        w = next_triangle(w);
         if (w.triangle == NONE) break;
         if (b->step) w.t = moved_back(w, *b, place, r);
         // Counterclockwise from outside is clockwise from within, as a ray on its way out sees it.
@@ -102,7 +101,7 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* 
         if (leaves && w.t >= c.t_min) ++outs;
         c = cross(c, w.t, leaves ? w.triangle | LEAVES : w.triangle);
     }
-    if (w.near && !b->step) *b = find_faces(*b, g, mesh, place, r, IN_FACES);
+    if (w.near && !b->step) *b = find_faces(*b, g, mesh, place, r);
     return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 

@@ -46,16 +46,16 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     return s;
 }
 
-FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* extents = g.reals + words[PLATE_EXTENTS];
     GLOBAL const real* place = g.reals + solid.first_real;
-    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, *b);
+    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, not_beside());
     real skin = place[PLATE_SKIN] / real_sqrt(dot3(r.d, r.d));
     u32 count = 0;
     for (;;) {
         span s;
-        w = next_triangle(w, AT_EDGES);
+        w = next_triangle(w);
         if (w.triangle == NONE) break;
         s = plate_span(w, words, extents, skin, c.t_min);
         if (!(s.low < s.high)) continue;
@@ -70,7 +70,6 @@ FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside*
         }
         ++count;
     }
-    if (w.near && !b->step) *b = find_faces(*b, g, words + PLATE_MESH, place, r, AT_EDGES);
     return count;
 }
 

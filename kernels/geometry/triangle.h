@@ -74,7 +74,6 @@ typedef struct {
     real t;         // the ray's own
     int clockwise;  // seen along the ray
     real most;      // of the products of its edges' ends: next to 0, it is seen edge-on, or very small
-    real least;     // next to 0: the ray passes an edge of it, or the line through one
 } triangle_hit;
 
 // Above this no product is next to 0, however far the ray comes from.
@@ -91,7 +90,6 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     int side = side_of_edge(a, b, wc);
     real z;
     h.most = real_max(real_abs(wa), real_max(real_abs(wb), real_abs(wc)));
-    h.least = real_min(real_abs(wa), real_min(real_abs(wb), real_abs(wc)));
     h.hit = side != 0 && side_of_edge(b, c, wa) == side && side_of_edge(c, a, wb) == side;
     h.t = 0;
     h.clockwise = (side > 0) == (turned(u.ray.d, u.axis).z > 0);
@@ -103,6 +101,12 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     return h;
 }
 
+// How far off a corner of a face may be seen that is meant to be in a plane with the ray.
+FN real seen_rounding(upright_ray u, GLOBAL const real* p, ray3 r) {
+    const vec3 e = turned(local_roundings(p, r), u.axis);
+    return IN_FACE * real_max(real_fma(real_abs(u.slope_x), e.z, e.x), real_fma(real_abs(u.slope_y), e.z, e.y));
+}
+
 // The normal of the plane that is seen as a line through the ray.
 FN vec3 normal_of_line(upright_ray u, vec3 direction) {
     const real x = -direction.y, y = direction.x;
@@ -110,22 +114,15 @@ FN vec3 normal_of_line(upright_ray u, vec3 direction) {
     return turned(n, u.axis == 2 ? 2 : 1 - u.axis);
 }
 
-// The planes of these corners in which the ray runs: of the triangle, or of its edges and the ray.
+// The plane of the triangle, if the ray runs in it.
 RARE_FN beside add_triangle(beside b, upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners,
-                            int by_edges, GLOBAL const real* place, ray3 r) {
-    const real rounding = IN_FACE * local_rounding(place, r);
+                            GLOBAL const real* place, ray3 r) {
     const vec3 v0 = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
     const vec3 v1 = upright_vertex(u, vertices + 3 * (size_t)corners[1]);
     const vec3 v2 = upright_vertex(u, vertices + 3 * (size_t)corners[2]);
     vec3 direction;
-    if (!by_edges) {
-        if (in_line(v0, v1, v2, v2, rounding, &direction))
-            b = add_local_face(b, normal_of_line(u, direction), place, r);
-        return b;
-    }
-    if (in_line(v0, v1, v1, v1, rounding, &direction)) b = add_local_face(b, normal_of_line(u, direction), place, r);
-    if (in_line(v1, v2, v2, v2, rounding, &direction)) b = add_local_face(b, normal_of_line(u, direction), place, r);
-    if (in_line(v2, v0, v0, v0, rounding, &direction)) b = add_local_face(b, normal_of_line(u, direction), place, r);
+    if (in_line(v0, v1, v2, v2, seen_rounding(u, place, r), &direction))
+        b = add_local_face(b, normal_of_line(u, direction), place, r);
     return b;
 }
 

@@ -34,8 +34,19 @@ std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint3
         return Vec3{n.x, n.y, n.z};
     };
     std::vector<SolidSegment> segments;
-    for (std::size_t i = 0; i < ends.size(); i += 2)
-        segments.push_back({ends[i].t, ends[i + 1].t, normal(ends[i]), normal(ends[i + 1])});
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+        const kernel::End &in = ends[i], &out = ends[i + 1];
+        // Aside of a face a ray may meet what it meets on the face's other side, too (kernels/geometry/beside.h).
+        if ((in.surface & MISSED) && !(in.t < out.t)) continue;  // room that was not used
+        if ((in.surface & MISSED) && !segments.empty() && in.t <= segments.back().out) {
+            if (out.t > segments.back().out) {
+                segments.back().out = out.t;
+                segments.back().out_normal = normal(out);
+            }
+            continue;
+        }
+        segments.push_back({in.t, out.t, normal(in), normal(out)});
+    }
     return segments;
 }
 

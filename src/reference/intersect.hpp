@@ -13,7 +13,8 @@ struct SolidSegment {
     Vec3 in_normal, out_normal;  ///< unit, outward from the solid
 };
 
-/// All segments of one ray in one solid, in order.
+/// All segments of one ray in one solid, in order. Those that a ray in a face of the solid has beside the face are
+/// joined where they overlap.
 std::vector<SolidSegment> intersect_solid(const CompiledScene& scene, std::uint32_t solid, const Ray& ray,
                                           Quartic quartic = Quartic::bracketed);
 

@@ -151,6 +151,8 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--tolerance MM|surfaces|relative|none",
           "--precision double|single",
           "--wait-for-device",
+          "--transparent",
+          "--display-shading",
           "--air",
           "--strict",
           "--skip-unsupported",

@@ -124,8 +124,8 @@ Frame convert_frame(const kernel::Frame& f, const Frame*) {
         frame.v[i] = static_cast<wide>(f.v[i]);
         frame.w[i] = static_cast<wide>(f.w[i]);
         frame.center[i] = static_cast<wide>(f.center[i]);
-        frame.background[i] = f.background[i];
     }
+    for (int i = 0; i < 4; ++i) frame.background[i] = f.background[i];
     frame.radius = static_cast<wide>(f.radius);
     frame.t_min = static_cast<wide>(f.t_min);
     frame.tolerance = static_cast<wide>(f.tolerance);

@@ -404,37 +404,6 @@ Contacts lone(std::uint64_t seed, int rays) {
     return all;
 }
 
-/// Plates side by side, met through the edge in which they meet.
-Contacts plates(std::uint64_t seed, int rays) {
-    Builder to("plates", seed, 1);
-    Random& random = to.random();
-    Contacts all;
-    for (std::uint32_t number = 0; number < 12; ++number) {
-        const Matrix place = place_of(random, number, seed % 2 == 1);
-        Bot half;
-        half.mode = number % 2 ? Bot::Mode::plate : Bot::Mode::plate_nocos;
-        half.vertices = {{0, -3, 0}, {3, -3, 0}, {3, 3, 0}, {0, 3, 0}, {1, 0.5, 0}};
-        half.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
-        half.thickness.assign(4, 1);
-        half.append.assign(4, 0);
-        const std::string name = to.solid(half);
-        const Matrix other = number % 3 ? Matrix{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}
-                                        : Matrix{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        to.region(leaf(name, place));
-        to.region(leaf(name, place * other));
-        for (int i = 0; i < rays; ++i) {
-            const Vec3 d = i % 2 ? Vec3{0, 0, 1} : unit({0, random.between(-1, 1), random.between(0.5, 1)});
-            all.touches.push_back({moved_point(place, {0, random.between(-2, 2), 0}),
-                                   moved_direction(place, d),
-                                   {2 * number, 2 * number + 1},
-                                   false,
-                                   0.4});
-        }
-    }
-    all.made = to.take();
-    return all;
-}
-
 /// The partition of a ray that holds all from t - along to t + along; -1: there is none, -2: more than one.
 int owner_at(const RayPartitions& answer, double t, double along) {
     int owner = -1;
@@ -579,10 +548,6 @@ TEST_CASE("curved faces in contact: nothing overlaps", "[field]") { require_cont
 TEST_CASE("a ray that touches a lone block along a face or an edge is in it", "[field]") {
     require_contact(lone, 4, 8);
 }
-TEST_CASE("plates side by side: a ray through their common edge is in exactly one", "[field]") {
-    require_contact(plates, 4, 12);
-}
-
 TEST_CASE("pictures of a part and its mirror image, straight on: no background between them", "[field]") {
     for (std::size_t kind = 0; kind < flat_parts; ++kind) {
         Builder to("mirrored", kind, 1);
@@ -613,5 +578,4 @@ TEST_CASE("a thousand rays through each contact", "[.long]") {
     require_contact(edge_contacts, 20, 1000);
     require_contact(curved_contacts, 20, 1000);
     require_contact(lone, 20, 500);
-    require_contact(plates, 20, 1000);
 }
