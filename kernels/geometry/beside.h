@@ -23,15 +23,6 @@
 #define STEEPEST REAL(0x1p60)
 #define SAME_FACE REAL(0x1p-20)  // an angle between two normals below which the faces are one
 
-// local_rounding of each coordinate: that of a thin solid's thickness is far more than the others.
-FN vec3 local_roundings(GLOBAL const parameter* p, ray3 r) {
-    const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
-    const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
-    return make_vec3(ROUNDING * (REAL(1) + real_abs(p[3]) * x + real_abs(p[4]) * y + real_abs(p[5]) * z),
-                     ROUNDING * (REAL(1) + real_abs(p[6]) * x + real_abs(p[7]) * y + real_abs(p[8]) * z),
-                     ROUNDING * (REAL(1) + real_abs(p[9]) * x + real_abs(p[10]) * y + real_abs(p[11]) * z));
-}
-
 typedef struct {
     u32 step;        // 0: the ray is where it is, and the faces in which it runs are looked for; else 1 to 4
     u32 found;       // it runs in some face

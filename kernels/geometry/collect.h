@@ -37,7 +37,7 @@ FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* 
     if (solid.type == SOLID_MESH) return mesh_collect(g, solid, r, c, b);
 #endif
 #if HAS_SOLID(SOLID_PLATE)
-    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c);
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c, b);
 #endif
     return 0;
 }

@@ -21,7 +21,8 @@ typedef struct {
     u32 triangle;    // the one that was met; NONE: no more
     real t;          // where
     int clockwise;   // its corners, seen along the ray
-    int near;        // the ray has come near a triangle that is seen edge-on
+    int near_face;   // the ray has come near a triangle that is seen edge-on,
+    int near_edge;   // near a line through two corners
 } mesh_walk;
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, beside b) {
@@ -37,7 +38,7 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
     w.triangle = NONE;
     w.t = 0;
     w.clockwise = 0;
-    w.near = 0;
+    w.near_face = w.near_edge = 0;
     return w;
 }
 
@@ -48,7 +49,8 @@ FN mesh_walk next_triangle(mesh_walk w) {
         while (w.next < w.last) {
             triangle_hit h = meet_triangle(w.ray, w.vertices, w.triangles + 3 * (size_t)w.next);
             ++w.next;
-            w.near |= h.most <= EDGE_ON;
+            w.near_face |= h.most <= EDGE_ON;
+            w.near_edge |= h.least <= EDGE_ON;
             if (h.hit) {
                 w.triangle = w.next - 1;
                 w.t = h.t;
@@ -76,14 +78,17 @@ RARE_FN beside find_faces(beside b, Geometry g, GLOBAL const u32* mesh, GLOBAL c
     return b;
 }
 
-// Farther along a triangle that the ray all but runs along it has not moved, but slid.
-#define MOST_BACK REAL(0x1p-16)
+// The square of a cosine. Along a triangle with a smaller one the ray would slide back, and off it: the step moves its
+// end less.
+#define SLIDES REAL(0x1p-14)
 
 // Where the ray as it is meets the plane of a triangle that it meets aside of a face.
 RARE_FN real moved_back(mesh_walk w, beside b, GLOBAL const real* place, ray3 r) {
     const vec3 n = triangle_normal(w.vertices, w.triangles + 3 * (size_t)w.triangle);
-    const real back = dot3(n, aside(b, place, r)) / dot3(n, w.ray.ray.d);
-    return real_abs(back) * real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d)) < MOST_BACK ? w.t + back : w.t;
+    const vec3 d = w.ray.ray.d;
+    const real rate = dot3(n, d);
+    if (!(rate * rate > SLIDES * dot3(n, n) * dot3(d, d))) return w.t;
+    return w.t + dot3(n, aside(b, place, r)) / rate;
 }
 
 FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
@@ -101,7 +106,7 @@ FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* 
         if (leaves && w.t >= c.t_min) ++outs;
         c = cross(c, w.t, leaves ? w.triangle | LEAVES : w.triangle);
     }
-    if (w.near && !b->step) *b = find_faces(*b, g, mesh, place, r);
+    if (w.near_face && !b->step) *b = find_faces(*b, g, mesh, place, r);
     return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 

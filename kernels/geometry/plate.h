@@ -5,6 +5,9 @@
 //     triangle | x
 //     ---------|/-----------  behind / cos          cos 1 if the thickness is measured along the ray
 //
+// Seen along the ray, a plate ends at a line: an edge of the surface, or an edge whose two triangles lie to one side of
+// it. A ray through such a line runs in the plane of the ray and the line, as in a flat face of a solid (beside.h).
+//
 // Parameters: those of the place, as triangle.h has them, then SKIN: how thick along the ray, in the world, triangles
 // without thickness are. Words: PLATE_*, then the mesh's. Surfaces as in mesh.h.
 #ifndef CSGRT_GEOMETRY_PLATE_H
@@ -16,7 +19,8 @@
 
 #define PLATE_EXTENTS 0    // where in `reals`: before and behind for each triangle
 #define PLATE_ALONG_RAY 1  // 1: measured along the ray
-#define PLATE_MESH 2
+#define PLATE_ACROSS 2     // where in `words`: for each edge of each triangle the corner of its other triangle, or NONE
+#define PLATE_MESH 3
 
 // Nothing that is met at a smaller cosine has a thickness that makes sense.
 #define PLATE_FLATTEST BY_PRECISION(1e-5, 1e-9, 1e-9)
@@ -46,17 +50,49 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     return s;
 }
 
-FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c) {
+// The planes through the ray and lines at which plates end, if the ray meets these.
+RARE_FN beside find_ends_of_plates(beside b, Geometry g, GLOBAL const u32* words, GLOBAL const real* place, ray3 r) {
+    GLOBAL const u32* across = g.words + words[PLATE_ACROSS];
+    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, b);
+    const real rounding = seen_rounding(w.ray, place, r);
+    u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
+    while (leaf) {
+        const u32 first = leaf >> BVH_LEAF_SHIFT, end = first + (leaf & BVH_LEAF_MASK);
+        u32 i;
+        for (i = 3 * first; i < 3 * end; ++i) {
+            const u32 next = i % 3 == 2 ? i - 2 : i + 1, third = i % 3 == 0 ? i + 2 : i - 1;
+            const vec3 from = upright_vertex(w.ray, w.vertices + 3 * (size_t)w.triangles[i]);
+            const vec3 to = upright_vertex(w.ray, w.vertices + 3 * (size_t)w.triangles[next]);
+            const vec3 own = upright_vertex(w.ray, w.vertices + 3 * (size_t)w.triangles[third]);
+            vec3 direction, other, any;
+            if (!in_line(from, to, to, to, rounding, &direction) || in_line(from, to, own, own, rounding, &any))
+                continue;
+            if (across[i] != NONE) {
+                other = upright_vertex(w.ray, w.vertices + 3 * (size_t)across[i]);
+                if (!in_line(from, to, other, other, rounding, &any) &&
+                    (difference_of_products(direction.x, own.y, direction.y, own.x) > 0) !=
+                        (difference_of_products(direction.x, other.y, direction.y, other.x) > 0))
+                    continue;
+            }
+            b = add_local_face(b, normal_of_line(w.ray, direction), place, r);
+        }
+        leaf = next_leaf(w.slab, w.nodes, &w.cursor);
+    }
+    return b;
+}
+
+FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* extents = g.reals + words[PLATE_EXTENTS];
     GLOBAL const real* place = g.reals + solid.first_real;
-    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, not_beside());
+    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, *b);
     real skin = place[PLATE_SKIN] / real_sqrt(dot3(r.d, r.d));
     u32 count = 0;
     for (;;) {
         span s;
         w = next_triangle(w);
         if (w.triangle == NONE) break;
+        if (b->step) w.t = moved_back(w, *b, place, r);
         s = plate_span(w, words, extents, skin, c.t_min);
         if (!(s.low < s.high)) continue;
         if (c.ends) {
@@ -70,6 +106,7 @@ FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c) {
         }
         ++count;
     }
+    if (w.near_edge && !b->step) *b = find_ends_of_plates(*b, g, words, place, r);
     return count;
 }
 

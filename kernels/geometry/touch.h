@@ -8,17 +8,20 @@
 #include "cone.h"
 #include "plane.h"
 
-// By how much rounding of the ray's and of the solid's numbers may move a point of the local ray, and a surface of
-// about size 1.
-FN real local_rounding(GLOBAL const parameter* p, ray3 r) {
+// By how much rounding of the ray's and of the solid's numbers may move each coordinate of a point of the local ray,
+// and of a surface of about size 1. Across a thin solid it is far more than along it.
+FN vec3 local_roundings(GLOBAL const parameter* p, ray3 r) {
     const vec3 o = narrow(r.o), c = narrow(affine_center(p, r));
     const real x = real_abs(o.x) + real_abs(c.x), y = real_abs(o.y) + real_abs(c.y), z = real_abs(o.z) + real_abs(c.z);
-    real most = 0;
-    int row;
-    for (row = 3; row < 12; row += 3)
-        most = real_max(most,
-                        real_abs(REAL(p[row])) * x + real_abs(REAL(p[row + 1])) * y + real_abs(REAL(p[row + 2])) * z);
-    return ROUNDING * (REAL(1) + most);
+    return make_vec3(
+        ROUNDING * (REAL(1) + real_abs(REAL(p[3])) * x + real_abs(REAL(p[4])) * y + real_abs(REAL(p[5])) * z),
+        ROUNDING * (REAL(1) + real_abs(REAL(p[6])) * x + real_abs(REAL(p[7])) * y + real_abs(REAL(p[8])) * z),
+        ROUNDING * (REAL(1) + real_abs(REAL(p[9])) * x + real_abs(REAL(p[10])) * y + real_abs(REAL(p[11])) * z));
+}
+
+FN real local_rounding(GLOBAL const parameter* p, ray3 r) {
+    const vec3 e = local_roundings(p, r);
+    return real_max(e.x, real_max(e.y, e.z));
 }
 
 // On which side a ray misses what it touches where the outward normal is n.

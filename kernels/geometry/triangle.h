@@ -73,7 +73,9 @@ typedef struct {
     int hit;
     real t;         // the ray's own
     int clockwise;  // seen along the ray
-    real most;      // of the products of its edges' ends: next to 0, it is seen edge-on, or very small
+    // Of the products of its edges' ends. The largest is next to 0: it is seen edge-on, or very small. The least is
+    // next to 0: perhaps an edge is met.
+    real most, least;
 } triangle_hit;
 
 // Above this no product is next to 0, however far the ray comes from.
@@ -90,6 +92,7 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     int side = side_of_edge(a, b, wc);
     real z;
     h.most = real_max(real_abs(wa), real_max(real_abs(wb), real_abs(wc)));
+    h.least = real_min(real_abs(wa), real_min(real_abs(wb), real_abs(wc)));
     h.hit = side != 0 && side_of_edge(b, c, wa) == side && side_of_edge(c, a, wb) == side;
     h.t = 0;
     h.clockwise = (side > 0) == (turned(u.ray.d, u.axis).z > 0);

@@ -1,6 +1,8 @@
 // Solids that triangles make: the triangles and their hierarchy once, in their own space; then each place.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "compile/bvh/build.hpp"
 #include "compile/solids/mesh_faults.hpp"
@@ -92,6 +94,32 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
     return std::move(hierarchy.order);
 }
 
+/// For each edge of each face, from corner k to the next: the third corner of the other face there; NONE unless there
+/// is exactly one.
+std::vector<std::array<std::uint32_t, 3>> across_edges(const Triangles& mesh) {
+    struct Use {
+        std::uint32_t low, high, face, edge;
+    };
+    std::vector<Use> uses;
+    uses.reserve(3 * mesh.faces.size());
+    for (std::uint32_t face = 0; face < mesh.faces.size(); ++face)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(mesh.faces[face][k], mesh.faces[face][(k + 1) % 3]);
+            uses.push_back({low, high, face, k});
+        }
+    const auto ends = [](const Use& use) { return std::pair(use.low, use.high); };
+    std::sort(uses.begin(), uses.end(), [&](const Use& a, const Use& b) { return ends(a) < ends(b); });
+    std::vector<std::array<std::uint32_t, 3>> across(mesh.faces.size(), {NONE, NONE, NONE});
+    for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
+        while (end < uses.size() && ends(uses[end]) == ends(uses[i])) ++end;
+        if (end != i + 2) continue;
+        const auto third = [&](const Use& use) { return mesh.faces[use.face][(use.edge + 2) % 3]; };
+        across[uses[i].face][uses[i].edge] = third(uses[i + 1]);
+        across[uses[i + 1].face][uses[i + 1].edge] = third(uses[i]);
+    }
+    return across;
+}
+
 /// How thick a surface without thickness is seen, millimetres: a weaver that takes ends within the tolerance for one
 /// still keeps it.
 double skin_of(double tolerance) { return tolerance > 0 ? 2 * tolerance : 0.001; }
@@ -149,6 +177,10 @@ void pack_plates(Packer& packer, const Bot& bot) {
         packer.notes = std::move(mended.notes);
         const MeshFrame frame = frame_of(mended.mesh);
         const std::vector<std::uint32_t> order = add_mesh(mended.mesh, frame, scene);
+        const std::vector<std::array<std::uint32_t, 3>> across = across_edges(mended.mesh);
+        scene.words[first_word + PLATE_ACROSS] = static_cast<std::uint32_t>(scene.words.size());
+        for (const std::uint32_t face : order)
+            scene.words.insert(scene.words.end(), across[face].begin(), across[face].end());
         scene.words[first_word + PLATE_EXTENTS] = static_cast<std::uint32_t>(scene.reals.size());
         scene.words[first_word + PLATE_ALONG_RAY] = bot.mode == Bot::Mode::plate_nocos ? 1 : 0;
         for (const std::uint32_t number : order) {

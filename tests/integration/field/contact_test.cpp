@@ -202,6 +202,57 @@ Contacts flat_contacts(std::uint64_t seed, int rays) {
     return all;
 }
 
+/// Plates below z = 0 that end there: a wall, a tent's sides, the wall of a block with its top.
+Bot plates(std::size_t kind, Random& random) {
+    Bot bot;
+    const double lean = kind == 1 ? 1 : 0, top = random.between(-1, 1);
+    if (kind == 2) {
+        bot = block_of_triangles({top, 0, 0});
+    } else {
+        bot.vertices = {{-3, 0, 0}, {top, 0, 0}, {3, 0, 0}, {-3, lean, -4}, {3, lean, -4}};
+        bot.faces = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}};
+    }
+    if (kind == 1) {
+        for (const double x : {-3.0, 3.0}) bot.vertices.push_back({x, -lean, -4});
+        bot.faces.insert(bot.faces.end(), {{0, 1, 5}, {1, 5, 6}, {1, 2, 6}});
+    }
+    bot.mode = random.coin() ? Bot::Mode::plate : Bot::Mode::plate_nocos;
+    bot.thickness.assign(bot.faces.size(), 2);
+    return bot;
+}
+
+/// Plates that meet their mirror images, other plates, or stand on a block.
+Contacts plate_contacts(std::uint64_t seed, int rays) {
+    Builder to("plates", seed, 1);
+    Random& random = to.random();
+    Contacts all;
+    for (std::size_t number = 0; number < 9; ++number) {
+        const Matrix place = place_of(random, number, seed % 2 == 1);
+        const Matrix upside_down = place * Matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+        const std::size_t kind = number % 3;
+        const Bot below = plates(kind, random), other = plates(kind, random);
+        const Tree under = leaf(to.solid(below), place);
+        const Tree over = number < 3   ? leaf(to.solid(below), upside_down)
+                          : number < 6 ? leaf(to.solid(other), upside_down)
+                                       : leaf(to.solid(box({-5, -5, 0}, {5, 5, 4})), place);
+        const bool first = random.coin();
+        to.region(first ? under : over);
+        to.region(first ? over : under);
+        for (int i = 0; i < rays; ++i) {
+            const Vec3 at{random.between(-2.5, 2.5), kind == 2 ? -3.0 : 0.0, 0};
+            const double turn = random.between(0.25, 0.75) * pi;
+            const auto part = static_cast<std::uint32_t>(2 * number);
+            all.touches.push_back({moved_point(place, at),
+                                   moved_direction(place, {std::cos(turn), std::sin(turn), 0}),
+                                   {part, part + 1},
+                                   false,
+                                   0.5});
+        }
+    }
+    all.made = to.take();
+    return all;
+}
+
 /// What a line through points encloses, from z = -2 to 2, as triangles.
 Bot prism(const std::vector<Sketch::Point>& outline) {
     Bot bot;
@@ -443,7 +494,9 @@ void check_contacts(Contacts contacts, ContactTally& tally) {
             RayPartitions& answer = found[2 * i + way];
             renumbering.apply(answer);
             ++tally.rays;
-            if (!answer.overlaps.empty()) count(tally.overlaps);
+            // Not of other pairs: blocks of plates overlap above and below the line where they meet.
+            for (const Overlap& overlap : answer.overlaps)
+                if (overlap.in < back + 20 && overlap.out > back - 20) count(tally.overlaps);
             if (touch.crosses) {
                 // One part ends where the other begins, to the last bit.
                 bool meets = false;
@@ -541,6 +594,9 @@ void require_contact(Contacts (*make)(std::uint64_t, int), std::uint64_t seeds, 
 TEST_CASE("flat faces in contact: a ray in them is in exactly one part", "[field]") {
     require_contact(flat_contacts, flat_parts, 8);
 }
+TEST_CASE("plates that end where others begin: a ray through the line between them is in exactly one", "[field]") {
+    require_contact(plate_contacts, 6, 16);
+}
 TEST_CASE("three cells around an edge: a ray along it is in exactly one", "[field]") {
     require_contact(edge_contacts, 6, 8);
 }
@@ -575,6 +631,7 @@ TEST_CASE("end faces of turns: across the axis a ray in their plane is within th
 TEST_CASE("a thousand rays through each contact", "[.long]") {
     require_turns(60, 1000);
     require_contact(flat_contacts, 2 * flat_parts, 1000);
+    require_contact(plate_contacts, 12, 1000);
     require_contact(edge_contacts, 20, 1000);
     require_contact(curved_contacts, 20, 1000);
     require_contact(lone, 20, 500);

@@ -14,7 +14,7 @@ void check_meshes(std::size_t solids, std::uint64_t seed) {
         const oracle::MeshSurface surface = oracle::parts_of(std::get<Bot>(one.shape)).surface(one.matrix);
         campaign.shoot(one.name, one.shape, one.matrix, surface, random);
     }
-    campaign.check(1);
+    campaign.check();
 }
 
 }  // namespace
