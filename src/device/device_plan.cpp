@@ -1,8 +1,13 @@
 #include "device/device_plan.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <utility>
+
+#ifdef __linux__
+#include <unistd.h>
+#endif
 
 #include "base/letters.hpp"
 #include "base/process.hpp"
@@ -107,6 +112,19 @@ bool looks_for_devices(const Settings& settings) {
     return chosen_native(settings).empty();
 }
 
+#ifdef __linux__
+/// exit() destroys what belongs to the thread that calls it, and then all else, the youngest first: a driver's
+/// libraries before what was there when their loading began. So the main thread waits here.
+struct WaitAtExit {
+    const std::future<void>& looking;
+    unsigned process = process_number();
+    ~WaitAtExit() {
+        if (process == process_number() && looking.wait_for(std::chrono::seconds(0)) != std::future_status::deferred)
+            looking.wait();
+    }
+};
+#endif
+
 }  // namespace
 
 DevicePlan plan_devices(const Settings& settings) {
@@ -124,6 +142,11 @@ void prepare_devices(const Settings& settings) {
         } catch (const std::exception&) {
         }
     })));
+#ifdef __linux__
+    if (gettid() == getpid()) {
+        static thread_local const WaitAtExit wait{*looking};
+    }
+#endif
 }
 
 }  // namespace csgrt

@@ -232,4 +232,11 @@ TEST_CASE("a process ends with its own status while another thread computes", "[
             REQUIRE(status == 7);
         }
     }
+    for (int i = 0; i < 20; ++i)
+        REQUIRE(status_of([&] {
+                    const PretendedGpu gpu(pocl);
+                    prepare_devices();
+                    usleep(static_cast<useconds_t>(2000 * i));
+                    std::exit(7);
+                }) == 7);
 }
