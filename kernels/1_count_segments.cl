@@ -38,21 +38,24 @@ static void intersect_candidate(__global const Frame* frame, Geometry g, __globa
                                 __global const u32* listed, __global Candidate* candidate, __global End* segment) {
     const Candidate c = *candidate;
     SolidRecord solid;
-    ray3 r;
+    ray3 r, own;
     real t_min;
-    u32 count;
+    u32 count, near = 0;
 #ifdef CSGRT_PACKETS  // then 1_packet_candidates.cl has counted some
     if (c.count != UNCOUNTED) return;
 #endif
     if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
     t_min = t_min_along(frame, r);
     solid = g.solids[c.solid];
-    r = ray_at(solid, r);
-    if (!collect_many(g, solid, c.solid, r, t_min, 0, &count)) {
-        const segments h = collect_few(g, solid, r, t_min);
+    own = ray_at(solid, r);
+    if (!collect_many(g, solid, c.solid, own, t_min, 0, &count, &near)) {
+        const segments h = collect_few(g, solid, own, t_min);
         count = h.count;
         if (count == 1) put_segment(segment, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
     }
+#if (CSGRT_SOLIDS) & FLAT_FACED
+    if (near) count = collect_beside(g, solid, c.solid, r, t_min, 0, count);
+#endif
     candidate->count = count;
 }
 

@@ -25,42 +25,63 @@ FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out
 #define FLAT_FACED (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_PLATE)
 
 #if (CSGRT_SOLIDS) & FLAT_FACED
-// The segments of such a solid, as the ray is or aside of faces in which it runs.
-FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+// The segments of such a solid, as the ray is, or aside of faces in which it runs. *near: it may run in some.
+FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
 #if HAS_SOLID(SOLID_EXTRUDE)
-    if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, c, b));
+    if (solid.type == SOLID_EXTRUDE) return close_crossings(extrude_cross(g, solid, r, c, b, near));
 #endif
 #if HAS_SOLID(SOLID_REVOLVE)
-    if (solid.type == SOLID_REVOLVE) return close_crossings(revolve_cross(g, solid, r, c, b));
+    if (solid.type == SOLID_REVOLVE) return close_crossings(revolve_cross(g, solid, r, c, b, near));
 #endif
 #if HAS_SOLID(SOLID_MESH)
-    if (solid.type == SOLID_MESH) return mesh_collect(g, solid, r, c, b);
+    if (solid.type == SOLID_MESH) return mesh_collect(g, solid, r, c, b, near);
 #endif
 #if HAS_SOLID(SOLID_PLATE)
-    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c, b);
+    if (solid.type == SOLID_PLATE) return plate_collect(g, solid, r, c, b, near);
 #endif
     return 0;
 }
 
-// All its segments: those of every step aside, if the ray runs in a face of it. They may overlap.
-FN u32 collect_flat_faced(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
-    beside b = not_beside();
-    u32 count = 0, stored = 0;
-    do {
+// The faces in which the ray runs.
+FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
+#if HAS_SOLID(SOLID_EXTRUDE)
+    if (solid.type == SOLID_EXTRUDE) return find_walls(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_REVOLVE)
+    if (solid.type == SOLID_REVOLVE) return find_flat_lines(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_MESH)
+    if (solid.type == SOLID_MESH) return find_triangles(g, solid, r);
+#endif
+#if HAS_SOLID(SOLID_PLATE)
+    if (solid.type == SOLID_PLATE) return find_ends_of_plates(g, solid, r);
+#endif
+    return not_beside();
+}
+
+// The segments of every step aside, if the ray runs in a face of the solid. They may overlap. `stored`: those of the
+// ray as it is, in whose place they go. All by itself: what is rare costs every ray wherever it stands.
+NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends,
+                               u32 stored) {
+    beside b;
+    u32 count = 0, near;
+    r = ray_at(solid, r);
+    b = find_faces(g, solid, r);
+    if (!b.found) return stored;
+    while (next_step(&b)) {
         crossings c = no_crossings(index, t_min, ends ? ends + 2 * (size_t)count : ends);
         u32 found, i;
         c.missed = missed_beside(b);
-        found = collect_once(g, solid, r, c, &b);
+        found = collect_once(g, solid, r, c, b, &near);
         if (ends && count > 0) {
             for (i = 0; i < found; ++i) {
                 const End in = ends[2 * (count + i)], out = ends[2 * (count + i) + 1];
                 insert_segment(ends, count + i, in, out);
             }
         }
-        stored = b.step ? stored : found;
-        if (b.step || !b.found) count += found;
-    } while (next_step(&b));
-    // The first step's are stored before it is known that the ray runs in a face: their room counts, too.
+        count += found;
+    }
+    // Room for those of the ray as it is was counted before it was known that the ray runs in a face.
     for (; count < stored; ++count)
         if (ends) {
             ends[2 * (size_t)count].surface |= MISSED;
@@ -71,11 +92,13 @@ FN u32 collect_flat_faced(Geometry g, SolidRecord solid, u32 index, ray3 r, real
 #endif
 
 // Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set, see
-// collect().
-FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count) {
+// collect(). *near becomes 1 if the ray may run in faces of it: then collect_beside() is to be asked, too. `r` is the
+// solid's own ray (ray_at).
+FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count,
+                    u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
     if (FLAT_FACED >> solid.type & 1u) {
-        *count = collect_flat_faced(g, solid, index, r, t_min, ends);
+        *count = collect_once(g, solid, r, no_crossings(index, t_min, ends), not_beside(), near);
         return 1;
     }
 #endif
@@ -118,11 +141,16 @@ FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
 // Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
 // two a segment, in then out, by ascending distance. `index` is the solid's own.
 WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+    const ray3 own = ray_at(solid, r);
     segments h;
-    u32 count;
-    r = ray_at(solid, r);
-    if (collect_many(g, solid, index, r, t_min, ends, &count)) return count;
-    h = collect_few(g, solid, r, t_min);
+    u32 count, near = 0;
+    if (collect_many(g, solid, index, own, t_min, ends, &count, &near)) {
+#if (CSGRT_SOLIDS) & FLAT_FACED
+        if (near) return collect_beside(g, solid, index, r, t_min, ends, count);
+#endif
+        return count;
+    }
+    h = collect_few(g, solid, own, t_min);
     if (ends && h.count > 0) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
     if (ends && h.count > 1) put_segment(ends + 2, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
     return h.count;

@@ -71,14 +71,16 @@ FN real distance_at(sketch_ray w, real place) {
     return w.ray.shift + place / w.speed;
 }
 
-// May the ray run in the wall over a line? add_wall looks more closely.
+// May the ray run in the wall over a line? add_wall looks more closely. No more than rounding, however far the ray
+// comes from.
+#define IN_WALL REAL(0x1p-30)
 FN int may_run_in_wall(sketch_ray w, GLOBAL const real* p) {
-    if (real_abs(side_of(w.line, p[0], p[1])) <= EDGE_ON && real_abs(side_of(w.line, p[2], p[3])) <= EDGE_ON) return 1;
+    if (real_abs(side_of(w.line, p[0], p[1])) <= IN_WALL && real_abs(side_of(w.line, p[2], p[3])) <= IN_WALL) return 1;
     return w.steep &&
-           real_abs(difference_of_products(p[2] - p[0], w.line.oy - p[1], p[3] - p[1], w.line.ox - p[0])) <= EDGE_ON;
+           real_abs(difference_of_products(p[2] - p[0], w.line.oy - p[1], p[3] - p[1], w.line.ox - p[0])) <= IN_WALL;
 }
 
-RARE_FN beside add_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL const real* place, ray3 r) {
+FN beside add_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL const real* place, ray3 r) {
     const upright_ray u = make_upright(w.ray);
     const vec3 low0 = seen_along(u, make_vec3(p[0], p[1], REAL(-1)));
     const vec3 low1 = seen_along(u, make_vec3(p[2], p[3], REAL(-1)));
@@ -88,10 +90,6 @@ RARE_FN beside add_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL con
     if (in_line(low0, low1, high0, high1, seen_rounding(u, place, r), &direction))
         b = add_local_face(b, normal_of_line(u, direction), place, r);
     return b;
-}
-
-FN beside find_wall(beside b, sketch_ray w, GLOBAL const real* p, GLOBAL const real* place, ray3 r) {
-    return may_run_in_wall(w, p) ? add_wall(b, w, p, place, r) : b;
 }
 
 FN cut meet_line(cut k, sketch_ray w, GLOBAL const real* p, Geometry g, u32 plane, ray3 r, u32 surface) {
@@ -113,7 +111,7 @@ FN int enters_box(line2 l, BvhNode box) {
     return real_abs(side_of(l, x, y)) <= real_fma(real_abs(l.dx), half_y, real_abs(l.dy) * half_x);
 }
 
-FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, ray3 r, beside* b) {
+FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, ray3 r, u32* near) {
     bvh_cursor c = bvh_over(s.node_count);
     while (bvh_goes_on(c)) {
         const BvhNode node = s.nodes[c.node];
@@ -121,11 +119,28 @@ FN cut meet_lines(cut k, sketch_ray w, Geometry g, SolidRecord solid, sketch s, 
         u32 line = leaf >> BVH_LEAF_SHIFT, end = line + (leaf & BVH_LEAF_MASK);
         for (; line < end; ++line) {
             u32 surface = EXTRUDE_ENDS + line;
-            if (!b->step) *b = find_wall(*b, w, s.lines + 4 * line, g.reals + solid.first_real, r);
+            *near |= (u32)may_run_in_wall(w, s.lines + 4 * line);
             k = meet_line(k, w, s.lines + 4 * line, g, solid.first_plane + surface, r, surface);
         }
     }
     return k;
+}
+
+// The walls in which the ray runs.
+FN beside find_walls(Geometry g, SolidRecord solid, ray3 r) {
+    GLOBAL const real* place = g.reals + solid.first_real;
+    const sketch s = sketch_of(g, solid);
+    const sketch_ray w = to_sketch(to_local(place, r));
+    beside b = not_beside();
+    bvh_cursor c = bvh_over(s.node_count);
+    while (bvh_goes_on(c)) {
+        const BvhNode node = s.nodes[c.node];
+        const u32 leaf = bvh_step(&c, node, enters_box(w.line, node));
+        u32 line = leaf >> BVH_LEAF_SHIFT, end = line + (leaf & BVH_LEAF_MASK);
+        for (; line < end; ++line)
+            if (may_run_in_wall(w, s.lines + 4 * line)) b = add_wall(b, w, s.lines + 4 * line, place, r);
+    }
+    return b;
 }
 
 // The point of a curve on the line, where it changes sides between two parameters.
@@ -161,7 +176,7 @@ FN cut meet_curve(cut k, sketch_ray w, GLOBAL const real* p, u32 degree, u32 sur
     return k;
 }
 
-FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
     GLOBAL const real* p = g.reals + solid.first_real;
     sketch s = sketch_of(g, solid);
     span ends = whole_line();
@@ -172,9 +187,9 @@ FN crossings extrude_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, b
     ends = clip_to_face(ends, g, solid.first_plane + 1, r, 1);
     if (!(ends.low < ends.high)) return c;
     if (ends.touched) c.missed |= missed_of_planes(g, solid.first_plane, EXTRUDE_ENDS, r);
-    w = to_sketch(moved_aside(to_local(p, r), *b, p, r));
+    w = to_sketch(moved_aside(to_local(p, r), b, p, r));
     k = start_cut(ends, 1, c);
-    k = meet_lines(k, w, g, solid, s, r, b);
+    k = meet_lines(k, w, g, solid, s, r, near);
     for (i = 0; i < s.curve_count; ++i)
         k = meet_curve(k, w, g.reals + s.curves[2 * i], s.curves[2 * i + 1], EXTRUDE_ENDS + s.line_count + i);
     return end_cut(k);

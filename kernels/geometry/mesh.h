@@ -15,15 +15,19 @@ typedef struct {
     GLOBAL const BvhNode* nodes;
     GLOBAL const u32* triangles;
     upright_ray ray;
+    real edge_on;  // a product of an edge's ends is next to 0 where rounding may hide that the ends are in one plane
     slab_ray slab;
     bvh_cursor cursor;
     u32 next, last;  // triangles of the leaf that are left
     u32 triangle;    // the one that was met; NONE: no more
     real t;          // where
     int clockwise;   // its corners, seen along the ray
-    int near_face;   // the ray has come near a triangle that is seen edge-on,
-    int near_edge;   // near a line through two corners
+    u32 near_face;   // the ray has come near a triangle that is seen edge-on,
+    u32 near_edge;   // near a line through two corners
 } mesh_walk;
+
+// The product of two points, in their distance from a line through 0: they lie within twice MESH_RADIUS of it.
+#define EDGE_ON (REAL(8) * MESH_RADIUS)
 
 FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r, beside b) {
     mesh_walk w;
@@ -31,6 +35,7 @@ FN mesh_walk start_mesh_walk(Geometry g, GLOBAL const u32* mesh, GLOBAL const re
     w.nodes = g.inner_nodes + mesh[MESH_NODES];
     w.triangles = mesh + MESH_TRIANGLES;
     w.ray = make_upright(moved_aside(to_local(place, r), b, place, r));
+    w.edge_on = EDGE_ON * seen_rounding(w.ray, place, r);
     w.slab = make_slab_ray(offset_from(widen(make_vec3(0, 0, 0)), widen(w.ray.ray.o)), w.ray.ray.d, MESH_RADIUS,
                            -REAL_INFINITY);
     w.cursor = bvh_over(w.slab.hits_sphere ? mesh[MESH_NODE_COUNT] : 0);
@@ -47,10 +52,10 @@ FN mesh_walk next_triangle(mesh_walk w) {
     for (;;) {
         u32 leaf;
         while (w.next < w.last) {
-            triangle_hit h = meet_triangle(w.ray, w.vertices, w.triangles + 3 * (size_t)w.next);
+            triangle_hit h = meet_triangle(w.ray, w.edge_on, w.vertices, w.triangles + 3 * (size_t)w.next);
             ++w.next;
-            w.near_face |= h.most <= EDGE_ON;
-            w.near_edge |= h.least <= EDGE_ON;
+            w.near_face |= (u32)h.edge_on;
+            w.near_edge |= (u32)h.edge;
             if (h.hit) {
                 w.triangle = w.next - 1;
                 w.t = h.t;
@@ -65,9 +70,11 @@ FN mesh_walk next_triangle(mesh_walk w) {
     }
 }
 
-// The faces in which the ray runs.
-RARE_FN beside find_faces(beside b, Geometry g, GLOBAL const u32* mesh, GLOBAL const real* place, ray3 r) {
-    mesh_walk w = start_mesh_walk(g, mesh, place, r, b);
+// The planes of triangles in which the ray runs.
+FN beside find_triangles(Geometry g, SolidRecord solid, ray3 r) {
+    GLOBAL const real* place = g.reals + solid.first_real;
+    beside b = not_beside();
+    mesh_walk w = start_mesh_walk(g, g.words + solid.first_word, place, r, b);
     u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
     while (leaf) {
         const u32 first = leaf >> BVH_LEAF_SHIFT, end = first + (leaf & BVH_LEAF_MASK);
@@ -91,22 +98,22 @@ RARE_FN real moved_back(mesh_walk w, beside b, GLOBAL const real* place, ray3 r)
     return w.t + dot3(n, aside(b, place, r)) / rate;
 }
 
-FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+FN u32 mesh_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
     GLOBAL const u32* mesh = g.words + solid.first_word;
     GLOBAL const real* place = g.reals + solid.first_real;
     u32 facing = mesh[MESH_FACING], outs = 0;
-    mesh_walk w = start_mesh_walk(g, mesh, place, r, *b);
+    mesh_walk w = start_mesh_walk(g, mesh, place, r, b);
     for (;;) {
         int leaves;
         w = next_triangle(w);
         if (w.triangle == NONE) break;
-        if (b->step) w.t = moved_back(w, *b, place, r);
+        if (b.step) w.t = moved_back(w, b, place, r);
         // Counterclockwise from outside is clockwise from within, as a ray on its way out sees it.
         leaves = facing != 0 && (w.clockwise != 0) == (facing == 1);
         if (leaves && w.t >= c.t_min) ++outs;
         c = cross(c, w.t, leaves ? w.triangle | LEAVES : w.triangle);
     }
-    if (w.near_face && !b->step) *b = find_faces(*b, g, mesh, place, r);
+    *near = w.near_face;
     return facing ? close_marked_crossings(c, outs) : close_crossings(c);
 }
 

@@ -51,8 +51,11 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
 }
 
 // The planes through the ray and lines at which plates end, if the ray meets these.
-RARE_FN beside find_ends_of_plates(beside b, Geometry g, GLOBAL const u32* words, GLOBAL const real* place, ray3 r) {
+FN beside find_ends_of_plates(Geometry g, SolidRecord solid, ray3 r) {
+    GLOBAL const u32* words = g.words + solid.first_word;
+    GLOBAL const real* place = g.reals + solid.first_real;
     GLOBAL const u32* across = g.words + words[PLATE_ACROSS];
+    beside b = not_beside();
     mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, b);
     const real rounding = seen_rounding(w.ray, place, r);
     u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
@@ -81,18 +84,18 @@ RARE_FN beside find_ends_of_plates(beside b, Geometry g, GLOBAL const u32* words
     return b;
 }
 
-FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* extents = g.reals + words[PLATE_EXTENTS];
     GLOBAL const real* place = g.reals + solid.first_real;
-    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, *b);
+    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, b);
     real skin = place[PLATE_SKIN] / real_sqrt(dot3(r.d, r.d));
     u32 count = 0;
     for (;;) {
         span s;
         w = next_triangle(w);
         if (w.triangle == NONE) break;
-        if (b->step) w.t = moved_back(w, *b, place, r);
+        if (b.step) w.t = moved_back(w, b, place, r);
         s = plate_span(w, words, extents, skin, c.t_min);
         if (!(s.low < s.high)) continue;
         if (c.ends) {
@@ -106,7 +109,7 @@ FN u32 plate_collect(Geometry g, SolidRecord solid, ray3 r, crossings c, beside*
         }
         ++count;
     }
-    if (w.near_edge && !b->step) *b = find_ends_of_plates(*b, g, words, place, r);
+    *near = w.near_edge;
     return count;
 }
 

@@ -63,20 +63,28 @@ FN span between_faces(Geometry g, u32 index, GLOBAL const real* p, ray3 r, besid
     return s;
 }
 
-FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, beside* b) {
+// The planes of the cut and of lines across the axis in which the ray runs.
+FN beside find_flat_lines(Geometry g, SolidRecord solid, ray3 r) {
+    beside b = not_beside();
+    u32 i;
+    for (i = 0; i < solid.plane_count; ++i) {
+        const PlaneRecord plane = g.planes[g.words[solid.first_plane + i] >> 1];
+        if (runs_in(plane, r)) b = add_plane(b, plane, r);
+    }
+    return b;
+}
+
+FN crossings revolve_cross(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
     GLOBAL const real* p = g.reals + solid.first_real;
     sketch s = sketch_of(g, solid);
-    axis_ray a = around_axis(moved_aside(to_local(p, r), *b, p, r));
+    axis_ray a = around_axis(moved_aside(to_local(p, r), b, p, r));
     u32 faces = revolve_cut_faces(p), i;
     u32 flat_lines = solid.plane_count - faces;
     span between = whole_line();
     cut k;
-    if (!b->step)
-        for (i = 0; i < solid.plane_count; ++i) {
-            const PlaneRecord plane = g.planes[g.words[solid.first_plane + i] >> 1];
-            if (runs_in(plane, r)) *b = add_plane(*b, plane, r);
-        }
-    if (faces) between = between_faces(g, solid.first_plane, p, r, *b);
+    for (i = 0; !b.step && i < solid.plane_count; ++i)
+        *near |= (u32)runs_in(g.planes[g.words[solid.first_plane + i] >> 1], r);
+    if (faces) between = between_faces(g, solid.first_plane, p, r, b);
     if (!faces || nothing_between(g, solid.first_plane)) {
         between.low = REAL_INFINITY;
         between.high = -REAL_INFINITY;

@@ -73,15 +73,12 @@ typedef struct {
     int hit;
     real t;         // the ray's own
     int clockwise;  // seen along the ray
-    // Of the products of its edges' ends. The largest is next to 0: it is seen edge-on, or very small. The least is
-    // next to 0: perhaps an edge is met.
-    real most, least;
+    int edge_on;    // the products of its edges' ends are all next to 0: it is seen edge-on, or very small
+    int edge;       // one of them is
 } triangle_hit;
 
-// Above this no product is next to 0, however far the ray comes from.
-#define EDGE_ON REAL(0x1p-30)
-
-FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL const u32* corners) {
+// `edge_on`: which product is next to 0.
+FN triangle_hit meet_triangle(upright_ray u, real edge_on, GLOBAL const real* vertices, GLOBAL const u32* corners) {
     triangle_hit h;
     vec3 a = upright_vertex(u, vertices + 3 * (size_t)corners[0]);
     vec3 b = upright_vertex(u, vertices + 3 * (size_t)corners[1]);
@@ -91,8 +88,8 @@ FN triangle_hit meet_triangle(upright_ray u, GLOBAL const real* vertices, GLOBAL
     real wb = difference_of_products(c.x, a.y, c.y, a.x);
     int side = side_of_edge(a, b, wc);
     real z;
-    h.most = real_max(real_abs(wa), real_max(real_abs(wb), real_abs(wc)));
-    h.least = real_min(real_abs(wa), real_min(real_abs(wb), real_abs(wc)));
+    h.edge_on = real_abs(wa) <= edge_on && real_abs(wb) <= edge_on && real_abs(wc) <= edge_on;
+    h.edge = real_abs(wa) <= edge_on || real_abs(wb) <= edge_on || real_abs(wc) <= edge_on;
     h.hit = side != 0 && side_of_edge(b, c, wa) == side && side_of_edge(c, a, wb) == side;
     h.t = 0;
     h.clockwise = (side > 0) == (turned(u.ray.d, u.axis).z > 0);
