@@ -7,7 +7,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -24,16 +23,9 @@ inline unsigned thread_count(unsigned wanted) {
 /// Runs work() on this thread and on threads - 1 others, and returns when all have. It must not throw.
 template <class Work>
 void on_threads(unsigned threads, const Work& work) {
-    std::vector<Thread> others;
-    for (unsigned i = 1; i < threads; ++i) {
-        try {
-            others.emplace_back(work);
-        } catch (const std::system_error&) {
-            break;  // no more threads: those that there are do it
-        }
-    }
+    JoinedThreads others;
+    for (unsigned i = 1; i < threads && others.add(work);) ++i;
     work();
-    for (Thread& other : others) other.join();
 }
 
 /// Calls work(first, last, chunk) for chunk = 0, 1, ... of `size` numbers each that make up 0 ... count - 1, in any

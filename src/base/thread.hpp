@@ -2,9 +2,12 @@
 // signals to the host's threads.
 #pragma once
 
+#include <cstddef>
+#include <exception>
 #include <future>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #ifndef _WIN32
 #include <csignal>
@@ -58,6 +61,32 @@ public:
 private:
     template <class Work>
     Thread(Work work, const BlockedSignals&) : std::thread(in_own_state(std::move(work))) {}
+};
+
+/// Threads that are joined at the end, whatever ends it.
+class JoinedThreads {
+public:
+    JoinedThreads() = default;
+    JoinedThreads(const JoinedThreads&) = delete;
+    JoinedThreads& operator=(const JoinedThreads&) = delete;
+    ~JoinedThreads() {
+        for (Thread& thread : threads_) thread.join();
+    }
+
+    /// One more, which does `work`. False where none is to be had: those that there are do the work.
+    template <class Work>
+    bool add(const Work& work) noexcept {
+        try {
+            threads_.emplace_back(work);
+            return true;
+        } catch (const std::exception&) {  // std::system_error, std::bad_alloc
+            return false;
+        }
+    }
+    std::size_t size() const noexcept { return threads_.size(); }
+
+private:
+    std::vector<Thread> threads_;
 };
 
 /// std::async of such threads; by default the work is done by who waits for it where there is no thread to be had.

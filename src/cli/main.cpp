@@ -1,10 +1,13 @@
 // csgrt: the command. Exceptions become a message and an exit status here.
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -34,17 +37,29 @@ void print_error(const std::string& text) {
     std::fprintf(stderr, "csgrt: %serror:%s %s\n", colored ? "\033[1;31m" : "", colored ? "\033[0m" : "", text.c_str());
 }
 
-int fail(Status status, const std::string& text) {
-    print_error(text);
-    return static_cast<int>(status);
-}
-
 int fail(const Error& error) {
     for (const Diagnostic& diagnostic : error.diagnostics()) print_error(format(diagnostic));
     return static_cast<int>(error.status());
 }
 
-constexpr const char* more_memory = "not enough memory: try a smaller --size, fewer objects, or --max-memory";
+/// Allocates nothing.
+int fail_without_memory() noexcept {
+    constexpr std::string_view text =
+        "csgrt: error: not enough memory: try a smaller --size, fewer objects, or --max-memory\n";
+    static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
+    return static_cast<int>(Status::out_of_memory);
+}
+
+/// An allocation may fail where nobody may throw: in a destructor of the JSON library's, say.
+[[noreturn]] void on_terminate() {
+    try {
+        if (std::current_exception()) throw;
+    } catch (const std::bad_alloc&) {
+        _exit(fail_without_memory());
+    } catch (...) {
+    }
+    std::abort();
+}
 
 /// Opens /dev/null, in the wrong direction, for each of the three standard files that is closed. Otherwise the next
 /// file that is opened would get its number, and would be read or written instead of it.
@@ -65,9 +80,9 @@ bool may_use_opencl(const Command& command) {
         command);
 }
 
-int main_status(const std::vector<std::string>& words) {
+int main_status(int argc, char** argv) noexcept {
     try {
-        Command command = parse_arguments(words);
+        Command command = parse_arguments({argv + (argc > 0), argv + argc});
         if (may_use_opencl(command)) ensure_cache_folder();
 #ifdef CSGRT_HAVE_IMAGE
         ImageLoading loading(command);
@@ -76,9 +91,9 @@ int main_status(const std::vector<std::string>& words) {
     } catch (const Error& error) {
         return fail(error);
     } catch (const std::bad_alloc&) {
-        return fail(Status::out_of_memory, more_memory);
+        return fail_without_memory();
     } catch (const std::length_error&) {
-        return fail(Status::out_of_memory, more_memory);
+        return fail_without_memory();
     } catch (const std::exception& error) {
         print_error(std::string("a defect of csgrt, please report it: ") + error.what());
         return defect;
@@ -95,7 +110,9 @@ Status run(const TextArguments& arguments) {
 }  // namespace csgrt::cli
 
 int main(int argc, char** argv) {
+    std::set_terminate(csgrt::cli::on_terminate);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error where it is written
     csgrt::cli::hold_standard_files();
     csgrt::cli::catch_interrupts();
-    return csgrt::cli::end_process(csgrt::cli::main_status({argv + (argc > 0), argv + argc}));
+    return csgrt::cli::end_process(csgrt::cli::main_status(argc, argv));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <string_view>
 
 #include <unistd.h>
@@ -34,17 +35,15 @@ bool on_terminal() {
 }
 
 Progress::Progress(bool wanted) {
-    if (wanted && on_terminal()) thread_ = std::thread(&Progress::redraw_until_done, this);
+    if (wanted && on_terminal()) thread_.add([this] { redraw_until_done(); });
 }
 
 Progress::~Progress() {
-    if (!thread_.joinable()) return;
     {
         std::lock_guard lock(mutex_);
         done_ = true;
     }
     wake_.notify_one();
-    thread_.join();
 }
 
 void Progress::stage(std::string name) {
@@ -67,7 +66,7 @@ void Progress::update(double fraction) {
     fraction_ = range_begin_ + (range_end_ - range_begin_) * std::clamp(fraction, 0.0, 1.0);
 }
 
-void Progress::redraw_until_done() {
+void Progress::redraw_until_done() try {
     std::unique_lock lock(mutex_);
     bool drawn = false;
     while (!wake_.wait_for(lock, interval, [this] { return done_; })) {
@@ -79,6 +78,7 @@ void Progress::redraw_until_done() {
         drawn = slow;
     }
     if (drawn) std::fputs(wipe, stderr);
+} catch (const std::bad_alloc&) {  // the line stays as it is
 }
 
 std::string Progress::line(Clock::time_point now) const {

@@ -5,7 +5,8 @@
 #include <condition_variable>
 #include <mutex>
 #include <string>
-#include <thread>
+
+#include "base/thread.hpp"
 
 namespace csgrt::cli {
 
@@ -40,7 +41,7 @@ private:
     double fraction_ = -1;  ///< negative: unknown
     Clock::time_point start_ = Clock::now();
     bool done_ = false;
-    std::thread thread_;
+    JoinedThreads thread_;  ///< one, or none; joined before the rest goes
 };
 
 /// Standard error is a terminal that understands escape sequences.

@@ -98,8 +98,10 @@ void BinaryCache::keep(const std::string& key, std::string_view binary) const {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) return;
+    const fs::path name = file_of(key);
+    if (fs::exists(name, error) && !fs::is_regular_file(name, error)) return;  // a pipe would wait for its reader
     try {
-        NewFile file(file_of(key).string());
+        NewFile file(name.string());
         file.write(head);
         file.write(binary);
         file.keep();

@@ -58,6 +58,8 @@ public:
     bool is_lenient() const noexcept { return borne_ != nullptr; }
     Place place(std::size_t offset, const std::string& object) const { return source_.place(offset, object); }
     bool empty() const noexcept { return list_.empty(); }
+    /// What comes now is counted and not shown: it needs no suggestion.
+    bool full() const noexcept { return list_.full(); }
     /// The reader gives up: there may be more than it found.
     void stop() noexcept { list_.stop(); }
 

@@ -7,6 +7,7 @@
 
 #include "base/srgb.hpp"
 #include "image/matrix.hpp"
+#include "image/whole.hpp"
 
 namespace csgrt {
 
@@ -102,6 +103,8 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
     check(exr ? output->write_image(OIIO::TypeFloat, floats.data())
               : output->write_image(OIIO::TypeUInt8, colors.data(), 4));
     check(output->close());
+    if (!is_whole(bytes, format, image.height))
+        throw Error(Status::file, name + ": OpenImageIO has left the picture unfinished: is there enough memory?");
     return bytes;
 }
 

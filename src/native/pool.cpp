@@ -1,19 +1,11 @@
 #include "native/pool.hpp"
 
-#include <system_error>
-
 #include "base/parallel.hpp"
 
 namespace csgrt::native {
 
 Pool::Pool(unsigned threads) {
-    for (unsigned i = 1; i < thread_count(threads); ++i) {
-        try {
-            threads_.emplace_back([this] { wait_for_work(); });
-        } catch (const std::system_error&) {
-            break;
-        }
-    }
+    for (unsigned i = 1; i < thread_count(threads) && threads_.add([this] { wait_for_work(); });) ++i;
 }
 
 Pool::~Pool() {
@@ -22,7 +14,6 @@ Pool::~Pool() {
         stop_ = true;
     }
     begun_.notify_all();
-    for (Thread& thread : threads_) thread.join();
 }
 
 void Pool::run(const std::function<void()>& work) {

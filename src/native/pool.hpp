@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
-#include <vector>
 
 #include "base/thread.hpp"
 
@@ -35,7 +34,7 @@ private:
     std::size_t number_ = 0;   ///< of the work: a thread that has done it waits for another number
     std::size_t running_ = 0;  ///< threads that have it yet to do
     bool stop_ = false;
-    std::vector<Thread> threads_;
+    JoinedThreads threads_;  // joined before the rest goes
 };
 
 }  // namespace csgrt::native

@@ -11,6 +11,7 @@ namespace {
 
 /// Longer names are not compared: the distance takes time by the product of the lengths.
 constexpr std::size_t longest = 64;
+constexpr std::size_t most_steps = 2'000'000;  ///< letters compared with letters
 
 /// How many letters must be put in, left out, replaced or swapped with a neighbour, upper and lower case alike.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -40,12 +41,13 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string_v
     if (wrong.size() > longest) return {};
     const std::size_t allowed = std::max<std::size_t>(1, wrong.size() / 3);
     std::string_view best, same_start;
-    std::size_t best_distance = allowed + 1;
+    std::size_t best_distance = allowed + 1, steps = 0;
     for (const std::string_view candidate : known) {
         if (is_start(candidate, wrong) || is_start(wrong, candidate)) same_start = candidate;
         const std::size_t difference =
             std::max(candidate.size(), wrong.size()) - std::min(candidate.size(), wrong.size());
         if (difference >= best_distance) continue;  // the distance is no less than that
+        if ((steps += wrong.size() * candidate.size()) > most_steps) break;
         const std::size_t distance = edit_distance(wrong, candidate);
         // A name of which every letter is replaced is another name, not a misspelt one.
         if (distance < best_distance && distance < std::max(wrong.size(), candidate.size())) {

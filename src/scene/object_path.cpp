@@ -14,6 +14,8 @@ namespace csgrt {
 namespace {
 
 std::string did_you_mean_one_of(std::string_view wrong, std::vector<std::string_view> names) {
+    constexpr std::size_t most = 100'000;
+    names.resize(std::min(names.size(), most));
     std::sort(names.begin(), names.end());  // the answer does not hang on the order of the file
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return did_you_mean(wrong, names);

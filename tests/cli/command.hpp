@@ -108,7 +108,7 @@ inline pid_t start(const std::vector<std::string>& arguments, const std::string&
     const rlimit limit{address_space, address_space};
     if (address_space > 0 && setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
     const rlimit size{file_size, file_size};
-    std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
+    std::signal(SIGXFSZ, SIG_DFL);  // a program that does nothing about it is ended
     if (file_size > 0 && setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(126);
     for (const int file : closed) close(file);
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);

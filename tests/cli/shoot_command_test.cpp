@@ -168,3 +168,11 @@ TEST_CASE("files of rays that cannot be read, and outputs that cannot be written
     CHECK(contains(onto_rays.err, "would overwrite --rays"));
     CHECK(run({"shoot", scene, "--rays", file, "--reference"}, {.output = "/dev/full"}).status == 6);
 }
+
+TEST_CASE("a file of rays that is one line without end is refused while it is read") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const Result result = run({"shoot", folder.write("balls.asc", two_balls), "--rays", "/dev/zero", "--reference"});
+    CHECK(result.status == 6);
+    CHECK(contains(result.err, "/dev/zero: line 1 does not end: no text file"));
+}

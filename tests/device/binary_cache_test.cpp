@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csgrt/csgrt.hpp>
@@ -169,6 +170,19 @@ TEST_CASE("binaries: where nothing can be written nothing is kept, and that is n
         CHECK_FALSE(cache.find("key"));
     }
     CHECK(content_of(folder.path()) == "a file, no folder");
+}
+
+TEST_CASE("binaries: what is no regular file is left alone, and waits for nobody", "[device]") {
+    const Folder folder;
+    const BinaryCache cache(folder.path());
+    cache.keep("key", "binary");
+    REQUIRE(folder.files().size() == 1);
+    const fs::path name = folder.files().front();
+    fs::remove(name);
+    REQUIRE(mkfifo(name.c_str(), 0600) == 0);
+    CHECK(!cache.find("key"));
+    cache.keep("key", "binary");
+    CHECK(fs::is_fifo(name));
 }
 
 TEST_CASE("binaries: the longest unused go when there are too many, and nobody else's files", "[device]") {

@@ -1,6 +1,8 @@
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +17,7 @@
 #include <csgrt/csgrt.hpp>
 
 #include "image/encode.hpp"
+#include "image/whole.hpp"
 
 using namespace csgrt;
 namespace fs = std::filesystem;
@@ -303,4 +306,32 @@ TEST_CASE("\"-\" is standard output", "[image]") {
     write_image(image, folder / "file.png");
     CHECK(content(folder / "out") == content(folder / "file.png"));
     CHECK(!content(folder / "out").empty());
+}
+
+TEST_CASE("a picture that is cut short, or says of a row that it is not there, is not whole", "[image]") {
+    Image image;
+    image.width = 40;
+    image.height = 35;
+    image.names = {"R", "G", "B", "A", "Z"};
+    image.channels = Channels(40 * 35, std::vector<float>(5, 0.5f));
+    for (std::size_t c = 0; c < 5; ++c)
+        for (std::size_t i = 0; i < 40 * 35; ++i) image.channels[c][i] = static_cast<float>(i * (c + 1) % 97) / 97;
+    for (const std::string format : {"exr", "png"}) {
+        INFO(format);
+        std::vector<unsigned char> bytes = encode(image, format, "picture");
+        REQUIRE(is_whole(bytes, format, 35));
+        for (std::size_t size = 0; size < bytes.size(); ++size)
+            if (is_whole(std::span(bytes).first(size), format, 35)) FAIL_CHECK("cut to " << size);
+        if (format == "png") continue;
+        CHECK(!is_whole(bytes, format, 50));
+        // The first block begins behind the table of three, whose first entry says where: 0 if it was never written.
+        for (std::size_t at = 8; at + 32 < bytes.size(); ++at) {
+            std::uint64_t begin;
+            std::memcpy(&begin, &bytes[at], sizeof begin);
+            if (begin != at + 24) continue;
+            std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), 8, 0);
+            break;
+        }
+        CHECK(!is_whole(bytes, format, 35));
+    }
 }

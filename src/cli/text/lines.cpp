@@ -38,6 +38,10 @@ void LineReader::fail(const std::string& what, int code) const {
     throw Error(Status::file, name_ + ": " + what + ": " + (code == EBADF ? "it is closed" : std::strerror(code)));
 }
 
+void LineReader::refuse_endless(int line) const {
+    throw Error(Status::file, name_ + ": line " + std::to_string(line) + " does not end: no text file");
+}
+
 std::size_t LineReader::read(char* into, std::size_t size) {
     // Waits in short turns, because a signal that comes just before a wait does not end it.
     const int file = fileno(file_.get());
@@ -51,9 +55,17 @@ std::size_t LineReader::read(char* into, std::size_t size) {
 void LineReader::spool() {
     File copy(std::tmpfile());
     if (!copy) fail("cannot create a temporary file for it", errno);
-    while (std::size_t count = read(buffer_.data(), buffer_.size()))
+    std::size_t unbroken = 0;
+    int line = 1;
+    while (std::size_t count = read(buffer_.data(), buffer_.size())) {
+        const std::string_view piece(buffer_.data(), count);
+        const std::size_t last = piece.rfind('\n');
+        unbroken = last == piece.npos ? unbroken + count : count - last - 1;
+        line += static_cast<int>(std::count(piece.begin(), piece.end(), '\n'));
+        if (unbroken > longest_line) refuse_endless(line);
         if (std::fwrite(buffer_.data(), 1, count, copy.get()) != count)
             fail("cannot copy it to a temporary file", errno);
+    }
     if (std::fflush(copy.get()) != 0) fail("cannot copy it to a temporary file", errno);
     file_ = std::move(copy);
     rewind();
@@ -80,9 +92,7 @@ bool LineReader::next(std::string_view& line) {
         begin_ = 0;
         end_ = searched = kept;
         if (kept == buffer_.size()) {
-            if (kept >= longest_line)
-                throw Error(Status::file,
-                            name_ + ": line " + std::to_string(line_number_ + 1) + " does not end: no text file");
+            if (kept >= longest_line) refuse_endless(line_number_ + 1);
             buffer_.resize(2 * kept);
         }
         std::size_t count = read(buffer_.data() + end_, buffer_.size() - end_);

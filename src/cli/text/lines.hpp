@@ -44,6 +44,7 @@ private:
     using File = std::unique_ptr<std::FILE, Close>;
 
     [[noreturn]] void fail(const std::string& what, int code) const;
+    [[noreturn]] void refuse_endless(int line) const;
     void spool();
     std::size_t read(char* into, std::size_t size);
 

@@ -92,14 +92,14 @@ std::string JsonNode::name() const {
     return text;
 }
 
-std::size_t JsonNode::choice(const std::vector<std::string_view>& names, std::size_t otherwise) const {
+std::size_t JsonNode::choice(std::span<const std::string_view> names, std::size_t otherwise) const {
     const std::string name = string();
     if (!is_string()) return otherwise;
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     std::string known;
     for (const std::string_view each : names) known += (known.empty() ? "one of " : ", ") + std::string(each);
-    const std::string nearest = did_you_mean(name, names);
+    const std::string nearest = did_you_mean(name, {names.begin(), names.end()});
     fault("'" + name + "' is not known here", nearest.empty() ? known : nearest);
     return otherwise;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,7 +51,7 @@ public:
     std::string string() const;
     std::string name() const;  ///< a string that is not empty
     /// The number of the name that the string is, one of `names`.
-    std::size_t choice(const std::vector<std::string_view>& names, std::size_t otherwise) const;
+    std::size_t choice(std::span<const std::string_view> names, std::size_t otherwise) const;
     Vec3 vector() const;  ///< three numbers, as they stand
     Vec3 color() const;   ///< three numbers from 0 to 1
     /// The same in millimetres.

@@ -6,10 +6,12 @@
 #include <unordered_set>
 
 #include "formats/brlcad/values.hpp"
+#include "formats/json/names.hpp"
 #include "formats/json/node.hpp"
 #include "formats/json/solids.hpp"
 #include "formats/json/tree.hpp"
 #include "scene/nearest.hpp"
+#include "scene/object_path.hpp"
 
 namespace csgrt {
 
@@ -219,7 +221,7 @@ private:
         c.region_id = o["id"].integer(int_min, int_max, c.region_id);
         c.air = o["air"].integer(int_min, int_max, c.air);
         constexpr Fastgen kinds[] = {Fastgen::plate, Fastgen::volume, Fastgen::none};
-        c.fastgen = kinds[o["fastgen"].choice({"plate", "volume"}, 2)];
+        c.fastgen = kinds[o["fastgen"].choice(json_fastgen_kinds, 2)];
         c.material_id = o["material_id"].integer(int_min, int_max, c.material_id);
         c.los = o["los"].integer(int_min, int_max, c.los);
         if (const JsonNode material = o["material"]; material.present()) {
@@ -246,16 +248,15 @@ private:
         const auto found = materials_.find(name);
         if (found != materials_.end()) return found->second;
         std::vector<std::string_view> known;
-        for (const auto& [material, value] : materials_) known.push_back(material);
+        if (!file_.findings.full())
+            for (const auto& [material, value] : materials_) known.push_back(material);
         std::sort(known.begin(), known.end());
         node.fault("there is no material '" + name + "'", did_you_mean(name, known));
         return {};
     }
 
     std::string did_you_mean_object(const std::string& wrong) const {
-        std::vector<std::string_view> known;
-        for (const Object& object : scene_.objects) known.push_back(name_of(object));
-        return did_you_mean(wrong, known);
+        return file_.findings.full() ? std::string() : csgrt::did_you_mean_object(scene_, wrong);
     }
 
     void read_top(const JsonNode& node) {

@@ -208,7 +208,7 @@ private:
             const TreeNode& leg = combination().tree.nodes[node];
             if (scene_.lenient) return leave_out_missing(parent, node, leg);
             add(leg.place, "'" + combination().name + "' uses '" + leg.object + "', which does not exist",
-                did_you_mean_object(scene_, leg.object));
+                found_.full() ? std::string() : did_you_mean_object(scene_, leg.object));
             return;
         }
         Reached& child = objects_[object];

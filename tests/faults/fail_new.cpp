@@ -1,0 +1,40 @@
+// Loaded before a command (LD_PRELOAD): its allocation number CSGRT_FAIL_NEW fails, and with CSGRT_FAIL_NEW_ON all
+// later ones. Allocations are counted from 1, those of all threads together.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<unsigned long> count{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+    static const char* const number = std::getenv("CSGRT_FAIL_NEW");
+    static const unsigned long failing = number ? std::strtoul(number, nullptr, 10) : 0;
+    static const bool on = std::getenv("CSGRT_FAIL_NEW_ON") != nullptr;
+    const unsigned long mine = ++count;
+    if (failing > 0 && (mine == failing || (on && mine > failing))) throw std::bad_alloc();
+    void* const memory = alignment > 0 ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
+                                       : std::malloc(size > 0 ? size : 1);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, 0); }
+void* operator new[](std::size_t size) { return allocate(size, 0); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return allocate(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+    return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
