@@ -24,7 +24,7 @@
 #define SAME_FACE REAL(0x1p-20)  // an angle between two normals below which the faces are one
 
 typedef struct {
-    u32 step;        // 0: the ray is where it is, and the faces in which it runs are looked for; else 1 to 4
+    u32 step;        // 0: the ray is where it is; else 1 to 4
     u32 found;       // it runs in some face
     real low, high;  // n . side / n . above of the outermost
 } beside;

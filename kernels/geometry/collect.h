@@ -60,11 +60,12 @@ FN beside find_faces(Geometry g, SolidRecord solid, ray3 r) {
 }
 
 // The segments of every step aside, if the ray runs in a face of the solid. They may overlap. `stored`: those of the
-// ray as it is, in whose place they go. All by itself: what is rare costs every ray wherever it stands.
+// ray as it is, in whose place they go. `r` is the world's ray. All by itself: what is rare costs every ray wherever it
+// stands.
 NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends,
                                u32 stored) {
     beside b;
-    u32 count = 0, near;
+    u32 count = 0, near = 0;
     r = ray_at(solid, r);
     b = find_faces(g, solid, r);
     if (!b.found) return stored;

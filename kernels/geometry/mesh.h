@@ -70,18 +70,24 @@ FN mesh_walk next_triangle(mesh_walk w) {
     }
 }
 
+// The next triangle of the boxes that the ray meets, whether it meets the triangle or not; NONE: no more.
+FN mesh_walk next_in_box(mesh_walk w) {
+    if (w.next == w.last) {
+        const u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
+        w.next = leaf >> BVH_LEAF_SHIFT;
+        w.last = w.next + (leaf & BVH_LEAF_MASK);
+    }
+    w.triangle = w.next < w.last ? w.next++ : NONE;
+    return w;
+}
+
 // The planes of triangles in which the ray runs.
 FN beside find_triangles(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const real* place = g.reals + solid.first_real;
     beside b = not_beside();
-    mesh_walk w = start_mesh_walk(g, g.words + solid.first_word, place, r, b);
-    u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
-    while (leaf) {
-        const u32 first = leaf >> BVH_LEAF_SHIFT, end = first + (leaf & BVH_LEAF_MASK);
-        u32 i;
-        for (i = first; i < end; ++i) b = add_triangle(b, w.ray, w.vertices, w.triangles + 3 * (size_t)i, place, r);
-        leaf = next_leaf(w.slab, w.nodes, &w.cursor);
-    }
+    mesh_walk w = next_in_box(start_mesh_walk(g, g.words + solid.first_word, place, r, b));
+    for (; w.triangle != NONE; w = next_in_box(w))
+        b = add_triangle(b, w.ray, w.vertices, w.triangles + 3 * (size_t)w.triangle, place, r);
     return b;
 }
 

@@ -50,37 +50,35 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     return s;
 }
 
+// Edge k of the triangle, corner k to the next, if the ray meets it and plates end there, as the ray sees them.
+FN beside add_end_of_plates(beside b, mesh_walk w, u32 k, GLOBAL const u32* across, real rounding,
+                            GLOBAL const real* place, ray3 r) {
+    GLOBAL const u32* corners = w.triangles + 3 * (size_t)w.triangle;
+    const u32 beyond = across[3 * (size_t)w.triangle + k];
+    const vec3 from = upright_vertex(w.ray, w.vertices + 3 * (size_t)corners[k]);
+    const vec3 to = upright_vertex(w.ray, w.vertices + 3 * (size_t)corners[(k + 1) % 3]);
+    const vec3 own = upright_vertex(w.ray, w.vertices + 3 * (size_t)corners[(k + 2) % 3]);
+    vec3 direction, any;
+    if (!in_line(from, to, to, to, rounding, &direction) || in_line(from, to, own, own, rounding, &any)) return b;
+    if (beyond != NONE) {
+        const vec3 other = upright_vertex(w.ray, w.vertices + 3 * (size_t)beyond);
+        const int own_side = difference_of_products(direction.x, own.y, direction.y, own.x) > 0;
+        const int other_side = difference_of_products(direction.x, other.y, direction.y, other.x) > 0;
+        if (own_side != other_side && !in_line(from, to, other, other, rounding, &any)) return b;
+    }
+    return add_local_face(b, normal_of_line(w.ray, direction), place, r);
+}
+
 // The planes through the ray and lines at which plates end, if the ray meets these.
 FN beside find_ends_of_plates(Geometry g, SolidRecord solid, ray3 r) {
     GLOBAL const u32* words = g.words + solid.first_word;
     GLOBAL const real* place = g.reals + solid.first_real;
-    GLOBAL const u32* across = g.words + words[PLATE_ACROSS];
     beside b = not_beside();
-    mesh_walk w = start_mesh_walk(g, words + PLATE_MESH, place, r, b);
+    mesh_walk w = next_in_box(start_mesh_walk(g, words + PLATE_MESH, place, r, b));
     const real rounding = seen_rounding(w.ray, place, r);
-    u32 leaf = next_leaf(w.slab, w.nodes, &w.cursor);
-    while (leaf) {
-        const u32 first = leaf >> BVH_LEAF_SHIFT, end = first + (leaf & BVH_LEAF_MASK);
-        u32 i;
-        for (i = 3 * first; i < 3 * end; ++i) {
-            const u32 next = i % 3 == 2 ? i - 2 : i + 1, third = i % 3 == 0 ? i + 2 : i - 1;
-            const vec3 from = upright_vertex(w.ray, w.vertices + 3 * (size_t)w.triangles[i]);
-            const vec3 to = upright_vertex(w.ray, w.vertices + 3 * (size_t)w.triangles[next]);
-            const vec3 own = upright_vertex(w.ray, w.vertices + 3 * (size_t)w.triangles[third]);
-            vec3 direction, other, any;
-            if (!in_line(from, to, to, to, rounding, &direction) || in_line(from, to, own, own, rounding, &any))
-                continue;
-            if (across[i] != NONE) {
-                other = upright_vertex(w.ray, w.vertices + 3 * (size_t)across[i]);
-                if (!in_line(from, to, other, other, rounding, &any) &&
-                    (difference_of_products(direction.x, own.y, direction.y, own.x) > 0) !=
-                        (difference_of_products(direction.x, other.y, direction.y, other.x) > 0))
-                    continue;
-            }
-            b = add_local_face(b, normal_of_line(w.ray, direction), place, r);
-        }
-        leaf = next_leaf(w.slab, w.nodes, &w.cursor);
-    }
+    u32 k;
+    for (; w.triangle != NONE; w = next_in_box(w))
+        for (k = 0; k < 3; ++k) b = add_end_of_plates(b, w, k, g.words + words[PLATE_ACROSS], rounding, place, r);
     return b;
 }
 

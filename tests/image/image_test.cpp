@@ -316,6 +316,7 @@ TEST_CASE("a picture that is cut short, or says of a row that it is not there, i
     image.channels = Channels(40 * 35, std::vector<float>(5, 0.5f));
     for (std::size_t c = 0; c < 5; ++c)
         for (std::size_t i = 0; i < 40 * 35; ++i) image.channels[c][i] = static_cast<float>(i * (c + 1) % 97) / 97;
+    image.attributes["a name of more than thirty-one letters"] = "a flag of OpenEXR's";
     for (const std::string format : {"exr", "png"}) {
         INFO(format);
         std::vector<unsigned char> bytes = encode(image, format, "picture");
