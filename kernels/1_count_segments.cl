@@ -5,6 +5,7 @@
 //
 //   find candidates -> (scan) -> find candidates, listing them -> count segments -> sum segments -> (scan)
 //
+// A candidate whose ray may run in a face of its solid is counted once more before the sum (2_rays_in_faces.cl).
 // On processors, packets of eight rays list the candidates of a picture's tiles (1_packet_candidates.cl).
 #include "traversal/beam.h"
 #include "traversal/camera.h"
@@ -53,10 +54,7 @@ static void intersect_candidate(__global const Frame* frame, Geometry g, __globa
         count = h.count;
         if (count == 1) put_segment(segment, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
     }
-#if (CSGRT_SOLIDS) & FLAT_FACED
-    if (near) count = collect_beside(g, solid, c.solid, r, t_min, 0, count);
-#endif
-    candidate->count = count;
+    candidate->count = near ? count | IN_SOME_FACE : count;
 }
 
 // If a candidate has one segment, it is kept in `found`, so that kernel 2 need not find it again. Candidates of more
@@ -83,7 +81,7 @@ __kernel void sum_segments(__global const Frame* frame, __global const Candidate
     count.segments = 0;
     for (i = places[id].candidates; i < places[id + 1].candidates; ++i) {
         candidates[i].before = count.segments;
-        count.segments += candidates[i].count;
+        count.segments += candidates[i].count & ~IN_SOME_FACE;
     }
     count.words =
         count.segments > DEEP_SEGMENTS ? deep_words : partitions_of(count.segments) * words_of(count.segments);

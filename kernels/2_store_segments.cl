@@ -15,12 +15,13 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
                   __global u32* bits) {
     const size_t base = 2 * ((size_t)offsets[c.ray].segments + c.before);
     u32 i;
-    if (c.count == 0) return;
+    if (c.count == 0 || c.count & IN_SOME_FACE) return;
 #if (CSGRT_SOLIDS) & ~ONE_SEGMENT
     if (c.count > 1 || (MANY_SEGMENTS >> g.solids[c.solid].type & 1u)) {
         ray3 r;
+        u32 near = 0;  // it is not
         if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
-        collect(g, g.solids[c.solid], c.solid, r, t_min_along(frame, r), ends + base);
+        collect_as_it_is(g, g.solids[c.solid], c.solid, r, t_min_along(frame, r), ends + base, &near);
     } else
 #endif
     {

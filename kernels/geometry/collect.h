@@ -21,9 +21,6 @@ FN void put_segment(ENDS End* ends, u32 solid, real in, u32 in_surface, real out
     ends[1] = e;
 }
 
-// Solids with flat faces whose crossings are found one by one.
-#define FLAT_FACED (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_PLATE)
-
 #if (CSGRT_SOLIDS) & FLAT_FACED
 // The segments of such a solid, as the ray is, or aside of faces in which it runs. *near: it may run in some.
 FN u32 collect_once(Geometry g, SolidRecord solid, ray3 r, crossings c, beside b, u32* near) {
@@ -92,9 +89,8 @@ NOINLINE_FN u32 collect_beside(Geometry g, SolidRecord solid, u32 index, ray3 r,
 }
 #endif
 
-// Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set, see
-// collect(). *near becomes 1 if the ray may run in faces of it: then collect_beside() is to be asked, too. `r` is the
-// solid's own ray (ray_at).
+// Solids of types that may have more than two segments. Returns 0 if this is another; else *count is set. See
+// collect_as_it_is(). `r` is the solid's own ray (ray_at).
 FN u32 collect_many(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* count,
                     u32* near) {
 #if (CSGRT_SOLIDS) & FLAT_FACED
@@ -139,22 +135,28 @@ FN segments collect_few(Geometry g, SolidRecord solid, ray3 r, real t_min) {
     return h;
 }
 
-// Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
-// two a segment, in then out, by ascending distance. `index` is the solid's own.
-WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+// collect(), but that *near becomes 1 if the ray may run in faces of the solid: then collect_beside() is to be asked,
+// too.
+WHOLE_FN u32 collect_as_it_is(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends, u32* near) {
     const ray3 own = ray_at(solid, r);
     segments h;
-    u32 count, near = 0;
-    if (collect_many(g, solid, index, own, t_min, ends, &count, &near)) {
-#if (CSGRT_SOLIDS) & FLAT_FACED
-        if (near) return collect_beside(g, solid, index, r, t_min, ends, count);
-#endif
-        return count;
-    }
+    u32 count;
+    if (collect_many(g, solid, index, own, t_min, ends, &count, near)) return count;
     h = collect_few(g, solid, own, t_min);
     if (ends && h.count > 0) put_segment(ends, index, h.in0, h.in0_surface, h.out0, h.out0_surface);
     if (ends && h.count > 1) put_segment(ends + 2, index, h.in1, h.in1_surface, h.out1, h.out1_surface);
     return h.count;
+}
+
+// Returns how many segments of the solid end at t_min or later. Their ends are stored from `ends` on, unless that is 0:
+// two a segment, in then out, by ascending distance. `index` is the solid's own.
+WHOLE_FN u32 collect(Geometry g, SolidRecord solid, u32 index, ray3 r, real t_min, ENDS End* ends) {
+    u32 near = 0;
+    const u32 count = collect_as_it_is(g, solid, index, r, t_min, ends, &near);
+#if (CSGRT_SOLIDS) & FLAT_FACED
+    if (near) return collect_beside(g, solid, index, r, t_min, ends, count);
+#endif
+    return count;
 }
 
 #endif

@@ -29,6 +29,8 @@
 #define SOLID_REVOLVE 15
 #define SOLID_CROSSED_ETO 16  // an eto whose ellipse reaches across the axis
 #define SOLID_TYPES 17
+// Types of which a ray that may run in a flat face is answered a step aside of it (geometry/beside.h).
+#define FLAT_FACED (1u << SOLID_EXTRUDE | 1u << SOLID_REVOLVE | 1u << SOLID_MESH | 1u << SOLID_PLATE)
 
 // How a revolve is cut.
 #define REVOLVE_WHOLE 0  // not at all
@@ -322,7 +324,8 @@ typedef struct {
     u32 ray, solid;
     u32 count, before;  // segments: how many, and how many the ray has of earlier candidates
 } Candidate;
-#define UNCOUNTED COUNT_MAX  // of the segments, yet
+#define UNCOUNTED COUNT_MAX       // of the segments, yet
+#define IN_SOME_FACE 0x80000000u  // set in `count`: the ray may run in a face of the solid (2_rays_in_faces.cl)
 
 // 2 store segments -> weave: two ends a segment, in then out, by ascending solid.
 typedef struct {

@@ -39,8 +39,9 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
             CHECK(program.has_own_declarations());
             CHECK(program.build_log() == "");
         };
-        std::vector<std::string> exact = {"0_cull_tiles.cl", "1_count_segments.cl", "scan.cl",   "2_store_segments.cl",
-                                          "3_weave.cl",      "4_evaluate.cl",       "5_shade.cl"};
+        std::vector<std::string> exact = {"0_cull_tiles.cl",     "1_count_segments.cl", "scan.cl",
+                                          "2_store_segments.cl", "2_rays_in_faces.cl",  "3_weave.cl",
+                                          "4_evaluate.cl",       "5_shade.cl"};
         require_own(exact);
         require_own({"tile_list.cl"});
         defines.push_back("CSGRT_PRIVATE_ENDS");

@@ -35,6 +35,7 @@ using std::size_t;
 #include "../kernels/0_cull_tiles.cl"
 #include "../kernels/1_count_segments.cl"
 #include "../kernels/2_store_segments.cl"
+#include "../kernels/2_rays_in_faces.cl"
 #include "../kernels/3_weave.cl"
 #include "../kernels/4_evaluate.cl"
 #include "../kernels/3_deep_rays.cl"
@@ -186,6 +187,10 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
         count_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                        scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data());
     });
+    each_of(candidates.size(), [&] {
+        count_in_faces(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                       scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data());
+    });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
     each([&] { sum_segments(&frame, places.data(), candidates.data(), 0, run.offsets.data()); });
@@ -198,6 +203,11 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     each_of(candidates.size(), [&] {
         store_segments(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                        scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(), found.data(),
+                       run.offsets.data(), run.ends.data(), run.bits.data());
+    });
+    each_of(candidates.size(), [&] {
+        store_in_faces(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
+                       scene.inner_nodes.data(), rays.data(), listed, places.data(), candidates.data(),
                        run.offsets.data(), run.ends.data(), run.bits.data());
     });
     each_of(run.ends.size(),

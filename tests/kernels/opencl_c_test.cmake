@@ -2,8 +2,8 @@
 # not the host, with the standard's own declarations. cmake -DCLANG=... -DKERNELS=... -P opencl_c_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(every_partition 1_count_segments.cl scan.cl 2_store_segments.cl 3_weave.cl 4_evaluate.cl 3_deep_rays.cl
-    5_shade.cl)
+set(every_partition 1_count_segments.cl scan.cl 2_store_segments.cl 2_rays_in_faces.cl 3_weave.cl 4_evaluate.cl
+    3_deep_rays.cl 5_shade.cl)
 set(double -DCSGRT_REAL=double)
 set(single -DCSGRT_REAL=float)
 set(relative ${single} -DCSGRT_EYE_RELATIVE)

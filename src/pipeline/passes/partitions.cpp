@@ -10,9 +10,12 @@ namespace kernel {
 
 namespace {
 
-std::vector<std::string> files_of(bool packets) {
+bool has_flat_faced(const CompiledScene& scene) { return (scene.solid_types & FLAT_FACED) != 0; }
+
+std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
     std::vector<std::string> files = {CullPass::file};
     if (packets) files.push_back("1_packet_candidates.cl");
+    if (rays_in_faces) files.push_back("2_rays_in_faces.cl");
     files.insert(files.end(), {"1_count_segments.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl",
                                "3_deep_rays.cl", "5_shade.cl"});
     return files;
@@ -33,7 +36,9 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
     : device_(device),
       kernels_(kernels),
       other_evaluation_(other),
-      program_(device, assemble_program(files_of(traces_packets(device, settings))) + (other ? other->source : ""),
+      program_(device,
+               assemble_program(files_of(traces_packets(device, settings), has_flat_faced(scene))) +
+                   (other ? other->source : ""),
                options_for(device, scene, settings, other != nullptr), settings.precision != Precision::double_),
       cull_(device, program_),
       find_candidates_(program_.kernel("find_candidates")),
@@ -55,6 +60,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       read_total_(device, "sum of counts") {
     if (traces_packets(device, settings))
         packet_candidates_ = {program_.kernel("count_packet_candidates"), program_.kernel("list_packet_candidates")};
+    if (has_flat_faced(scene)) rays_in_faces_ = {program_.kernel("count_in_faces"), program_.kernel("store_in_faces")};
 }
 
 // The first step of a scan: the entries become sums within their block, and each block's sum is written.
@@ -172,6 +178,9 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
     device_.flush();
     add(count_segments_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
                                memory_.candidate_places(), memory_.candidates(), memory_.found()));
+    if (rays_in_faces_)
+        add(rays_in_faces_->count.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays,
+                                         numbers, memory_.candidate_places(), memory_.candidates()));
     sum_segments(input, DEEP_WORDS, timed);
 }
 
@@ -193,6 +202,11 @@ void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates
         store_segments_.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(), batch.rays,
                                numbers, memory_.candidate_places(), memory_.candidates(), memory_.found(),
                                memory_.offsets(), memory_.ends(), memory_.bits()));
+    if (rays_in_faces_)
+        add(&PipelineCounts::store_segments,
+            rays_in_faces_->store.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(),
+                                         batch.rays, numbers, memory_.candidate_places(), memory_.candidates(),
+                                         memory_.offsets(), memory_.ends(), memory_.bits()));
     device_.flush();
     memory_.reserve_partitions(segments);  // the driver keeps the memory that it replaces until kernel 2 has ended
     add(&PipelineCounts::weave, order_ends_.launch(ends, work_group, batch.frame, memory_.offsets(), memory_.ends(),

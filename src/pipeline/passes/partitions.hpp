@@ -101,6 +101,10 @@ private:
         Kernel count, list;
     };
     std::optional<PacketCandidates> packet_candidates_;  ///< on processors
+    struct RaysInFaces {
+        Kernel count, store;
+    };
+    std::optional<RaysInFaces> rays_in_faces_;  ///< if the scene has solids that need them
     Kernel find_candidates_, count_segments_, sum_segments_, scan_blocks_, scan_sums_, scan_add_, store_segments_,
         order_ends_, weave_, evaluate_, shade_;
     PartitionMemory memory_;
