@@ -207,7 +207,7 @@ TEST_CASE("methods of the laboratory have names of their own, say what breaks th
     CHECK(names.count("Roth") == 1);
 }
 
-TEST_CASE("exact methods of the laboratory find the reference's regions", "[methods]") {
+static void require_exact_methods(bool on_device) {
     std::vector<Judged> scenes, few;  // few for devices, which take a while for each
     for (const char* family : {"coplanar", "deep_trees", "nested"}) few.push_back(from_family(family, 8, 24));
     few.push_back(short_segments());
@@ -225,11 +225,17 @@ TEST_CASE("exact methods of the laboratory find the reference's regions", "[meth
     REQUIRE(4 * std::count_if(words.begin(), words.end(), [](const TrueRay& t) { return t.sequence.size() > 2; }) >
             std::ptrdiff_t(words.size()));
     for (const Method& method : methods()) {
-        if (!method.exact) continue;
+        if (!method.exact || method.on_device != on_device) continue;
         INFO(method.name);
         const std::size_t traced = require_right(method, few) + (method.on_device ? 0 : require_right(method, scenes));
         if (traced == 0) WARN(method.name << " was not run: there is no device for it");
     }
+}
+
+TEST_CASE("exact methods of the laboratory find the reference's regions", "[methods]") { require_exact_methods(false); }
+
+TEST_CASE("exact methods of the laboratory find the reference's regions on a device", "[.pocl][methods]") {
+    require_exact_methods(true);
 }
 
 TEST_CASE("a difference that a method takes for a union shows in the judge's count", "[methods]") {

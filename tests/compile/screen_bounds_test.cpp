@@ -70,7 +70,7 @@ TEST_CASE("no ray outside of the screen meets anything") {
     const auto kernels = make_kernels(compiled, precision, Quartic::bracketed);
     std::mt19937 random(7);
     std::size_t missed = 0, small = 0;
-    constexpr int views = test::sanitized ? 2 : 60;
+    constexpr int views = test::sanitized ? 2 : 24;
     for (int i = 0; i < views; ++i) {
         const Outcome outcome = look(compiled, *kernels, random_view(random, compiled.center, size));
         missed += outcome.missed;

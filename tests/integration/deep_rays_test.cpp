@@ -58,7 +58,7 @@ TEST_CASE("device and reference agree on coincident copies", "[agreement]") {
 
 TEST_CASE("device and reference agree on deep rays through many regions, in their faces and along their edges",
           "[agreement]") {
-    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    for (std::uint32_t seed = 0; seed < 3; ++seed) {
         INFO("seed " << seed);
         const Scene scene = test::deep_parts(seed, 3 * most, seed % 2 ? 200 : 12);
         std::vector<Ray> rays = test::rays_along_grid();
@@ -71,7 +71,7 @@ TEST_CASE("device and reference agree on pictures of deep parts", "[agreement]")
     test::require_agreement(test::deep_parts(7, 3 * most, 60), {}, 32, 40);
 }
 
-TEST_CASE("device and reference agree on deep rays in single precision", "[agreement]") {
+TEST_CASE("device and reference agree on deep rays in single precision", "[.pocl][agreement]") {
     Settings settings = test::on_compiling_device();
     settings.precision = Precision::single;
     test::require_agreement(test::nested_balls(2 * most, {Operator::xor_}, test::Form::list), {}, 16, 60, settings);

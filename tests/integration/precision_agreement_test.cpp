@@ -15,85 +15,78 @@ using namespace csgrt;
 
 namespace {
 
-std::vector<Settings> in_single() {
-    Settings eye = test::on_device(), world = eye;
-    eye.precision = Precision::single;
-    world.precision = Precision::single_world;
-    return {eye, world};
+Settings in(Precision precision) {
+    Settings settings = test::on_device();
+    settings.precision = precision;
+    return settings;
 }
 
-// By default all in one program for each precision, since what an OpenCL compiler takes for each is most of the time
-// here; every third of our scenes; and of the world's coordinates, which share all but the camera with the eye's, every
-// fourth. `all`: each in its own, in both.
-void require(Scene scene, std::vector<std::string> objects, int size, int rays, std::size_t number, bool all) {
-    if (!all) scene = test::with_every_type(std::move(scene), objects);
-    std::vector<Settings> asked = in_single();
-    if (!all && number % 4 != 0) asked.pop_back();
-    for (const Settings& settings : asked) {
-        INFO(name_of(precision_names, settings.precision));
-        test::require_agreement(scene, objects, size, rays, settings);
-    }
-}
-
-void require_scenes(bool all) {
+// By default every third of our scenes, all in one program, since what an OpenCL compiler takes for each is most of the
+// time here. `all`: each in its own.
+void require_scenes(Precision precision, bool all) {
     const std::vector<std::string> files = test::scene_files();
     if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
     for (std::size_t i = 0; i < files.size(); i += all ? 1 : 3) {
         INFO(files[i]);
-        require(load_scene(files[i]), {}, 64, 200, i, all);
+        std::vector<std::string> objects;
+        Scene scene = load_scene(files[i]);
+        if (!all) scene = test::with_every_type(std::move(scene), objects);
+        test::require_agreement(scene, objects, 64, 200, in(precision));
     }
 }
 
-void require_models(bool all) {
+void require_models(Precision precision) {
     const std::string folder = test::folder("CSGRT_BRLCAD");
     if (folder.empty()) {
         WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
         return;
     }
-    std::size_t number = 0;
     for (const test::Model& model : test::models()) {
         if (!model.main) continue;
         INFO(model.file);
-        require(load_scene(folder + "/" + model.file), model.objects, 64, 100, number++, all);
+        test::require_agreement(load_scene(folder + "/" + model.file), model.objects, 64, 100, in(precision));
     }
 }
 
-void require_hard_rays() {
+void require_hard_rays(Precision precision) {
     using oracle::Kind;
     std::vector<Ray> rays;
     std::vector<std::string> objects = {"all"};
     const Scene scene = test::with_every_type(
         test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays),
         objects);
-    for (Settings settings : in_single()) {
-        INFO(name_of(precision_names, settings.precision));
-        Renderer device(scene, objects, settings);
-        settings.reference = true;
-        settings.device.clear();
-        Renderer reference(scene, objects, settings);
-        // From afar, coordinates of the world in float put solids outside their boxes: the device's hierarchy does not
-        // see those there.
-        const std::vector<Ray> some = settings.precision == Precision::single ? rays : test::near_only(rays);
-        test::require_same(device.shoot(some), reference.shoot(some));
-    }
+    Settings settings = in(precision);
+    Renderer device(scene, objects, settings);
+    settings.reference = true;
+    settings.device.clear();
+    Renderer reference(scene, objects, settings);
+    // From afar, coordinates of the world in float put solids outside their boxes: the device's hierarchy does not see
+    // those there.
+    const std::vector<Ray> some = precision == Precision::single ? rays : test::near_only(rays);
+    test::require_same(device.shoot(some), reference.shoot(some));
 }
 
 }  // namespace
 
-TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") { require_scenes(false); }
-
-TEST_CASE("device and reference agree in single precision on BRL-CAD's models", "[agreement]") {
-    require_models(false);
+TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") {
+    require_scenes(Precision::single, false);
 }
 
 TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[agreement]") {
-    require_hard_rays();
+    require_hard_rays(Precision::single);
+}
+
+TEST_CASE("device and reference agree in single precision of the world's coordinates", "[.pocl][agreement]") {
+    require_scenes(Precision::single_world, false);
+    require_hard_rays(Precision::single_world);
 }
 
 TEST_CASE("device and reference agree in both single precisions, each scene with its own program",
           "[.long][agreement]") {
-    require_scenes(true);
-    require_models(true);
+    for (const Precision precision : {Precision::single, Precision::single_world}) {
+        require_scenes(precision, true);
+        require_models(precision);
+    }
 }
 
 TEST_CASE("contraction changes last digits and no region", "[agreement]") {

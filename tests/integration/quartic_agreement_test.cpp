@@ -12,7 +12,7 @@
 using namespace csgrt;
 using oracle::Kind;
 
-TEST_CASE("device and reference agree however quartics are solved", "[agreement]") {
+TEST_CASE("device and reference agree however quartics are solved", "[.pocl][agreement]") {
     std::vector<Ray> rays;
     const Scene scene = test::scene_of({Kind::tor, Kind::eto, Kind::tgc}, rays);
     for (const auto& [name, quartic] : quartic_names) {

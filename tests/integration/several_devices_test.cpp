@@ -6,7 +6,6 @@
 
 #include <csgrt/csgrt.hpp>
 
-#include "bench/parts.hpp"
 #include "device/device_plan.hpp"
 #include "pipeline/scheduling/device_group.hpp"
 #include "integration/same_answers.hpp"
@@ -60,7 +59,7 @@ TEST_CASE("two devices give what one gives", "[.two_devices]") {
 }
 
 TEST_CASE("a native device shares a frame with another", "[.two_devices]") {
-    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/overlap.json");
     Settings settings;
     settings.device = one_pocl();
     Renderer one(scene, {}, settings);
@@ -85,7 +84,7 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
         last = std::max(last, fraction);
         return go_on || told < 2;
     };
-    Renderer renderer(load_scene(folder + "/operators.json"), {}, settings);
+    Renderer renderer(load_scene(folder + "/overlap.json"), {}, settings);
     View view;
     view.width = view.height = 512;  // takes longer than 20 ms
     CHECK_THROWS_AS(renderer.render(view), Error);
@@ -97,8 +96,7 @@ TEST_CASE("two devices: an interrupted frame, and the next one", "[.two_devices]
 TEST_CASE("two devices read a picture back asynchronously", "[.two_devices]") {
     // Its memory is registered to them, or not.
     const bool is_registered = GENERATE(false, true);
-    const Scene scene =
-        is_registered ? bench::scene_of_parts(8000) : load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
+    const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/overlap.json");
     Settings settings;
     settings.device = one_pocl();
     Renderer one(scene, {}, settings);

@@ -12,11 +12,12 @@
 
 using namespace csgrt;
 
-TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
+namespace {
+
+void require_own_declarations(const std::vector<Precision>& precisions) {
     const std::vector<FoundDevice> found = find_devices().devices;
     Device device(found[choose_device(infos_of(found), "cpu", Kernels::compiled_by_device)]);
-    if (test::sanitized)
-        return;  // it is PoCL that works here: three programs of all types of solids for each precision
+    if (test::sanitized) return;  // it is PoCL that works here: three programs of all types of solids
     if (!is_pocl(device.info()) || !device.info().driver.starts_with("3.")) {
         WARN("the processor's driver is not PoCL 3: nothing seen");
         return;
@@ -26,7 +27,7 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
     own.objects.push_back(Solid{"ball", Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}});
     own.top = {"ball"};
     const CompiledScene scene = compile(test::with_every_type(own, objects), objects);
-    for (const Precision precision : {Precision::double_, Precision::single, Precision::single_world}) {
+    for (const Precision precision : precisions) {
         INFO(name_of(precision_names, precision));
         Settings settings;
         settings.precision = precision;
@@ -53,6 +54,16 @@ TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
         exact.insert(exact.begin() + 1, "1_packet_candidates.cl");
         require_own(exact);
     }
+}
+
+}  // namespace
+
+TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
+    require_own_declarations({Precision::double_});
+}
+
+TEST_CASE("kernels in single precision use no function of OpenCL C that builtins.h lacks", "[.pocl]") {
+    require_own_declarations({Precision::single, Precision::single_world});
 }
 
 TEST_CASE("a source with a function that builtins.h lacks is built with the driver's declarations") {

@@ -144,7 +144,7 @@ TEST_CASE(
     "the box of a superellipsoid is tight, for exponents that bulge and "
     "that pinch") {
     Random random;
-    for (int round = 0; round < test::tries(12); ++round) {
+    for (int round = 0; round < test::tries(6); ++round) {
         const Matrix m = random.matrix();
         const Axes axes(random);
         const Wide v = 3.0L * random.wide(), a = 2.0L * axes.x, b = axes.y + 0.3L * axes.x, c = 0.5L * axes.z;

@@ -67,7 +67,7 @@ OutlineCase revolve_case(std::size_t index, oracle::Random& random) {
 }  // namespace
 
 TEST_CASE("geometry: revolve agrees with the oracle", "[geometry]") {
-    check_outlines(revolve_case, test::sanitized ? 1'000 : 4'000, 1);
+    check_outlines(revolve_case, test::sanitized ? 1'000 : 2'000, 1);
 }
 // Its closest approach to the axis lies within the tube, where no crossing is near: rounding made two there.
 TEST_CASE("geometry: a ray across the axis of a revolved circle meets it once") {

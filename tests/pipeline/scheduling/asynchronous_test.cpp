@@ -34,6 +34,14 @@ TakeRays ranges_of(std::uint64_t rays, std::uint64_t each) {
     };
 }
 
+/// Amounts of memory from `least` on: a few, or, with CSGRT_FINE (the label pocl), a quarter more each time.
+std::vector<std::uint64_t> rooms(std::uint64_t least, std::uint64_t end) {
+    std::vector<std::uint64_t> all;
+    for (; least < end; least = std::getenv("CSGRT_FINE") ? least + least / 4 : least * (test::sanitized ? 8 : 3))
+        all.push_back(least);
+    return all;
+}
+
 }  // namespace
 
 TEST_CASE("asynchronous: the picture is made, whatever was there before and however many batches there are") {
@@ -205,7 +213,7 @@ TEST_CASE("asynchronous: batches that run beside each other") {
 
 TEST_CASE("asynchronous: few channels, of batches that run beside each other, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
-    for (std::uint64_t room = 200'000; room < 5'000'000; room += test::sanitized ? room : room / 5) {
+    for (const std::uint64_t room : rooms(200'000, 5'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, 4096);
         lined.channels = channel::distance;
@@ -214,7 +222,7 @@ TEST_CASE("asynchronous: few channels, of batches that run beside each other, in
 }
 
 // Batches without deep rays are queued into the buffers at hand; one that has some is traced again, counted.
-TEST_CASE("asynchronous: deep rays beside others, in little memory and in much") {
+TEST_CASE("asynchronous: deep rays beside others, in little memory and in much", "[.pocl]") {
     const Scene scene = test::nested_balls(300, {Operator::xor_}, test::Form::list);
     const int width = test::sanitized ? 70 : 140, height = test::sanitized ? 60 : 120;
     std::uint64_t retried = 0;
@@ -229,7 +237,7 @@ TEST_CASE("asynchronous: deep rays beside others, in little memory and in much")
 
 TEST_CASE("a picture in place after a list of rays, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
-    for (std::uint64_t room = 60'000; room < 3'000'000; room += test::sanitized ? 2 * room : room / 4) {
+    for (const std::uint64_t room : rooms(60'000, 3'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, Pipeline::most_rays_drawn, Readback::by_device);
         const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 20'000);
@@ -302,7 +310,7 @@ TEST_CASE("asynchronous: every partition of batches that need more than those be
 TEST_CASE("asynchronous: every partition of batches that need more than those before, in little memory") {
     const Scene scene = bench::scene_of_parts(20);
     std::uint32_t again = 0;
-    for (std::uint64_t room = 500'000; room < 40'000'000; room += test::sanitized ? 2 * room : room / 2) {
+    for (const std::uint64_t room : rooms(500'000, 40'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, 4096);
         for (const double azimuth : {35, 120, 90}) {
@@ -371,7 +379,7 @@ TEST_CASE("asynchronous: rays that have no room") {
     Lined lined(scene);
     for (const std::uint64_t tiles : {9, 60, 1000})
         CHECK(lined.draw(width, height, false, tiles * tile_rays).segments > 0);  // which the exact way alone counts
-    for (std::uint64_t room = 400'000; room < 40'000'000; room *= test::sanitized ? 8 : 2) {  // beside batches that run
+    for (const std::uint64_t room : rooms(400'000, 40'000'000)) {                 // beside batches that run
         INFO("room " << room);
         Lined beside(scene, room, test::sanitized ? 1024 : 4096);
         CHECK(beside.draw(width, height, false, 1 << 20).segments > 0);
@@ -407,7 +415,7 @@ TEST_CASE("asynchronous: few tiles with more to see than all others, whose rays 
 TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in much") {
     const Scene scene = bench::scene_of_parts(20);
     const bool every_partition = GENERATE(false, true);
-    for (std::uint64_t room = 30'000; room < 6'000'000; room += test::sanitized ? 8 * room : room / 4) {
+    for (const std::uint64_t room : rooms(30'000, 6'000'000)) {
         INFO("every partition: " << every_partition << ", room " << room);
         Lined lined(scene, room);
         lined.draw(1000, 24, every_partition, 1 << 20);
