@@ -43,4 +43,7 @@ set(CSGRT_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, for instance add
 if(CSGRT_SANITIZE)
     add_compile_options(-fsanitize=${CSGRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${CSGRT_SANITIZE})
+    if(CSGRT_SANITIZE MATCHES "address" AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fsanitize=fuzzer-no-link>)  # counts for tests/fuzz
+    endif()
 endif()

@@ -52,6 +52,7 @@ public:
     /// Waits until a driver that is compiling kernels has ended, up to half a minute, since no driver can be stopped.
     /// Statistics::awaited_device tells whether there is one. A driver that caches its programs compiles once.
     ~Renderer();
+    /// Calls of a Renderer that was moved from throw Error (usage).
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 

@@ -170,6 +170,7 @@ void Renderer::Impl::end_call(Clock::time_point start) {
 void Renderer::Delete::operator()(Impl* impl) const { DeleteOwn{impl->process}(impl); }
 
 Renderer::Impl& Renderer::impl() const {
+    if (!impl_) throw Error(Status::usage, "this Renderer was moved from");
     if (impl_->process != process_number())
         throw Error(Status::usage, "this Renderer was made before this process was forked: make a new one");
     return *impl_;

@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "device/compiling_device.hpp"
+#include "device/discovery.hpp"
 
 namespace csgrt::test {
 
@@ -76,6 +77,13 @@ inline Settings on_device() {
     Settings settings;
     settings.wait_for_device = true;  // else a native device may draw in its place
     if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
+    return settings;
+}
+
+/// The same for thousands of scenes, each of which a driver would compile for: the native device, if there is one.
+inline Settings on_native_device() {
+    Settings settings = on_device();
+    if (settings.device.empty() && !find_native_devices().empty()) settings.device = "native";
     return settings;
 }
 

@@ -8,17 +8,18 @@
 
 #include "catch.hpp"
 
+#include <csgrt/scene_io.hpp>
+
 #include "compile/compiled_scene.hpp"
 #include "formats/brlcad/asc.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
-#include "formats/brlcad/g/brlcad_g_writer.hpp"
 #include "formats/brlcad/brlcad_models.hpp"
+#include "formats/read_seed.hpp"
 #include "formats/text_source.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;
-using namespace csgrt::g_test;
 
 namespace {
 
@@ -27,62 +28,11 @@ struct File {
     bool binary = false;
 };
 
-/// A little of everything, so that a change anywhere meets some reader.
 std::vector<File> own_files() {
-    const std::string m = "{1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}", line = " 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0\n";
-    const std::string v5 =
-        "title {T}\nunits in\ncolor 1 9 255 0 0\nput e ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
-        "put t tgc V {0 0 0} H {0 0 3} A {1 0 0} B {0 1 0} C {1 0 0} D {0 1 0}\nput o tor V {0 0 0} H {0 0 1} r_a 3 "
-        "r_h 1\n"
-        "put a arb8 V1 {0 0 0} V2 {1 0 0} V3 {1 1 0} V4 {0 1 0} V5 {0 0 1} V6 {1 0 1} V7 {1 1 1} V8 {0 1 1}\n"
-        "put n arbn N 4 P0 {1 1 1 1} P1 {-1 0 0 0} P2 {0 -1 0 0} P3 {0 0 -1 0}\nput h half N {0 0 1} d 1\n"
-        "put p part V {0 0 0} H {0 0 3} r_v 1 r_h 0.5\nput eto eto V {0 0 0} N {0 0 1} C {0.5 0 1} r 3 r_d 0.5\n"
-        "put m metaball method 2 thresh 1 PL {{0 0 0 1 1} {1 0 0 1 2}}\nput pts pnts count 2 type 2 scale 1 data {{0 0 "
-        "0 1} {1 2 3 .5}}\n"
-        "put pi pipe V0 {0 0 0} O0 1 I0 0.5 R0 2 V1 {9 0 0} O1 1 I1 0.5 R1 2 V2 {9 9 0} O2 1 I2 0.5 R2 2\n"
-        "put b bot mode volume orient rh flags {} V {{0 0 0} {1 0 0} {0 1 0} {0 0 1}} F {{0 2 1} {0 1 3} {1 2 3} {2 0 "
-        "3}}\n"
-        "put ars ars NC 3 PPC 3 C0 {{0 0 0} {0 0 0} {0 0 0}} C1 {{1 0 1} {0 1 1} {-1 0 1}} C2 {{0 0 2} {0 0 2} {0 0 "
-        "2}}\n"
-        "put sk sketch V {0 0 0} A {1 0 0} B {0 1 0} VL {{0 0} {4 0} {4 4} {0 4}} SL {{line S 0 E 1} {line S 1 E 2} "
-        "{line S 2 E 3} {line S 3 E 0}}\n"
-        "put ex extrude V {0 0 0} H {0 0 1} A {1 0 0} B {0 1 0} S sk\nput num binunif T 5 D {0001 0002 0003 0004}\n"
-        "put d dsp file num name num src o w 2 n 2 sm 0 cut a stom " +
-        m +
-        "\n"
-        "put c comb region yes id 7 los 100 GIFTmater 1 rgb {1 2 3} shader {plastic {sh 9}} inherit yes tree {u {- {l "
-        "t {2 0 0 1 0 2 0 0 0 0 2 0 0 0 0 1}} {l o}} {n {l a} {^ {l e} {l h}}}}\n"
-        "attr set {c} {los} {50} {oshader} {glass}\nput g comb region no tree {u {l c} {u {l b} {u {l m} {u {l pi} {u "
-        "{l ex} {u {l d} {l pts}}}}}}}\n"
-        "put c2 comb region yes tree {- {l n} {l p}}\n";
-    const std::string v4 =
-        "I 4 v4\nold\nS 19 e 0 0 0 0 1 0 0 0 1 0 0 0 1 0 0 0 0 0 0 0 0 0 0 0 0\n"
-        "S 18 t 0 0 0 0 0 0 3 1 0 0 0 1 0 1 0 0 0 1 0 0 0 0 0 0 0\nn n 4\nn 1 1 1 1\nn -1 0 0 0\nn 0 -1 0 0\nn 0 0 -1 "
-        "0\n"
-        "p p 0 0 0 0 0 3 1 .5\nC Y c 7 0 2 0 1 100 1 1 2 3 1 0 0\nplastic\nM u e" +
-        line + "M - t" + line + "C N g 0 0 2 0 0 0 0 0 0 0 0 0 0\nM u c" + line + "M u n" + line + "M u p" + line +
-        "m 0 1 9 255 0 0\n";
-    const std::vector<double> moved = {2, 0, 0, 1, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
-    const auto solid = [](int minor, const std::string& name, const std::string& body) {
-        return WrittenObject{.minor = minor, .name = name, .body = body}.bytes();
-    };
-    const std::string g =
-        header +
-        WrittenObject{.major = 2,
-                      .name = "_GLOBAL",
-                      .attributes = attributes({"title", "T", "units", "25.4", "regionid_colortable", "{1 2 3 4 5}"})}
-            .bytes() +
-        sphere("e") + solid(2, "t", reals({0, 0, 0, 0, 0, 3, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 0})) +
-        solid(1, "o", reals({0, 0, 0, 0, 0, 1, 3, 1})) +
-        solid(14, "n", number(4, 2) + reals({1, 1, 1, 1, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0})) +
-        solid(36, "m", number(2, 2) + number(2, 2) + reals({1}) + reals({0, 0, 0, 1, 1, 1, 0, 0, 1, 2})) +
-        solid(41, "pts", reals({1}) + number(0, 1) + number(2, 2) + reals({0, 0, 0, 5, 5, 5})) +
-        solid(13, "v", "file=num src=o w=2 n=2 d=2 size=1,1,1" + zero) +
-        WrittenObject{.major = 9, .minor = 4, .name = "num", .body = "\1\2\3\4\5\6\7\1"}.bytes() +
-        combination("c", {.leaves = {{"e", 0}, {"t"}, {"o"}}, .expression = "\1\1\2\1\4", .matrices = {moved}},
-                    attributes({"region", "R", "region_id", "7", "color", "1/2/3"})) +
-        combination("g", {.leaves = {{"c"}, {"n"}, {"m"}, {"pts"}, {"v"}}});
-    return {{"own_v5.asc", v5}, {"own_v4.asc", v4}, {"own.g", g, true}};
+    std::vector<File> files;
+    for (const std::string name : {"asc/v5.asc", "asc/v4.asc", "asc/metaball.asc", "g/v5.g", "g/metaball.g"})
+        files.push_back({name, test::read_seed(name), name.ends_with(".g")});
+    return files;
 }
 
 std::vector<File> all_files() {
@@ -210,6 +160,21 @@ TEST_CASE("brlcad fuzz: the files that are changed are sound") {
         load(file, file.bytes, tally);
         INFO(tally.first_without_place);
         CHECK(tally.compiled == 1);
+    }
+}
+
+TEST_CASE("brlcad fuzz: begins of files, whose format the bytes tell") {
+    std::vector<std::string> begins;
+    for (int byte = 0; byte < 256; ++byte) begins.emplace_back(1, static_cast<char>(byte));
+    for (const File& file : own_files())
+        for (std::size_t length = 0; length <= 100; ++length) begins.push_back(file.bytes.substr(0, length));
+    for (const std::string& begin : begins) {
+        INFO(begin);
+        try {
+            parse_scene(begin, "begin");
+        } catch (const Error& error) {
+            CHECK(error.status() == Status::scene);
+        }
     }
 }
 

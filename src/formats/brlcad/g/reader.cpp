@@ -22,7 +22,9 @@ constexpr int major_geometry = 1, major_attributes = 2, major_numbers = 9;
 constexpr int minor_combination = 31;
 
 /// Records of release 4 start with a letter, the first with I, a unit's number and the release.
-bool is_release_4(std::string_view bytes) { return bytes.starts_with('I') && bytes.substr(2, 2) == "v4"; }
+bool is_release_4(std::string_view bytes) {
+    return bytes.size() > 2 && bytes.starts_with('I') && bytes.substr(2, 2) == "v4";
+}
 
 class GReader {
 public:
