@@ -19,6 +19,11 @@ struct Settings {
     /// A driver takes up to half a minute to compile the kernels for a GPU. Until then a native device computes, with
     /// the same bits. True: calls wait for the GPU instead, as measurements need it.
     bool wait_for_device = false;
+    /// Seconds that a call waits for an answer of a device. A device that gives none is lost: the call throws Error
+    /// (device_fault), and so do all later calls of the Renderer; what the driver holds stays until the process ends.
+    /// 0: any time. Negative: 60 s for a GPU, any time for a processor, whose kernels take as long as the rays do. A
+    /// call of the driver that does not return, such as its compiler's, is waited for.
+    double device_timeout = -1;
     std::uint64_t max_memory = 0;  ///< bytes of memory to use on each device; 0: what the device has
     Precision precision = Precision::double_;
     Quartic quartic = Quartic::bracketed;
@@ -32,6 +37,10 @@ struct Settings {
     /// True: the model's colours are shaded as they are, as BRL-CAD does. False: they are decoded to linear light
     /// first.
     bool display_shading = false;
+    /// n: the CPU reference traces the first batch of rays, and every n-th after it, as well. A call whose bits differ
+    /// throws Error (device_fault) that names the pixel and the channel, or the ray. 0: none. Batches are as large as
+    /// the device's memory and kind allow, and the reference is slower by far. Not with `contraction`.
+    unsigned check = 0;
     unsigned threads = 0;  ///< of the reference and of a native device; 0: one for each processor
     /// Called with the done fraction, by the thread whose call it is, which waits while others work: with 0 at the
     /// beginning of a call, then every 20 ms, and with 1 when all is done. If it returns false before that, the call

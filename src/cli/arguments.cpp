@@ -59,6 +59,13 @@ void define_settings(Options& options, Settings& settings) {
         "device memory to use, in bytes, or such as 512M or 2G (powers of 1024); a frame that needs more is drawn "
         "in batches",
         settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
+    options
+        .number(
+            "--device-timeout", "S",
+            "seconds that a device may take for an answer, or it is given up; 0: any time; 60 for a GPU and any time "
+            "for a processor, if not given",
+            settings.device_timeout, 0, unlimited, "a number of seconds, 0 or more")
+        .excludes = "--reference";
     auto parse_tolerance = [&settings](const std::string& text) {
         auto rule = find_name(tolerance_names, text);
         auto length = parse_number(text);
@@ -94,6 +101,12 @@ void define_either(Options& options, Settings& settings) {
         "wait until the GPU's kernels are compiled; if not given, the processor draws until then, with the same bits",
         settings.wait_for_device);
     wait.excludes = "--reference";
+    options
+        .count("--check",
+               "have the CPU reference trace the first batch of rays and every N-th after it, too, and end with status "
+               "7 if a bit differs; none if not given",
+               settings.check, 1, std::numeric_limits<unsigned>::max())
+        .excludes = "--reference";
 }
 
 void define(Options& options, RenderArguments& arguments) {

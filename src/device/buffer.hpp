@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -51,9 +52,12 @@ public:
     template <class T>
     std::vector<T> read(std::size_t count) const {
         static_assert(std::is_trivially_copyable_v<T>);
-        std::vector<T> values(count);
-        read(values.data(), count * sizeof(T));
-        return values;
+        return read_by<T>(device_->queue(), count);
+    }
+    /// The same by the device's copy queue, which does not wait for what else is queued.
+    template <class T>
+    std::vector<T> read_beside(std::size_t count) const {
+        return read_by<T>(device_->copy_queue(), count);
     }
 
     /// The first `bytes`, where the host can read them: in place if the device is the host's own processor.
@@ -72,6 +76,17 @@ private:
     Event transfer_in(const void* source, std::size_t bytes, std::size_t offset, bool wait);
     Event transfer_out(cl_command_queue queue, void* target, std::size_t bytes, std::size_t offset, bool wait) const;
     void check_range(std::size_t bytes, std::size_t offset) const;
+    template <class T>
+    std::vector<T> read_by(cl_command_queue queue, std::size_t count) const {
+        const auto values = std::make_shared<std::vector<T>>(count);
+        try {
+            transfer_out(queue, values->data(), count * sizeof(T), 0, true);
+        } catch (...) {
+            if (device_->cl().is_lost) keep_for_ever(values);  // it may yet write there
+            throw;
+        }
+        return std::move(*values);
+    }
 
     Device* device_;
     std::string name_;
@@ -90,7 +105,7 @@ public:
     const void* data() const noexcept { return data_; }
 
 private:
-    const OpenCl& cl_;
+    const Driver& cl_;
     cl_command_queue queue_;
     cl_mem memory_;
     void* data_;
@@ -100,13 +115,17 @@ private:
 /// holds as much on the device. What is there stays there. The memory must outlast this; the device need not.
 class HostRegistration {
 public:
-    /// Throws Error (out_of_memory, device_fault) if the driver does not take it.
+    /// Throws Error (out_of_memory, device_fault) if the driver does not take it. Of a lost device the memory must stay
+    /// for ever: it may be written yet.
     HostRegistration(const Device& device, void* data, std::size_t bytes);
     HostRegistration(HostRegistration&&) noexcept = default;
     HostRegistration& operator=(HostRegistration&&) = delete;
     ~HostRegistration();
 
+    bool is_lost() const noexcept { return driver_->is_lost; }
+
 private:
+    std::shared_ptr<const Driver> driver_;
     Queue queue_;
     Memory memory_;
     void* data_ = nullptr;

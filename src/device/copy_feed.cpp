@@ -119,6 +119,7 @@ Event CopyFeed::queue(const Device& device, const Buffer& buffer, const Copy& co
     const std::size_t from[3] = {copy.begin % copy.pitch * size, copy.begin / copy.pitch, 0}, to[3] = {0, 0, 0},
                       region[3] = {copy.columns * size, copy.lines, copy.channels};
     const bool is_flat = copy.channels == 1;
+    device.cl().check_lost();
     cl_event event = nullptr;
     check(
         device.cl().EnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region,

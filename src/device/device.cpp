@@ -21,6 +21,13 @@ std::uint64_t default_budget(const DeviceInfo& info, bool shares_host_memory) {
     return std::min(info.memory, host ? host : info.memory) / 2;
 }
 
+/// Kernels of a GPU that ran as long would keep its other users waiting. A processor's take as long as rays do.
+constexpr double default_timeout = 60;
+
+double patience_with(const DeviceInfo& info, double timeout) {
+    return timeout >= 0 ? timeout : info.type == "cpu" ? 0 : default_timeout;
+}
+
 FoundDevice chosen(const std::string& choice) {
     const std::vector<FoundDevice> found = find_devices().devices;
     return found[choose_device(infos_of(found), choice)];
@@ -30,8 +37,10 @@ FoundDevice chosen(const std::string& choice) {
 
 Device::Device(const std::string& choice, std::uint64_t max_memory) : Device(chosen(choice), max_memory) {}
 
-Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads)
-    : info_(device.info), cl_(device.cl), id_(device.id) {
+Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads, double timeout)
+    : info_(device.info),
+      cl_(std::make_shared<const Driver>(*device.cl, info_.name, patience_with(info_, timeout))),
+      id_(device.id) {
     const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads),
                                                 native::stop_property, reinterpret_cast<cl_context_properties>(&stop_),
                                                 0};
@@ -54,15 +63,31 @@ Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned thr
 }
 
 void Device::check_end() const {
+    cl_->check_lost();
     if (stop_ && *stop_) throw Error(Status::interrupted, "interrupted");
 }
 
-void Device::flush() const { check(cl().Flush(queue()), "clFlush"); }
+void Device::flush() const {
+    cl_->check_lost();
+    check(cl().Flush(queue()), "clFlush");
+}
 
-void Device::flush_copies() const { check(cl().Flush(copy_queue()), "clFlush (copies)"); }
+void Device::flush_copies() const {
+    cl_->check_lost();
+    check(cl().Flush(copy_queue()), "clFlush (copies)");
+}
 
 void Device::finish() const {
-    for (const auto& queue : queues_) check(cl().Finish(queue.get()), "clFinish");
+    for (const auto& queue : queues_) {
+        if (cl_->patience == 0) {
+            check(cl().Finish(queue.get()), "clFinish");
+            continue;
+        }
+        cl_->check_lost();
+        cl_event end = nullptr;
+        check(cl().EnqueueMarkerWithWaitList(queue.get(), 0, nullptr, &end), "clEnqueueMarkerWithWaitList");
+        wait_for(Event(cl(), end));
+    }
 }
 
 void Device::claim(const std::string& name, std::uint64_t bytes) {

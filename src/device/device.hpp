@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 
 #include <csgrt/renderer.hpp>
@@ -26,13 +27,14 @@ public:
     /// `max_memory` bounds what all buffers together may take, in bytes; 0: what the device can give.
     /// Throws Error (no_device) that lists what there is, or names the package that brings a device.
     explicit Device(const std::string& choice = "", std::uint64_t max_memory = 0);
-    /// `threads`: of the native device; 0: one for each processor.
-    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0, unsigned threads = 0);
+    /// `threads`: of the native device; 0: one for each processor. `timeout`: as Settings::device_timeout has it.
+    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0, unsigned threads = 0, double timeout = -1);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     const DeviceInfo& info() const noexcept { return info_; }
-    const OpenCl& cl() const noexcept { return *cl_; }
+    const Driver& cl() const noexcept { return *cl_; }
+    std::shared_ptr<const Driver> driver() const noexcept { return cl_; }  ///< for what may outlast the device
     cl_device_id id() const noexcept { return id_; }
     cl_context context() const noexcept { return context_.get(); }
     /// Takes what is queued from now on.
@@ -48,7 +50,7 @@ public:
     /// kernels leave out the work-items that have not begun. Null, as at first: none is to end.
     void end_by(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
     bool may_end() const noexcept { return stop_ != nullptr; }
-    /// Throws Error (interrupted) if `stop` is true.
+    /// Throws Error (interrupted) if `stop` is true, and (device_fault) if the device is lost.
     void check_end() const;
 
     /// Hands what is queued, but for copies and other queues, to the device without waiting.
@@ -76,7 +78,7 @@ public:
 
 private:
     DeviceInfo info_;
-    const OpenCl* cl_ = nullptr;
+    std::shared_ptr<const Driver> cl_;
     cl_device_id id_ = nullptr;
     Context context_;
     std::array<Queue, queues> queues_;

@@ -53,7 +53,7 @@ struct Pretence {
     std::string platform;
     bool are_broken = false;
 };
-std::atomic<bool> is_native_hidden{false};
+std::atomic<const OpenCl*> native_table{&native::functions()};
 std::mutex pretence_mutex;
 Pretence pretence;
 
@@ -148,7 +148,7 @@ bool has_drivers() {
 
 std::vector<FoundDevice> find_native_devices() {
     Discovery native;
-    if (!is_native_hidden) add_devices(native::functions(), native);
+    if (const OpenCl* const functions = native_table) add_devices(*functions, native);
     return std::move(native.devices);
 }
 
@@ -197,8 +197,8 @@ PretendedGpu::~PretendedGpu() {
     pretence = {};
 }
 
-HiddenNative::HiddenNative() { is_native_hidden = true; }
-HiddenNative::~HiddenNative() { is_native_hidden = false; }
+NativeTable::NativeTable(const OpenCl* functions) { native_table = functions; }
+NativeTable::~NativeTable() { native_table = &native::functions(); }
 
 bool is_native(const DeviceInfo& device) { return device.platform == native::platform_name; }
 

@@ -54,13 +54,14 @@ bool is_pocl(const DeviceInfo& device);
 /// What there is to know of each.
 std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices);
 
-/// For tests where there are native devices: until this is gone, there are none. One at a time.
-class HiddenNative {
+/// For tests: until this is gone, native devices are driven by these functions; null: there are no such devices. One at
+/// a time.
+class NativeTable {
 public:
-    HiddenNative();
-    ~HiddenNative();
-    HiddenNative(const HiddenNative&) = delete;
-    HiddenNative& operator=(const HiddenNative&) = delete;
+    explicit NativeTable(const OpenCl* functions);
+    ~NativeTable();
+    NativeTable(const NativeTable&) = delete;
+    NativeTable& operator=(const NativeTable&) = delete;
 };
 
 }  // namespace csgrt

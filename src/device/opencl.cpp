@@ -1,13 +1,19 @@
 #include "device/opencl.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <mutex>
+#include <optional>
 #include <thread>
+#include <vector>
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
 
 #include <csgrt/error.hpp>
+
+#include "base/clock.hpp"
 
 namespace csgrt {
 
@@ -83,14 +89,72 @@ void check(cl_int code, std::string_view call) {
                 std::string(call) + " failed: " + opencl_error_name(code) + " (" + std::to_string(code) + ")");
 }
 
+void Driver::check_lost() const {
+    if (is_lost) give_up();
+}
+
+void Driver::give_up() const {
+    is_lost = true;
+    char seconds[32];
+    const std::string text(seconds, std::to_chars(seconds, std::end(seconds), patience).ptr);
+    throw Error(Status::device_fault,
+                {Diagnostic{.message = device + " gave no answer for " + text + " s and is used no more",
+                            .suggestion = "Use another device, or give it more time (--device-timeout, "
+                                          "Settings::device_timeout)"}});
+}
+
+void keep_for_ever(std::shared_ptr<const void> memory) {
+    static std::mutex mutex;
+    static auto& kept = *new std::vector<std::shared_ptr<const void>>;
+    const std::lock_guard lock(mutex);
+    kept.push_back(std::move(memory));
+}
+
+namespace {
+
+/// A wait of the host that ends. A wait within the driver, which does not, tells of the event at once when it is done.
+class Wait {
+public:
+    explicit Wait(const Driver& driver) : driver_(driver), begin_(Clock::now()) {}
+    double ms() const { return milliseconds_since(begin_); }
+    void check() const {
+        driver_.check_lost();
+        if (driver_.patience > 0 && ms() > 1000 * driver_.patience) driver_.give_up();
+    }
+
+private:
+    const Driver& driver_;
+    Clock::time_point begin_;
+};
+
+void flush_queue_of(const Event& event) {
+    cl_command_queue queue = nullptr;
+    check(event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_QUEUE, sizeof queue, &queue, nullptr),
+          "clGetEventInfo");
+    check(event.cl().Flush(queue), "clFlush");
+}
+
+}  // namespace
+
 void wait_for(const Event& event) {
     if (!event) return;
+    if (event.cl().patience > 0 && !is_done(event)) {
+        constexpr double at_once_ms = 2;  // as drivers do, for what takes no longer
+        flush_queue_of(event);
+        for (const Wait wait(event.cl()); !is_done(event) && wait.ms() < at_once_ms;) {
+            wait.check();
+            std::this_thread::yield();
+        }
+        const Event* const one = &event;
+        wait_for_one({&one, 1});
+    }
     const cl_event one = event.get();
     check(event.cl().WaitForEvents(1, &one), "clWaitForEvents");
 }
 
 bool is_done(const Event& event) {
     if (!event) return true;
+    event.cl().check_lost();
     cl_int status = CL_COMPLETE;
     check(event.cl().GetEventInfo(event.get(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr),
           "clGetEventInfo");
@@ -111,14 +175,19 @@ void wait_for_one(std::span<const Event* const> events) {
         ~Slack() { prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(before)); }
     } slack;
 #endif
-    while (std::ranges::none_of(events, [](const Event* event) { return is_done(*event); }))
+    std::optional<Wait> wait;
+    while (std::ranges::none_of(events, [](const Event* event) { return is_done(*event); })) {
+        if (!wait) wait.emplace(events.front()->cl());
+        wait->check();
         std::this_thread::sleep_for(std::chrono::microseconds(10));
+    }
 }
 
 void wait_until_done(const Event& event) noexcept {
-    if (!event) return;
-    const cl_event one = event.get();
-    event.cl().WaitForEvents(1, &one);
+    try {
+        wait_for(event);
+    } catch (...) {
+    }
 }
 
 TimeSpan time_span(const Event& event) {

@@ -18,7 +18,7 @@ namespace csgrt {
     F(GetProgramBuildInfo)                                                                                            \
     F(CreateKernel) F(ReleaseKernel) F(GetKernelInfo) F(GetKernelWorkGroupInfo) F(SetKernelArg)                       \
     F(EnqueueNDRangeKernel) F(EnqueueWriteBuffer) F(EnqueueReadBuffer) F(EnqueueReadBufferRect) F(EnqueueFillBuffer)  \
-    F(EnqueueMapBuffer) F(EnqueueUnmapMemObject)                                                                      \
+    F(EnqueueMapBuffer) F(EnqueueUnmapMemObject) F(EnqueueMarkerWithWaitList)                                         \
     F(WaitForEvents) F(ReleaseEvent) F(GetEventInfo) F(GetEventProfilingInfo)
 // clang-format on
 

@@ -78,7 +78,7 @@ void Program::compile(const std::string& source, const std::string& options) {
     const DeviceInfo& info = device_->info();
     has_own_declarations_ = is_pocl(info) && info.driver.starts_with("3.");
 
-    const OpenCl& cl = device_->cl();
+    const Driver& cl = device_->cl();
     const char* text = source.data();
     const std::size_t size = source.size();
     cl_int code = CL_SUCCESS;
@@ -102,7 +102,7 @@ void Program::compile(const std::string& source, const std::string& options) {
 
 /// False if the driver does not take it: then it is compiled anew.
 bool Program::load(const std::string& binary) {
-    const OpenCl& cl = device_->cl();
+    const Driver& cl = device_->cl();
     const cl_device_id id = device_->id();
     const auto* bytes = reinterpret_cast<const unsigned char*>(binary.data());
     const std::size_t size = binary.size();
@@ -115,7 +115,7 @@ bool Program::load(const std::string& binary) {
 
 /// What the driver made of the source; empty if it does not give it.
 std::string Program::binary() const {
-    const OpenCl& cl = device_->cl();
+    const Driver& cl = device_->cl();
     std::size_t size = 0;  // of one device, as the context has
     const auto info = [&](cl_program_info what, std::size_t bytes, void* out) {
         return cl.GetProgramInfo(program_.get(), what, bytes, out, nullptr) == CL_SUCCESS;

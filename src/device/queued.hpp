@@ -21,7 +21,10 @@ public:
     QueuedUpload() = default;
     QueuedUpload(const QueuedUpload&) = delete;
     QueuedUpload& operator=(const QueuedUpload&) = delete;
-    ~QueuedUpload() { wait_until_done(event_); }
+    ~QueuedUpload() {
+        wait_until_done(event_);
+        if (event_ && event_.cl().is_lost) keep_for_ever(std::make_shared<std::vector<std::byte>>(std::move(bytes_)));
+    }
 
     /// Copies the values to the buffer's begin, which is made large enough, once what is queued is done. Waits for the
     /// upload before this one only. Throws Error (device_fault, out_of_memory), also for that.

@@ -260,6 +260,11 @@ cl_int unmap(cl_command_queue, cl_mem, void*, cl_uint, const cl_event*, cl_event
     return CL_SUCCESS;
 }
 
+cl_int mark(cl_command_queue, cl_uint, const cl_event*, cl_event* event) {
+    tell(event, now());
+    return CL_SUCCESS;
+}
+
 // ---- Programs: the options tell which one is meant ----
 
 cl_program create_program(cl_context, cl_uint, const char**, const std::size_t*, cl_int* code) {
@@ -444,6 +449,7 @@ const OpenCl& functions() {
                                .EnqueueFillBuffer = fill,
                                .EnqueueMapBuffer = map,
                                .EnqueueUnmapMemObject = unmap,
+                               .EnqueueMarkerWithWaitList = mark,
                                .WaitForEvents = wait_for_events,
                                .ReleaseEvent = release_event,
                                .GetEventInfo = get_event_info,

@@ -13,6 +13,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     segment_bytes += other.segment_bytes;
     partition_bytes += other.partition_bytes;
     batches += other.batches;
+    done.insert(done.end(), other.done.begin(), other.done.end());
     retried += other.retried;
     count_hits += other.count_hits;
     scan += other.scan;

@@ -188,16 +188,17 @@ void Reference::parallel(std::size_t count, Watch* watch, const Work& work) cons
     if (failure) std::rethrow_exception(failure);
 }
 
-std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watch* watch,
-                                             ReferenceCounts& counts) const {
+std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
+                                             const std::vector<std::uint32_t>* some) const {
     const kernel::Frame& frame = prepared.frame;
-    std::vector<kernel::Pixel> pixels(std::size_t{frame.width} * frame.height);
+    std::vector<kernel::Pixel> pixels(some ? some->size() : std::size_t{frame.width} * frame.height);
     parallel(pixels.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;
         for (std::size_t i = begin; i < end; ++i) {
             if (watch) watch->check();
-            const Ray ray = kernels_.camera_ray(frame, static_cast<std::uint32_t>(i % frame.width),
-                                                static_cast<std::uint32_t>(i / frame.width));
+            const std::size_t number = some ? (*some)[i] : i;
+            const Ray ray = kernels_.camera_ray(frame, static_cast<std::uint32_t>(number % frame.width),
+                                                static_cast<std::uint32_t>(number / frame.width));
             evaluate(frame, ray, claims);
             kernel::Pixel pixel;
             if (claims.first_seen == SIZE_MAX) {

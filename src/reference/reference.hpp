@@ -21,8 +21,10 @@ public:
     /// Both must outlive it.
     Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads);
 
-    /// Pixels by row from the top left. Throws Error (interrupted) if `watch`, which may be null, says so.
-    std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts) const;
+    /// Pixels by row from the top left, or those with the numbers `some`. Throws Error (interrupted) if `watch`, which
+    /// may be null, says so.
+    std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
+                                      const std::vector<std::uint32_t>* some = nullptr) const;
     std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
                                      ReferenceCounts& counts) const;
 

@@ -10,6 +10,7 @@ namespace csgrt {
 DeviceBackend::DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels,
                              const Settings& settings, double search_ms)
     : search_ms_(search_ms),
+      spot_check_(scene, settings),
       takeover_(
           std::move(plan),
           [&scene, &kernels, settings](const std::vector<FoundDevice>& devices) {
@@ -41,6 +42,7 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
         .channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
     try {
         counted([&] { drawer_->render(frame, target, &watch, counts_); });
+        spot_check_.look_at(frame, memory, counts_.done, drawer_->name(), watch);
     } catch (...) {  // pixels may be missing of tiles that are covered
         std::ranges::fill(memory.covered, std::uint8_t{1});
         throw;
@@ -51,6 +53,7 @@ std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, cons
                                                 Watch& watch) {
     std::vector<RayPartitions> answers;
     counted([&] { answers = drawer_->shoot(frame, rays, &watch, counts_); });
+    spot_check_.look_at(frame, rays, answers, counts_.done, drawer_->name(), watch);
     return answers;
 }
 

@@ -3,12 +3,14 @@
 
 #include "render/backend.hpp"
 #include "render/device_takeover.hpp"
+#include "render/spot_check.hpp"
 
 namespace csgrt {
 
 class DeviceBackend final : public Backend {
 public:
-    /// `search_ms`: what it took to find the plan's devices. The scene and the kernels must outlive it. Throws Error.
+    /// `search_ms`: what it took to find the plan's devices. The scene, the kernels and the settings must outlive it.
+    /// Throws Error.
     DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
                   double search_ms);
 
@@ -28,6 +30,7 @@ private:
     void counted(const Call& call);
 
     double search_ms_;
+    SpotCheck spot_check_;
     DeviceTakeover takeover_;
     DeviceGroup* drawer_ = nullptr;  ///< of the next call
     PipelineCounts counts_;

@@ -85,6 +85,8 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
         throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
     if (settings.contraction && settings.reference)
         throw Error(Status::usage, "contraction is on a device only: the reference rounds every operation");
+    if (settings.contraction && settings.check > 0)
+        throw Error(Status::usage, "contraction changes the last digits, which a check by the reference compares");
     Impl& impl = *impl_;
     impl.settings = settings;
     impl.title = scene.title;
@@ -219,8 +221,14 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
     std::vector<ChannelMemory> channels;
     for (std::size_t i = 0; i < sources.size(); ++i)
         channels.push_back({image.channels[i].data(), framebuffer.background_[i]});
-    backend->render(prepared, {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_},
-                    watch);
+    try {
+        backend->render(
+            prepared, {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_}, watch);
+    } catch (...) {
+        if (framebuffer.registered_ && framebuffer.registered_->has_lost())
+            keep_for_ever(std::make_shared<Framebuffer>(std::move(framebuffer)));
+        throw;
+    }
     image.display_values = settings.display_shading;
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();

@@ -1,15 +1,11 @@
 #include "verify/answers.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
 namespace csgrt {
 namespace {
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same_bits(Vec3 a, Vec3 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z); }
 
 bool same_regions(const std::vector<Partition>& a, const std::vector<Partition>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -95,20 +91,6 @@ bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartit
             return true;
     }
     return false;
-}
-
-bool identical(const RayPartitions& a, const RayPartitions& b) {
-    const auto same_partition = [](const Partition& p, const Partition& q) {
-        return same_bits(p.in, q.in) && same_bits(p.out, q.out) && same_bits(p.in_normal, q.in_normal) &&
-               same_bits(p.out_normal, q.out_normal) && p.region == q.region && p.in_solid == q.in_solid &&
-               p.out_solid == q.out_solid;
-    };
-    const auto same_overlap = [](const Overlap& p, const Overlap& q) {
-        return same_bits(p.in, q.in) && same_bits(p.out, q.out) && p.regions == q.regions;
-    };
-    return std::equal(a.partitions.begin(), a.partitions.end(), b.partitions.begin(), b.partitions.end(),
-                      same_partition) &&
-           std::equal(a.overlaps.begin(), a.overlaps.end(), b.overlaps.begin(), b.overlaps.end(), same_overlap);
 }
 
 }  // namespace csgrt

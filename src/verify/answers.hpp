@@ -6,6 +6,8 @@
 
 #include <csgrt/verify.hpp>
 
+#include "base/identical.hpp"
+
 namespace csgrt {
 
 double length(Vec3 v);
@@ -41,8 +43,5 @@ RegionDifference difference_of(const std::vector<Partition>& exact, const std::v
 /// Is there a stretch over which all neighbours meet the same region, or all meet none, and this answer does not? The
 /// stretch is longer than any end may move within the blur.
 bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartitions> neighbours, const Blur& blur);
-
-/// To the last bit, overlaps included.
-bool identical(const RayPartitions& a, const RayPartitions& b);
 
 }  // namespace csgrt

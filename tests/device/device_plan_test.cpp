@@ -125,7 +125,7 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
 }
 
 TEST_CASE("without native devices OpenCL draws by default, and the reference where there is none", "[device]") {
-    const HiddenNative hidden;
+    const NativeTable none(nullptr);
     CHECK(find_native_devices().empty());
     const Discovery found = find_devices();
     const DevicePlan plan = plan_devices({});
@@ -140,7 +140,7 @@ TEST_CASE("without native devices OpenCL draws by default, and the reference whe
 }
 
 TEST_CASE("without any device the reference draws, and says so", "[.no_driver]") {
-    const HiddenNative hidden;
+    const NativeTable none(nullptr);
     const Scene scene = load_scene(test::folder("CSGRT_SCENES") + "/operators.json");
     const View view{.width = 24, .height = 16, .camera = scene.camera};
     Renderer renderer(scene);

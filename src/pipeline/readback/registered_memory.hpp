@@ -1,6 +1,7 @@
 // The memory of a picture that is drawn again and again, registered with GPUs, which then copy pixels straight into it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 
@@ -16,6 +17,10 @@ public:
     /// Registers the memory with a device, which takes a tenth of a second a gigabyte. A driver may refuse: then the
     /// device's pixels come by staging memory.
     void add(const Device& device);
+    /// A device that does not answer may yet write there.
+    bool has_lost() const {
+        return std::ranges::any_of(registered_, [](const auto& entry) { return entry.second.is_lost(); });
+    }
     bool has(const Device& device) const { return registered_.contains(device.context()); }
 
 private:

@@ -117,7 +117,7 @@ bool AsynchronousSchedule::start_next(Batch& batch, const FrameJob& job) {
     if (is_alone && !rays.is_whole_tiles()) {
         ring_.finish();
         pixels_.draw_part_of_tile(job, rays);
-        job.tell(rays.rays);
+        job.tell(rays);
         return true;
     }
     if (rays.is_whole_tiles() && start(batch, job, rays)) return true;
@@ -246,8 +246,8 @@ void AsynchronousSchedule::collect_first_hits(Batch& batch, const FrameJob& job)
     batch.report_read.copy();
     add_times(batch.drawing, job.counts);
     // By the copy queue: a read that is queued behind kernels would hold up all copies.
-    std::vector<std::uint32_t> numbers(batch.report().overflows);
-    wait_for(batch.buffers.overflown.copy_read(numbers.data(), numbers.size() * sizeof(std::uint32_t)));
+    const std::vector<std::uint32_t> numbers =
+        batch.buffers.overflown.read_beside<std::uint32_t>(batch.report().overflows);
     overflown_.insert(overflown_.end(), numbers.begin(), numbers.end());
     read_pixels(batch, job);
 }
@@ -313,7 +313,7 @@ void AsynchronousSchedule::read_pixels(Batch& batch, const FrameJob& job) {
     for (const Event& event : batch.culling) add_time(&PipelineCounts::cull_tiles, event, job.counts);
     const bool is_last = is_idle() && job.source.is_empty();
     ring_.collect(batch.frame, batch.rays, batch.shown(), *batch.picture, is_last, job.target);
-    job.tell(batch.rays.rays);
+    job.tell(batch.rays);
 }
 
 void AsynchronousSchedule::cancel(Batch& batch) {

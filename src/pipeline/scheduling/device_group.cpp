@@ -28,7 +28,8 @@ DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const Compiled
     : number_(next_number++) {
     const auto start = Clock::now();
     for (const FoundDevice& device : devices) {
-        devices_.push_back(std::make_unique<Device>(device, settings.max_memory, settings.threads));
+        devices_.push_back(
+            std::make_unique<Device>(device, settings.max_memory, settings.threads, settings.device_timeout));
         pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings, readback));
     }
     setup_ms_ = milliseconds_since(start);
@@ -90,8 +91,14 @@ void DeviceGroup::share(const RayCosts& costs, bool every_partition, Watch* watc
 }
 
 void DeviceGroup::prepare(bool every_partition) {
+    start_call();
     for_chunks(pipelines_.size(), 1, static_cast<unsigned>(pipelines_.size()),
                [&](std::size_t i, std::size_t, std::size_t) { pipelines_[i]->prepare(every_partition); });
+}
+
+void DeviceGroup::start_call() {
+    for (const auto& device : devices_) device->cl().check_lost();
+    drop_claims();
 }
 
 void DeviceGroup::drop_claims() {
@@ -104,7 +111,7 @@ void DeviceGroup::drop_claims() {
 
 std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const ChannelMemory> channels,
                                                                std::size_t pixels) {
-    drop_claims();
+    start_call();
     const std::size_t bytes = channels.size() * pixels * sizeof(float);
     if (bytes == 0) return nullptr;
     const std::shared_ptr<RegisteredMemory> registered(new RegisteredMemory(channels.front().pixels, bytes),
@@ -123,12 +130,14 @@ std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const C
 
 void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch,
                          PipelineCounts& counts) {
-    drop_claims();
+    start_call();
     RenderTarget shared = target;  // until nothing more comes into it
     shared.threads = std::max(1u, thread_count(0) / static_cast<unsigned>(pipelines_.size()));
     struct Abandon {
         std::vector<std::unique_ptr<Pipeline>>& pipelines;
+        bool is_finished = false;
         ~Abandon() {
+            if (is_finished) return;
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
@@ -138,11 +147,12 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
           });
     clear_around(prepared.frame, target);  // while the last batches' pixels are on their way
     for (const auto& pipeline : pipelines_) pipeline->finish();
+    if_thrown.is_finished = true;
 }
 
 std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
                                               PipelineCounts& counts) {
-    drop_claims();
+    start_call();
     std::vector<RayPartitions> answers(rays.size());
     share(RayCosts(rays.size()), true, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {

@@ -41,6 +41,7 @@ private:
     std::uint64_t parts_of(const RayCosts& costs, bool every_partition) const;
     void share(const RayCosts& costs, bool every_partition, Watch* watch, PipelineCounts& counts, const Work& work);
 
+    void start_call();
     void drop_claims();
 
     /// What a driver holds of registered memory counts as the device's as long as it is registered.

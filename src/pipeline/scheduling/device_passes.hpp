@@ -27,9 +27,10 @@ struct FrameJob {
 
     FrameShape shape() const { return shape_of(frame, target.channels.size()); }
     /// A batch is done.
-    void tell(std::uint32_t rays) const {
+    void tell(const RayBatch& batch) const {
         ++counts.batches;
-        if (told) told(rays);
+        counts.done.push_back(batch);
+        if (told) told(batch.rays);
     }
 };
 

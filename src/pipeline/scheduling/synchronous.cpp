@@ -79,7 +79,7 @@ void SynchronousSchedule::render(const FrameJob& job) {
             draw_part_of_tile(job, batch);
         else if (!draw_tiles(job, batch))
             return false;
-        job.tell(batch.rays);
+        job.tell(batch);
         return true;
     });
 }
@@ -184,6 +184,7 @@ void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> 
             for (const ClaimedPartition& claim : claims) counts.overlaps += !claim.claimants.empty();
         }
         ++counts.batches;
+        counts.done.push_back(batch);
         if (told) told(batch.rays);
         return true;
     });
