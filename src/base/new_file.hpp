@@ -16,6 +16,9 @@
 #include <unistd.h>  // Windows: with mingw-w64
 #ifdef _WIN32
 #include <io.h>
+#else
+#include <sys/file.h>
+#include <sys/stat.h>
 #endif
 
 #include <csgrt/error.hpp>
@@ -70,10 +73,11 @@ inline Target target_of(const std::string& name) {
 
 /// Stands beside its place under another name until keep(), and is removed if that never comes: whoever looks finds the
 /// old file or the new one, whole. What nothing can be renamed onto is written directly. Throws Error (file).
+/// It is locked while it is written, so that the next one for the same place knows what a process left that was killed.
 class NewFile {
 public:
     /// `on_signal` is called where a signal ends a wait, and may throw; then the wait goes on.
-    explicit NewFile(const std::string& name, void (*on_signal)() = nullptr) : name_(name), on_signal_(on_signal) {
+    explicit NewFile(const std::string& name, void (*on_signal)() = nullptr) : NewFile(on_signal, name) {
         Target target = target_of(name);
         target_ = target.path.string();
         if (target.endless) fail("cannot create", ELOOP);
@@ -89,13 +93,20 @@ public:
         const bool replaces = fs::exists(old);
         if (fs::is_directory(old)) fail("cannot replace", EISDIR);
         if (replaces && access(target_.c_str(), W_OK) != 0) fail("cannot replace", errno);
-        for (int attempt = 0; file_ < 0; ++attempt) {
-            temporary_ = beside(target.path, attempt);
-            file_ = open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | open_flags, 0666);
-            if (file_ >= 0 || errno == EEXIST) continue;
-            temporary_.clear();
-            fail("cannot create", errno);
+        int number = 0;
+        for (; file_ < 0; ++number) {
+            std::string temporary = beside(target.path, number);
+            remove_if_left(temporary);
+            file_ = open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | open_flags, 0666);
+            if (file_ < 0 && errno != EEXIST) fail("cannot create", errno);
+            if (file_ < 0) continue;
+            if (!lock())
+                close(std::exchange(file_, -1));  // another one took it for a dead process's
+            else
+                temporary_ = std::move(temporary);
         }
+        constexpr int most = 8;  // that wrote the same at once
+        for (; number < most; ++number) remove_if_left(beside(target.path, number));
         // As an editor would leave it.
         if (replaces) fs::permissions(temporary_, old.permissions() & fs::perms::all, error);
     }
@@ -104,6 +115,7 @@ public:
     ~NewFile() {
         if (file_ >= 0) close(file_);
         if (!temporary_.empty()) unlink(temporary_.c_str());
+        if (lock_ >= 0) close(lock_);
     }
 
     void write(std::string_view bytes) { write_to(file_, bytes, name_, on_signal_); }
@@ -133,23 +145,51 @@ public:
     }
 
 private:
+    /// Where the other constructor throws, the destructor tidies up.
+    NewFile(void (*on_signal)(), const std::string& name) : name_(name), on_signal_(on_signal) {}
+
     static std::string words(int code) { return code == EBADF ? "it is closed" : std::strerror(code); }
     [[noreturn]] static void refuse(const std::string& name, const char* what, const std::string& why) {
         throw Error(Status::file, name + ": " + what + ": " + why);
     }
     [[noreturn]] void fail(const char* what, int code) const { refuse(name_, what, words(code)); }
 
-    /// Another name where a process that ended badly, and had our number, left its own; no longer than a folder bears.
-    static std::string beside(const std::filesystem::path& target, int attempt) {
+    /// The numbers are for those that write the same at once. No longer than a folder bears.
+    static std::string beside(const std::filesystem::path& target, int number) {
         constexpr std::size_t longest = 200;
-        std::string name = target.filename().string().substr(0, longest);
-        name += "." + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".part";
+        const std::string name = target.filename().string().substr(0, longest) + "." + std::to_string(number) + ".part";
         return (target.parent_path() / name).string();
     }
 
+#ifdef _WIN32
+    bool lock() { return true; }
+    static void remove_if_left(const std::string&) {}
+#else
+    /// False if the file has been removed since it was made. Some file systems have no locks: there all files stay.
+    bool lock() {
+        struct stat status;
+        if (flock(file_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+        if (fstat(file_, &status) != 0 || status.st_nlink == 0) return false;
+        lock_ = duplicate(file_);  // holds it until the file has its name
+        return true;
+    }
+
+    /// Removes a file that nobody writes.
+    static void remove_if_left(const std::string& temporary) {
+        const int file = open(temporary.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | open_flags);
+        if (file < 0) return;
+        struct stat opened, named;
+        const bool is_left = flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &opened) == 0 &&
+                             S_ISREG(opened.st_mode) && lstat(temporary.c_str(), &named) == 0 &&
+                             opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;  // still has the name
+        if (is_left) unlink(temporary.c_str());
+        close(file);
+    }
+#endif
+
     std::string name_, target_, temporary_;  ///< no temporary: written directly
     void (*on_signal_)();
-    int file_ = -1;
+    int file_ = -1, lock_ = -1;
 };
 
 }  // namespace csgrt
