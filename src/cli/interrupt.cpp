@@ -2,6 +2,9 @@
 
 #include <atomic>
 #include <csignal>
+#include <string_view>
+#include <system_error>
+#include <thread>
 
 #include <unistd.h>
 
@@ -14,8 +17,19 @@ namespace {
 std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may touch nothing else
 
+constexpr unsigned grace = 4;  ///< seconds: a driver, or a library that is loaded, may never come back
+
 void on_signal(int) {
     if (stop.exchange(true)) _exit(static_cast<int>(Status::interrupted));
+    alarm(grace);
+}
+
+void on_alarm(int) {
+    const std::string_view text = stop ? "csgrt: error: interrupted\n"
+                                       : "csgrt: error: the libraries for pictures never come back from their start: "
+                                         "are there threads to be had?\n";
+    static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
+    _exit(static_cast<int>(stop ? Status::interrupted : Status::file));
 }
 
 }  // namespace
@@ -25,14 +39,25 @@ void catch_interrupts() {
     action.sa_handler = on_signal;
     sigemptyset(&action.sa_mask);
     action.sa_flags = 0;  // no SA_RESTART: a read that waits for rays must come back
-    for (int signal : {SIGINT, SIGTERM}) {
+    for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // ignored as in a script's background
+        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as in a script's background, or nohup
+    }
+    action.sa_handler = on_alarm;
+    sigaction(SIGALRM, &action, nullptr);
+    try {  // a thread that a signal always reaches: others block them while a driver is loaded
+        std::thread([] {
+            for (;;) pause();
+        }).detach();
+    } catch (const std::system_error&) {
     }
 }
 
 bool interrupted() noexcept { return stop; }
+
+LoadingLimit::LoadingLimit() noexcept { alarm(stop ? grace : 30); }
+LoadingLimit::~LoadingLimit() { alarm(stop ? grace : 0); }
 
 void check_interrupt() {
     if (stop) throw Error(Status::interrupted, "interrupted");

@@ -1,4 +1,5 @@
-// SIGINT and SIGTERM: the first one asks csgrt to stop where it can tidy up, the second one ends it at once.
+// SIGINT, SIGTERM and SIGHUP: the first one asks csgrt to stop where it can tidy up, and ends it where that takes
+// seconds. The second one ends it at once. Then a file that was being written may be left, *.part (base/new_file.hpp).
 #pragma once
 
 namespace csgrt::cli {
@@ -7,6 +8,16 @@ namespace csgrt::cli {
 void catch_interrupts();
 
 bool interrupted() noexcept;
+
+/// While it lives, the libraries for pictures are waited for, 30 s at most: a cold disk takes a few, and one of 260 may
+/// wait for ever, such as liblog4cplus for a thread that it does not get. Then the command ends with status 6.
+class LoadingLimit {
+public:
+    LoadingLimit() noexcept;
+    ~LoadingLimit();
+    LoadingLimit(const LoadingLimit&) = delete;
+    LoadingLimit& operator=(const LoadingLimit&) = delete;
+};
 
 /// Throws Error (interrupted) if the user asked to stop.
 void check_interrupt();

@@ -5,6 +5,8 @@
 
 #include <dlfcn.h>
 
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <thread>
@@ -13,6 +15,8 @@
 #include <csgrt/renderer.hpp>
 
 #include "image/functions.hpp"
+#include "fatal_end.hpp"
+#include "interrupt.hpp"
 #include "leaves_first.hpp"
 
 namespace csgrt {
@@ -32,13 +36,22 @@ std::string library_path() {
 
 const ImageFunctions& functions() {
     static const ImageFunctions* found = [] {
+        const cli::LoadingLimit limit;
         const std::string path = library_path();
+        cli::expect_picture_libraries();
         if (loading.joinable()) loading.join();
         if (!has_begun) cli::load_leaves_first(path);
         void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
         if (!library) library = dlopen(CSGRT_IMAGE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
         void* symbol = library ? dlsym(library, image_functions_name) : nullptr;
-        if (!symbol) throw Error(Status::file, std::string("cannot load the library for pictures: ") + dlerror());
+        if (!symbol) {
+            const std::string why = dlerror();
+            const std::string what = "cannot load the library for pictures: ";
+            if (why.find(std::strerror(ENOMEM)) != why.npos ||
+                why.ends_with("failed to map segment from shared object"))
+                throw Error(Status::out_of_memory, what + "not enough memory: " + why);
+            throw Error(Status::file, what + why);
+        }
         return static_cast<const ImageFunctions*>(symbol);
     }();
     return *found;
@@ -62,6 +75,7 @@ ImageLoading::ImageLoading(const Command& command) {
     const std::string& device = render->settings.device;
     if (!device.empty() && !device.starts_with("native")) return;
     try {
+        expect_picture_libraries();
         loading = std::jthread([](std::stop_token stop) {
             try {
                 load_leaves_first(library_path(), stop);
@@ -74,7 +88,10 @@ ImageLoading::ImageLoading(const Command& command) {
     }
 }
 
-ImageLoading::~ImageLoading() { loading = {}; }
+ImageLoading::~ImageLoading() {
+    const LoadingLimit limit;
+    loading = {};
+}
 
 }  // namespace cli
 }  // namespace csgrt

@@ -17,6 +17,7 @@
 
 #include "arguments.hpp"
 #include "cache_folder.hpp"
+#include "fatal_end.hpp"
 #include "held_renderer.hpp"
 #include "interrupt.hpp"
 #ifdef CSGRT_HAVE_IMAGE
@@ -84,6 +85,7 @@ int main_status(int argc, char** argv) noexcept {
     try {
         Command command = parse_arguments({argv + (argc > 0), argv + argc});
         if (may_use_opencl(command)) ensure_cache_folder();
+        catch_fatal_ends();
 #ifdef CSGRT_HAVE_IMAGE
         ImageLoading loading(command);
 #endif

@@ -213,7 +213,7 @@ std::vector<DeviceInfo> infos_of(const std::vector<FoundDevice>& devices) {
 std::vector<DeviceInfo> devices(std::vector<std::string>* notes) {
     const FloatingPoint own;
     Discovery found = find_devices();
-    if (notes) *notes = std::move(found.notes);
+    if (notes) notes->insert(notes->end(), found.notes.begin(), found.notes.end());
     return infos_of(found.devices);
 }
 

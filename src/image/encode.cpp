@@ -1,5 +1,6 @@
 #include "image/encode.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include <OpenImageIO/filesystem.h>
@@ -7,6 +8,7 @@
 
 #include "base/srgb.hpp"
 #include "image/matrix.hpp"
+#include "image/threads.hpp"
 #include "image/whole.hpp"
 
 namespace csgrt {
@@ -64,6 +66,19 @@ void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
     }
 }
 
+/// OpenImageIO leaves out of an EXR's header what it has no memory for, without an error.
+bool has_header(const std::vector<unsigned char>& exr, const Image& image) {
+    const auto has = [&](const std::string& key) {
+        const char* const name = key.c_str();  // and the 0 behind it
+        return std::search(exr.begin(), exr.end(), name, name + key.size() + 1) != exr.end();
+    };
+    for (const auto& [key, text] : image.attributes)
+        if (!text.empty() && !has(key)) return false;
+    for (const auto& [key, matrix] : image.matrices)
+        if (!has(key)) return false;
+    return true;
+}
+
 }  // namespace
 
 std::vector<unsigned char> encode(const Image& image, const std::string& format, const std::string& name) {
@@ -97,13 +112,13 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &sink);
     if (!output) throw Error(Status::file, name + ": OpenImageIO cannot write " + format + ": " + OIIO::geterror());
     const auto check = [&](bool good) {
-        if (!good) throw Error(Status::file, name + ": cannot be encoded: " + output->geterror());
+        if (!good) throw_from(name + ": cannot be encoded: ", output->geterror());
     };
     check(output->open("csgrt." + format, spec));
     check(exr ? output->write_image(OIIO::TypeFloat, floats.data())
               : output->write_image(OIIO::TypeUInt8, colors.data(), 4));
     check(output->close());
-    if (!is_whole(bytes, format, image.height))
+    if (!is_whole(bytes, format, image.height) || (exr && !has_header(bytes, image)))
         throw Error(Status::file, name + ": OpenImageIO has left the picture unfinished: is there enough memory?");
     return bytes;
 }

@@ -26,7 +26,7 @@ std::size_t rank(const std::string& name) {
 
 Image read(const std::string& path) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
-    if (!input) throw Error(Status::file, path + ": cannot read: " + OIIO::geterror());
+    if (!input) throw_from(path + ": cannot read: ", OIIO::geterror());
     if (std::string(input->format_name()) != "openexr") throw Error(Status::file, path + ": is no EXR file");
 
     const OIIO::ImageSpec& spec = input->spec();
@@ -35,7 +35,7 @@ Image read(const std::string& path) {
     const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
     std::vector<float> interleaved(count * pixels);
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, interleaved.data())) {
-        throw Error(Status::file, path + ": cannot read: " + input->geterror());
+        throw_from(path + ": cannot read: ", input->geterror());
     }
 
     std::vector<std::size_t> order(count);

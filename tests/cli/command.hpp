@@ -83,7 +83,8 @@ struct How {
     std::vector<int> closed = {};  ///< standard files that are not open
     rlim_t file_size = 0;          ///< bytes that a file may have, as if the disk were full; 0: no limit
     std::vector<std::pair<std::string, std::string>> environment =
-        {};  ///< variables that are set, in place of this process's
+        {};                   ///< variables that are set, in place of this process's
+    std::string errors = {};  ///< file to be standard error; empty: kept in Result::err
 };
 
 /// Starts the command in a child; the caller waits for it.
@@ -124,13 +125,14 @@ inline int wait_for(pid_t child) {
 
 inline Result run(const std::vector<std::string>& arguments, const How& how = {}) {
     const Folder folder;
-    const std::string out = how.output.empty() ? folder / "out" : how.output, err = folder / "err";
+    const std::string out = how.output.empty() ? folder / "out" : how.output,
+                      err = how.errors.empty() ? folder / "err" : how.errors;
     const std::string input = how.input.empty() ? "/dev/null" : how.input;
     Result result;
     result.status =
         wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size, how.environment));
     if (how.output.empty()) result.out = read_file(out);
-    result.err = read_file(err);
+    if (how.errors.empty()) result.err = read_file(err);
     return result;
 }
 

@@ -115,9 +115,9 @@ TEST_CASE("no picture is written to a terminal") {
 }
 #endif
 
-TEST_CASE("SIGINT and SIGTERM end a render, a wait for rays and a verification with 130, and leave no file") {
+TEST_CASE("SIGINT, SIGTERM and SIGHUP end a render, a wait for rays and a verification with 130, and leave no file") {
     NEEDS_COMMAND();
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Folder folder;
         const std::string scene = folder.write("balls.asc", two_balls);
         REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);

@@ -94,3 +94,21 @@ TEST_CASE("each promise stands where docs/promises.md says, and its tests exist"
     check();
     CHECK(promises > 200);
 }
+
+TEST_CASE("each row of docs/reliability.md names tests that exist") {
+    const char* scenes = std::getenv("CSGRT_SCENES");
+    if (!scenes) return;
+    const std::string root = std::string(scenes) + "/../";
+    static const std::regex test("`([a-z_]+/[a-z_]+)`");
+    std::istringstream page(read_file(root + "docs/reliability.md"));
+    std::size_t rows = 0;
+    for (std::string line; std::getline(page, line);) {
+        if (!line.starts_with("| ") || line.starts_with("| what fails")) continue;
+        INFO(line);
+        std::sregex_iterator at(line.begin(), line.end(), test), end;
+        CHECK(at != end);
+        for (; at != end; ++at) CHECK(fs::exists(root + "tests/" + (*at)[1].str() + "_test.cpp"));
+        ++rows;
+    }
+    CHECK(rows > 10);
+}

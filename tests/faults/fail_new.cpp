@@ -1,8 +1,15 @@
 // Loaded before a command (LD_PRELOAD): its allocation number CSGRT_FAIL_NEW fails, and with CSGRT_FAIL_NEW_ON all
-// later ones. Allocations are counted from 1, those of all threads together.
+// later ones. Allocations are counted from 1, those of all threads together, less those that libraries make when they
+// are loaded. The file CSGRT_FAIL_NEW_TOLD is made when that happens.
 #include <atomic>
 #include <cstdlib>
 #include <new>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+thread_local int loads = 0;  ///< libraries
 
 namespace {
 
@@ -12,8 +19,12 @@ void* allocate(std::size_t size, std::size_t alignment) {
     static const char* const number = std::getenv("CSGRT_FAIL_NEW");
     static const unsigned long failing = number ? std::strtoul(number, nullptr, 10) : 0;
     static const bool on = std::getenv("CSGRT_FAIL_NEW_ON") != nullptr;
-    const unsigned long mine = ++count;
-    if (failing > 0 && (mine == failing || (on && mine > failing))) throw std::bad_alloc();
+    const unsigned long mine = loads > 0 ? 0 : ++count;
+    if (failing > 0 && mine > 0 && (mine == failing || (on && mine > failing))) {
+        if (const char* const told = std::getenv("CSGRT_FAIL_NEW_TOLD"))
+            close(open(told, O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
+        throw std::bad_alloc();
+    }
     void* const memory = alignment > 0 ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                                        : std::malloc(size > 0 ? size : 1);
     if (!memory) throw std::bad_alloc();
@@ -21,6 +32,14 @@ void* allocate(std::size_t size, std::size_t alignment) {
 }
 
 }  // namespace
+
+extern "C" void* dlopen(const char* name, int flags) noexcept {
+    static const auto real = reinterpret_cast<decltype(&dlopen)>(dlsym(RTLD_NEXT, "dlopen"));
+    ++loads;
+    void* const library = real(name, flags);
+    --loads;
+    return library;
+}
 
 void* operator new(std::size_t size) { return allocate(size, 0); }
 void* operator new[](std::size_t size) { return allocate(size, 0); }

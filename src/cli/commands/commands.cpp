@@ -5,6 +5,7 @@
 
 #include <csgrt/scene_io.hpp>
 
+#include "cli/fatal_end.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "scene/faults/finding_list.hpp"
@@ -15,6 +16,7 @@ Settings with_progress(const Settings& settings, Progress& progress) {
     Settings result = settings;
     result.progress = [&progress](double fraction) {
         progress.update(fraction);
+        catch_fatal_ends_again();
         return !interrupted();
     };
     return result;

@@ -1,11 +1,22 @@
 // csgrt devices: the devices that --device can choose.
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <string>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 #include <csgrt/renderer.hpp>
 
 #include "commands.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 
 namespace csgrt::cli {
@@ -18,10 +29,38 @@ std::string gibibytes(std::uint64_t bytes) {
     return text;
 }
 
+/// A driver may end the process that loads it: so a child loads it first.
+bool can_load_drivers() {
+    const pid_t child = fork();
+    if (child == 0) {
+#ifdef __linux__
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+        for (const int signal : {SIGABRT, SIGBUS, SIGSEGV}) std::signal(signal, SIG_DFL);
+        try {
+            static_cast<void>(devices());
+        } catch (const std::exception&) {  // the parent has the same, and says so
+        }
+        _exit(0);
+    }
+    int status = 0;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        if (interrupted()) kill(child, SIGKILL);
+    check_interrupt();
+    return child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
 }  // namespace
 
 Status run(const DevicesArguments&) {
     std::vector<std::string> notes;
+    if (!can_load_drivers()) {
+        setenv("OCL_ICD_VENDORS", "/none/", 1);  // for the OpenCL loader: there are no drivers
+        setenv("OCL_ICD_FILENAMES", "", 1);
+        notes.push_back(
+            "OpenCL cannot be used: one of its drivers ends the process that loads it. Those are in the folder "
+            "/etc/OpenCL/vendors or OCL_ICD_VENDORS");
+    }
     const std::vector<DeviceInfo> found = devices(&notes);
     if (found.empty()) {
         std::string advice =

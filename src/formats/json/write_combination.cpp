@@ -11,6 +11,8 @@ namespace csgrt {
 
 namespace {
 
+// A value that becomes an object or an array by an access, as written[key] of a null does, is left broken where memory
+// ends: so they are made as what they are.
 using nlohmann::ordered_json;
 
 /// Operators inside operators up to this are written nested, each of them two brackets; the reader allows
@@ -73,7 +75,7 @@ ordered_json json_of_nested(const Tree& tree, JsonUnit& unit) {
             operands.push_back(std::move(waiting[i]));
         waiting.resize(waiting.size() - node.arity);
         if (node.op == Operator::not_) operands = ordered_json(std::move(operands[0]));
-        ordered_json written;
+        ordered_json written = ordered_json::object();
         written[std::string(operator_name(node.op))] = std::move(operands);
         waiting.push_back(std::move(written));
     }
@@ -106,7 +108,7 @@ ordered_json json_of_emission(const Emission& light, JsonUnit& unit) {
 
 /// The shader is always written, so that the finish is there again when all else is at its default.
 ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
-    ordered_json material;
+    ordered_json material = ordered_json::object();
     if (combination.color) material["color"] = unit.vector(*combination.color);
     if (combination.finish) {
         const Finish& finish = *combination.finish;
@@ -130,7 +132,7 @@ ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
 
 ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault) {
     const Combination usual;
-    ordered_json out;
+    ordered_json out = ordered_json::object();
     out["tree"] = json_of(combination.tree, unit, fault);
     if (combination.region) out["region"] = true;
     const auto add = [&](const char* key, int value, int otherwise) {
@@ -143,8 +145,10 @@ ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string
     add("material_id", combination.material_id, usual.material_id);
     add("los", combination.los, usual.los);
     if (combination.color || combination.finish) out["material"] = json_of_material(combination, unit);
-    if (combination.color_inherits) out["inherit"].push_back("color");
-    if (combination.finish_inherits) out["inherit"].push_back("finish");
+    ordered_json inherit = ordered_json::array();
+    if (combination.color_inherits) inherit.push_back("color");
+    if (combination.finish_inherits) inherit.push_back("finish");
+    if (!inherit.empty()) out["inherit"] = std::move(inherit);
     return out;
 }
 

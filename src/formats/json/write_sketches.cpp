@@ -46,7 +46,7 @@ ordered_json json_of_sketch(const Sketch& sketch, JsonUnit& unit) {
         if (reversed || (i == 0 && !sketch.reversed.empty())) curve["reversed"] = reversed;
         curves.push_back(std::move(curve));
     }
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     if (!sketch.name.empty()) json["name"] = sketch.name;
     json["vertices"] = std::move(vertices);
     json["curves"] = std::move(curves);

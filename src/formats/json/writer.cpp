@@ -72,6 +72,7 @@ private:
             out["model_units"] = {{"name", scene_.units}, {"millimetres", unit_.number(scene_.unit_length)}};
         }
         if (ordered_json camera = json_of_camera(); !camera.empty()) out["camera"] = std::move(camera);
+        if (!scene_.lights.empty()) out["lights"] = ordered_json::array();
         for (const Light& light : scene_.lights) {
             ordered_json& written =
                 out["lights"].emplace_back(ordered_json{{"position", unit_.lengths(light.position)},
@@ -85,6 +86,7 @@ private:
         if (!same_bits(scene_.ambient, usual.ambient)) out["ambient"] = unit_.number(scene_.ambient);
         if (!same_bits(scene_.background, usual.background)) out["background"] = unit_.vector(scene_.background);
         if (!same_bits(scene_.tolerance, usual.tolerance)) out["tolerance"] = unit_.length(scene_.tolerance);
+        if (!scene_.region_colors.empty()) out["region_colors"] = ordered_json::array();
         for (const RegionColor& range : scene_.region_colors) {
             out["region_colors"].push_back(
                 {{"low", range.low}, {"high", range.high}, {"color", unit_.vector(range.color)}});
@@ -96,7 +98,7 @@ private:
 
     ordered_json json_of_camera() {
         const Camera &camera = scene_.camera, usual;
-        ordered_json out;
+        ordered_json out = ordered_json::object();
         if (!camera.eye && !same_bits(camera.azimuth, usual.azimuth)) out["azimuth"] = unit_.number(camera.azimuth);
         if (!camera.eye && !same_bits(camera.elevation, usual.elevation))
             out["elevation"] = unit_.number(camera.elevation);
