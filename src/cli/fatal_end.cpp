@@ -71,8 +71,9 @@ unsigned long place_of([[maybe_unused]] const void* context) {
 void say(const char* text) { static_cast<void>(!write(STDERR_FILENO, text, std::strlen(text))); }
 
 /// Where it returns, the signal does what it does by default.
-void on_fatal(int signal, siginfo_t*, void* context) {
-    const Mapped mapped = look_for(place_of(context));
+void end(int signal, unsigned long place) {
+    if (driver_advice == nullptr) return;
+    const Mapped mapped = look_for(place);
     if (mapped.is_own || (!mapped.has_driver && !loads_pictures)) return;
     say("csgrt: error: ended by ");
     say(signal == SIGABRT ? "SIGABRT" : signal == SIGBUS ? "SIGBUS" : "SIGSEGV");
@@ -83,6 +84,8 @@ void on_fatal(int signal, siginfo_t*, void* context) {
     say(" while the libraries for pictures were in use: is there enough memory, and are there threads to be had?\n");
     _exit(static_cast<int>(Status::file));
 }
+
+void on_fatal(int signal, siginfo_t*, void* context) { end(signal, place_of(context)); }
 
 }  // namespace
 
@@ -104,6 +107,8 @@ void catch_fatal_ends_again() noexcept {
 
 void expect_picture_libraries() noexcept { loads_pictures = true; }
 
+void on_abort(void* caller) noexcept { end(SIGABRT, reinterpret_cast<unsigned long>(caller)); }
+
 }  // namespace csgrt::cli
 
 #else
@@ -113,6 +118,7 @@ namespace csgrt::cli {
 void catch_fatal_ends() {}
 void catch_fatal_ends_again() noexcept {}
 void expect_picture_libraries() noexcept {}
+void on_abort(void*) noexcept {}
 
 }  // namespace csgrt::cli
 

@@ -10,6 +10,9 @@ void catch_fatal_ends();
 /// The same after a driver's compiler, PoCL's say, has set handlers of its own.
 void catch_fatal_ends_again() noexcept;
 
+/// For a call of abort(): what the signal would do.
+void on_abort(void* caller) noexcept;
+
 /// The libraries for pictures are loaded from now on.
 void expect_picture_libraries() noexcept;
 

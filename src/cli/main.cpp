@@ -111,6 +111,18 @@ Status run(const TextArguments& arguments) {
 
 }  // namespace csgrt::cli
 
+#ifdef __linux__
+/// Libraries call this one, since it is the program's. The system's calls a handler once, and PoCL's compiler has put
+/// its own before ours.
+extern "C" [[gnu::visibility("default")]] void abort() noexcept {
+    csgrt::cli::on_abort(__builtin_return_address(0));
+    for (;;) {
+        raise(SIGABRT);
+        std::signal(SIGABRT, SIG_DFL);
+    }
+}
+#endif
+
 int main(int argc, char** argv) {
     std::set_terminate(csgrt::cli::on_terminate);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error where it is written

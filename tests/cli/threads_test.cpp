@@ -20,3 +20,35 @@ TEST_CASE("threads that libraries do not get while they are loaded: the right an
     unsetenv("CSGRT_FAIL_THREAD_LOADS");
 }
 #endif
+
+TEST_CASE("a thread that PoCL does not get is the answer or status 7, and a sentence") {
+    NEEDS_COMMAND();
+    const char* library = std::getenv("CSGRT_FAIL_LIBRARY");
+    if (library == nullptr || !contains(run({"devices"}).out, "Portable Computing Language")) {
+        WARN("no library or no PoCL: skipped");
+        return;
+    }
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls), told = folder / "told";
+    int refused = 0;
+    for (const bool on : {false, true})
+        for (int number = 1;; ++number) {
+            How how;
+            how.environment = {{"LD_PRELOAD", library},
+                               {"POCL_CACHE_DIR", folder / "cache"},
+                               {"CSGRT_FAIL_THREAD", std::to_string(number)},
+                               {"CSGRT_FAIL_THREAD_TOLD", told}};
+            if (on) how.environment.push_back({"CSGRT_FAIL_THREAD_ON", "1"});
+            fs::remove(told);
+            const Result result =
+                run({scene, "--device", "pocl", "--size", "8", "--first-hit", "--stats", folder / "stats.json"}, how);
+            if (!fs::exists(told)) break;
+            INFO(number << (on ? " on: " : ": ") << result.status << " " << result.err);
+            refused += result.status == 7;
+            if (result.status != 0) {
+                CHECK(result.status == 7);
+                CHECK(contains(result.err, "csgrt: error: "));
+            }
+        }
+    CHECK(refused > 0);
+}
