@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
+#include "sanitized.hpp"
 
 using namespace command_test;
 
@@ -91,7 +92,7 @@ void end_at_random_times(int kills) {
 
 TEST_CASE("a command that is ended at any time leaves the old file or the new one, whole, and nothing else") {
     NEEDS_COMMAND();
-    end_at_random_times(9);
+    end_at_random_times(csgrt::test::tries(9));
 }
 
 TEST_CASE("200 commands that are ended at any time leave the old file or the new one, whole", "[.long]") {
