@@ -17,9 +17,8 @@ std::vector<Renderer> held;
 }  // namespace
 
 HeldRenderer::~HeldRenderer() {
-    if (!is_busy(renderer_)) return;
     try {
-        held.push_back(std::move(renderer_));
+        if (is_busy(renderer_)) held.push_back(std::move(renderer_));
     } catch (const std::bad_alloc&) {  // no memory: the destructor waits for the driver
     }
 }

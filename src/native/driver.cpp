@@ -255,9 +255,11 @@ void* map(cl_command_queue, cl_mem memory, cl_bool, cl_map_flags, std::size_t of
     set(code, CL_SUCCESS);
     return as<Memory>(memory).data + offset;
 }
-cl_int unmap(cl_command_queue, cl_mem, void*, cl_uint, const cl_event*, cl_event* event) {
+cl_int unmap(cl_command_queue, cl_mem, void*, cl_uint, const cl_event*, cl_event* event) try {
     tell(event, now());
     return CL_SUCCESS;
+} catch (const std::bad_alloc&) {  // destructors call it
+    return CL_OUT_OF_HOST_MEMORY;
 }
 
 cl_int mark(cl_command_queue, cl_uint, const cl_event*, cl_event* event) {
