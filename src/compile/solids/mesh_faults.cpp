@@ -145,7 +145,7 @@ enum class Copies {
 };
 
 struct Counts {
-    std::size_t repeated = 0, walls = 0, flat = 0, split = 0, turned = 0;
+    std::size_t repeated = 0, walls = 0, flat = 0, split = 0, turned = 0, not_looked_at = 0;
 };
 
 /// A bot's faces on the way to a surface.
@@ -164,7 +164,7 @@ private:
     bool is_flat(const Corners& face) const;
     void take_faces();
     void choose(Copies rule);
-    std::vector<std::vector<std::uint32_t>> points_on(const std::vector<Edges::Edge>& edges) const;
+    std::vector<std::vector<std::uint32_t>> points_on(const std::vector<Edges::Edge>& edges);
     bool split(const Edges& edges);
     Edges joined();
     MendedMesh surface(const Edges& edges);
@@ -309,8 +309,9 @@ void Mender::choose(Copies rule) {
     from_.resize(kept);
 }
 
-/// Which ends of `edges` lie in the middle of each of them, from low to high.
-std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edges::Edge>& edges) const {
+/// Which ends of `edges` lie in the middle of each of them, from low to high. Edges that lie on one another, all with
+/// the same points, are not looked at to the end: that would take the square of their number.
+std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edges::Edge>& edges) {
     // What rounding to single precision leaves.
     const double near = std::min(0x1p-23 * reach_, 1e-6 * size_);
     const std::vector<Vec3>& v = bot_.vertices;
@@ -329,11 +330,16 @@ std::vector<std::vector<std::uint32_t>> Mender::points_on(const std::vector<Edge
 
     std::vector<std::vector<std::uint32_t>> found(edges.size());
     std::vector<std::pair<double, std::uint32_t>> on;
+    const std::size_t most_looks = 10'000'000 + 100 * edges.size();
+    std::size_t looks = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
+        counts_.not_looked_at = looks > most_looks ? edges.size() - i : 0;
+        if (counts_.not_looked_at > 0) break;
         const Vec3 &a = v[edges[i].low], &b = v[edges[i].high], ab = b - a;
         const double whole = length(ab);
         on.clear();
         const auto try_point = [&](std::uint32_t p) {
+            ++looks;
             if (p == edges[i].low || p == edges[i].high) return;
             const Vec3 ap = v[p] - a;
             const double along = dot(ap, ab) / whole;
@@ -542,6 +548,9 @@ MendedMesh Mender::surface(const Edges& edges) {
     if (counts_.split > 0)
         notes.push_back(counted(counts_.split, "face is", "faces are") +
                         " cut at vertices in the middle of their edges");
+    if (counts_.not_looked_at > 0)
+        notes.push_back(counted(counts_.not_looked_at, "edge was", "edges were") +
+                        " not cut at the vertices in the middle: too many of them lie on one another");
     if (against > 0)
         notes.push_back(counted(against, "face winds", "faces wind") + " against the others" +
                         (is_closed     ? "; what is inside is told by parity"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
+#include <utility>
 
 #include "scene/faults/families.hpp"
 
@@ -109,9 +109,9 @@ std::vector<std::string> sketch_faults(const Sketch& sketch) {
     for (std::size_t i = 0; i < sketch.vertices.size(); ++i) {
         const auto& [u, v] = sketch.vertices[i];
         const double most = std::max(std::abs(u), std::abs(v));
-        const std::string vertex = "vertex " + std::to_string(i) + " of its sketch has ";
-        if (!std::isfinite(u) || !std::isfinite(v)) return {vertex + "a number that is not finite"};
-        if (most > Limits::length) return {vertex + "the number " + number_text(most) + "; " + length_limit()};
+        const auto vertex = [i] { return "vertex " + std::to_string(i) + " of its sketch has "; };
+        if (!std::isfinite(u) || !std::isfinite(v)) return {vertex() + "a number that is not finite"};
+        if (most > Limits::length) return {vertex() + "the number " + number_text(most) + "; " + length_limit()};
     }
     for (std::size_t i = 0; i < sketch.curves.size(); ++i) {
         const std::string fault = std::visit(CurveFault{sketch.vertices}, sketch.curves[i]);
@@ -125,26 +125,17 @@ std::vector<std::string> sketch_faults(const Sketch& sketch) {
 }
 
 std::vector<std::uint32_t> open_ends(const Sketch& sketch) {
-    struct Corner {
-        std::uint32_t first = 0;
-        bool open = false;
-    };
-    std::map<std::pair<double, double>, Corner> corners;  // vertices at one place are one
-    const auto meet = [&](std::uint32_t vertex) {
-        const Sketch::Point& p = sketch.vertices[vertex];
-        Corner& corner = corners.try_emplace({p.u, p.v}, Corner{vertex, false}).first->second;
-        corner.first = std::min(corner.first, vertex);
-        corner.open = !corner.open;
-    };
-    for (const Sketch::Curve& curve : sketch.curves) {
-        if (const auto ends = std::visit(EndsOf{}, curve)) {
-            meet(ends->first);
-            meet(ends->second);
-        }
-    }
+    std::vector<std::uint32_t> ends;
+    for (const Sketch::Curve& curve : sketch.curves)
+        if (const auto both = std::visit(EndsOf{}, curve)) ends.insert(ends.end(), {both->first, both->second});
+    // Vertices at one place are one.
+    const auto place = [&](std::uint32_t v) { return std::pair(sketch.vertices[v].u, sketch.vertices[v].v); };
+    std::sort(ends.begin(), ends.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return std::pair(place(a), a) < std::pair(place(b), b); });
     std::vector<std::uint32_t> open;
-    for (const auto& [position, corner] : corners) {
-        if (corner.open) open.push_back(corner.first);
+    for (std::size_t i = 0, next = 0; i < ends.size(); i = next) {
+        while (next < ends.size() && place(ends[next]) == place(ends[i])) ++next;
+        if ((next - i) % 2 == 1) open.push_back(ends[i]);
     }
     std::sort(open.begin(), open.end());
     return open;
