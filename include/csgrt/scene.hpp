@@ -145,27 +145,29 @@ CSGRT_API const Place& place_of(const Object& object);
 /// uses, in the order of the file.
 CSGRT_API std::vector<std::string> top_objects(const Scene& scene);
 
-/// Limits that validate() and Renderer::shoot() enforce: far beyond real models, and far below what exhausts a machine
-/// or the range of its numbers.
+/// Limits that validate() and Renderer enforce: far beyond real models, and far below what exhausts a machine or the
+/// range of its numbers. docs/limits.md has them in a table.
 struct Limits {
-    static constexpr std::uint32_t nesting = 1'000;           ///< combinations inside combinations
-    static constexpr std::uint32_t file_nesting = 512;        ///< brackets inside brackets in a scene file
-    static constexpr std::uint64_t instances = 20'000'000;    ///< solids, as often as the trees use them
-    static constexpr std::uint32_t faces = 65'535;            ///< of one arbn
-    static constexpr std::uint32_t triangles = 20'000'000;    ///< of one bot, ars or nmg
-    static constexpr std::uint32_t cells = 200'000'000;       ///< of one ebm or vol; heights of one dsp
-    static constexpr std::uint32_t curves = 100'000;          ///< of one sketch
-    static constexpr std::uint32_t curve_degree = 12;         ///< of a Bezier or NURB curve
-    static constexpr std::uint32_t pipe_points = 100'000;     ///< of one pipe
-    static constexpr std::uint32_t metaball_points = 10'000;  ///< of one metaball
-    static constexpr double least_exponent = 0.01;            ///< of a superell: with less it is all but a box
-    static constexpr double greatest_exponent = 20;           ///< of a superell: with more it is all but its axes
-    static constexpr double length = 1e15;                    ///< millimetres: coordinates and sizes, placed or not
-    static constexpr double least_length = 1e-15;             ///< millimetres: diagonal of a placed solid's box
-    static constexpr double ray_origin = 1e18;                ///< millimetres: coordinates of a ray's origin
-    static constexpr double least_direction = 1e-250;         ///< largest component of a ray's direction, at least
-    static constexpr double greatest_direction = 1e250;       ///< and at most
-    static constexpr int shine = 10'000;                      ///< of a finish: with more a highlight is a point
+    static constexpr std::uint32_t nesting = 1'000;              ///< combinations inside combinations
+    static constexpr std::uint32_t file_nesting = 512;           ///< brackets inside brackets in a scene file
+    static constexpr std::uint64_t instances = 300'000;          ///< unless Settings::max_instances is given
+    static constexpr std::uint64_t most_instances = 20'000'000;  ///< of Settings::max_instances
+    static constexpr std::uint64_t path_bytes = 256'000'000;     ///< of the paths of all regions together
+    static constexpr std::uint32_t faces = 16'384;               ///< of one arbn
+    static constexpr std::uint32_t triangles = 20'000'000;       ///< of one bot, ars or nmg
+    static constexpr std::uint32_t cells = 200'000'000;          ///< of one ebm or vol; heights of one dsp
+    static constexpr std::uint32_t curves = 100'000;             ///< of one sketch
+    static constexpr std::uint32_t curve_degree = 12;            ///< of a Bezier or NURB curve
+    static constexpr std::uint32_t pipe_points = 100'000;        ///< of one pipe
+    static constexpr std::uint32_t metaball_points = 10'000;     ///< of one metaball
+    static constexpr double least_exponent = 0.01;               ///< of a superell: with less it is all but a box
+    static constexpr double greatest_exponent = 20;              ///< of a superell: with more it is all but its axes
+    static constexpr double length = 1e15;                       ///< millimetres: coordinates and sizes, placed or not
+    static constexpr double least_length = 1e-15;                ///< millimetres: diagonal of a placed solid's box
+    static constexpr double ray_origin = 1e18;                   ///< millimetres: coordinates of a ray's origin
+    static constexpr double least_direction = 1e-250;            ///< largest component of a ray's direction, at least
+    static constexpr double greatest_direction = 1e250;          ///< and at most
+    static constexpr int shine = 10'000;                         ///< of a finish: with more a highlight is a point
     /// Of a metaball of that method: its fields reach everywhere, so its time grows with their square.
     static constexpr std::uint32_t isopotential_points = 1'000;
     /// By what part of its diameter an arc's chord may be longer: it is a half circle, its radius had few digits.
@@ -175,8 +177,9 @@ struct Limits {
 /// Checks the objects that `objects` (names or paths; none: the top objects) reach: members that do not exist, cycles,
 /// degenerate solids, singular matrices, numbers that are not finite, trees. Returns every error; none: the model is
 /// valid. If `skip_unsupported`, solids of unknown types are the empty set (see Settings). What is left out instead of
-/// being an error is appended to `warnings`, if that is not null.
+/// being an error is appended to `warnings`, if that is not null. `max_instances`: see Settings.
 CSGRT_API std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects = {},
-                                           bool skip_unsupported = false, std::vector<Warning>* warnings = nullptr);
+                                           bool skip_unsupported = false, std::vector<Warning>* warnings = nullptr,
+                                           std::uint64_t max_instances = 0);
 
 }  // namespace csgrt

@@ -2,27 +2,37 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <csgrt/scene.hpp>
 
 namespace csgrt {
 
+/// How a scene is read.
+struct LoadOptions {
+    bool strict = false;  ///< true: any fault of a BRL-CAD database is an error, as it always is in .json
+    /// Folders below which a scene may name files (the cells of an ebm, vol or dsp), besides the folder of its own
+    /// file. Links and `..` are resolved first.
+    std::vector<std::string> file_folders = {};
+};
+
 /// Reads a scene file, whose format its extension tells: .json (csgrt's own format, scenes/csgrt.schema.json), .g
 /// (BRL-CAD binary, v5) or .asc (BRL-CAD text, v4 and v5). The first bytes tell the format of "-", which is standard
 /// input, and of devices and pipes. Lengths are converted to millimetres.
 ///
-/// BRL-CAD's databases become lenient scenes: an object that cannot be read becomes an Unsupported solid, with the
-/// reason, and other faults become Scene::warnings. If `strict`, they are read as .json always is: any fault is an
-/// error.
+/// BRL-CAD's databases become lenient scenes, unless they are read strictly: an object that cannot be read becomes an
+/// Unsupported solid, with the reason, and other faults become Scene::warnings. A file of cells that the scene may not
+/// name is such a fault, whether the file exists or not.
 ///
 /// Throws Error: file if the file cannot be read, scene, with every error that was found, if its text is invalid,
 /// out_of_memory if the model does not fit. validate() checks the model itself. Any thread.
-CSGRT_API Scene load_scene(const std::string& path, bool strict = false);
+CSGRT_API Scene load_scene(const std::string& path, const LoadOptions& options = {});
 
 /// Reads a scene from the bytes of a file; the first bytes tell the format. Errors call the file `name`. Names of files
-/// of cells in it (of an ebm, vol or dsp) are relative to the folder of `name`. Throws as load_scene() does. Any
+/// of cells in it (of an ebm, vol or dsp) are relative to the folder of `name`, and the scene may name only those below
+/// LoadOptions::file_folders. The same holds for standard input, devices and pipes. Throws as load_scene() does. Any
 /// thread.
-CSGRT_API Scene parse_scene(std::string bytes, const std::string& name, bool strict = false);
+CSGRT_API Scene parse_scene(std::string bytes, const std::string& name, const LoadOptions& options = {});
 
 /// Writes a scene as .json. Reading it gives the same model, bit for bit. The file has a temporary name until it is
 /// complete. "-" is standard output. Throws Error: file, or scene if an object cannot be expressed. Any thread.

@@ -25,6 +25,10 @@ struct Settings {
     /// call of the driver that does not return, such as its compiler's, is waited for.
     double device_timeout = -1;
     std::uint64_t max_memory = 0;  ///< bytes of memory to use on each device; 0: what the device has
+    /// Most instances: solids, as often as the trees use them. They are counted before any is made, and a scene of more
+    /// throws Error (scene). One with many parts counts as several (docs/limits.md). 0: Limits::instances, or twice as
+    /// many as the scene's solids once each, if that is more. At most Limits::most_instances.
+    std::uint64_t max_instances = 0;
     Precision precision = Precision::double_;
     Quartic quartic = Quartic::bracketed;
     /// On a device only: its compiler may contract a product and a sum into one operation (fma). Results then differ

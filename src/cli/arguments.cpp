@@ -25,11 +25,16 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
     throw Error(Status::usage, {Diagnostic{{}, std::move(message), std::move(suggestion), {}}});
 }
 
-void define_strict(Options& options, bool& strict) {
+void define_load(Options& options, LoadOptions& load) {
     options.flag(
         "--strict",
         "refuse a .g or .asc in which anything is missing or broken; if not given, that is left out, with a warning",
-        strict);
+        load.strict);
+    options.list(
+        "--allow-files", "FOLDER",
+        "the scene may name files (cells of an ebm, vol or dsp) below FOLDER; if not given, only below its own "
+        "folder, and none if it is on standard input; may be given several times",
+        load.file_folders);
 }
 
 void define_scene(Options& options, SceneArguments& arguments) {
@@ -37,7 +42,11 @@ void define_scene(Options& options, SceneArguments& arguments) {
     options.arguments("OBJECT", "objects of the scene, or paths to them (all.g/tor.r); its top objects if not given",
                       arguments.objects);
     options.flag("--air", "keep air regions", arguments.settings.air);
-    define_strict(options, arguments.strict);
+    define_load(options, arguments.load);
+    options.count("--max-instances",
+                  "most solids of the model, as often as its trees use them; they are counted before any is made; " +
+                      std::to_string(Limits::instances) + ", or twice the scene's own if that is more, if not given",
+                  arguments.settings.max_instances, 1, Limits::most_instances);
     options.flag("--skip-unsupported",
                  "leave out solids of types that csgrt does not know, with a warning; always done for a .g or .asc "
                  "unless --strict",
@@ -233,7 +242,7 @@ void define(Options& options, InfoArguments& arguments) {
 void define(Options& options, ConvertArguments& arguments) {
     options.argument("IN", scene_help, arguments.input);
     options.argument("OUT", "FILE.json to write; - is standard output", arguments.output);
-    define_strict(options, arguments.strict);
+    define_load(options, arguments.load);
 }
 
 struct Entry {

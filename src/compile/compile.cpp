@@ -163,15 +163,16 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     CompiledScene compiled;
     compiled.warnings = scene.warnings;
     compiled.display_shading = options.display_shading;
-    if (std::vector<Diagnostic> findings = validate(scene, names, objects, options.skip_unsupported, compiled.warnings);
+    if (std::vector<Diagnostic> findings =
+            validate(scene, names, objects, options.skip_unsupported, compiled.warnings, options.max_instances);
         !findings.empty())
         throw Error(Status::scene, std::move(findings));
     if (roots.empty()) roots = names.top_objects();  // all were in cycles, which are cut now
 
-    FlatScene flat = flatten(scene, names, roots, options.air);
+    FlatScene flat = flatten(scene, names, roots, options.air, options.max_instances);
     std::optional<Measured> measured(std::in_place, scene, flat);
     while (leave_out_extremes(scene, flat, *measured, names, compiled.warnings)) {
-        flat = flatten(scene, names, roots, options.air);
+        flat = flatten(scene, names, roots, options.air, options.max_instances);
         measured.emplace(scene, flat);
     }
     std::move(flat.warnings.begin(), flat.warnings.end(), std::back_inserter(compiled.warnings));

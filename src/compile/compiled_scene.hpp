@@ -70,9 +70,10 @@ struct CompiledScene {
 };
 
 struct CompileOptions {
-    bool air = false;               ///< keep air regions
-    bool skip_unsupported = false;  ///< solids of unknown types are empty sets
-    bool display_shading = false;   ///< see Settings
+    bool air = false;                 ///< keep air regions
+    bool skip_unsupported = false;    ///< solids of unknown types are empty sets
+    bool display_shading = false;     ///< see Settings
+    std::uint64_t max_instances = 0;  ///< see Settings
 };
 
 /// Validates and compiles `objects` of `scene` (empty: its top objects). Throws Error (scene) with every finding.

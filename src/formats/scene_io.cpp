@@ -37,26 +37,31 @@ std::string extension_of(const std::string& path) { return lower(fs::path(path).
 
 }  // namespace
 
-Scene load_scene(const std::string& path, bool strict) {
+Scene load_scene(const std::string& path, const LoadOptions& options) {
     const FloatingPoint own;
-    if (path == "-") return parse_scene(read_standard_input(), standard_input, strict);
+    if (path == "-") return parse_scene(read_standard_input(), standard_input, options);
     const std::string extension = extension_of(path);
     if (extension == ".json") return read_json(path);
-    if (extension == ".asc") return read_brlcad_asc(path, !strict);
-    if (extension == ".g") return read_brlcad_g(path, !strict);
-    if (target_of(path).direct) return parse_scene(read_file(path), path, strict);
+    if (extension == ".asc") return read_brlcad_asc(path, !options.strict, options.file_folders);
+    if (extension == ".g") return read_brlcad_g(path, !options.strict, options.file_folders);
+    if (target_of(path).direct) return parse_scene(read_file(path), path, options);
     refuse(path, "this is no scene by its name", "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
 }
 
-Scene parse_scene(std::string bytes, const std::string& name, bool strict) {
+Scene parse_scene(std::string bytes, const std::string& name, const LoadOptions& options) {
     const FloatingPoint own;
     try {
         if (bytes.starts_with("\x1f\x8b")) refuse(name, "this is compressed", "gunzip it first");
-        if (is_brlcad_g(bytes)) return parse_brlcad_g(ByteSource(name, std::move(bytes)), !strict);
-        const TextSource source(name, std::move(bytes));
+        if (is_brlcad_g(bytes)) {
+            ByteSource source(name, std::move(bytes));
+            source.file_folders = options.file_folders;
+            return parse_brlcad_g(source, !options.strict);
+        }
+        TextSource source(name, std::move(bytes));
+        source.file_folders = options.file_folders;
         const std::size_t first = source.text().find_first_not_of(" \t\r\n", source.begin());
         const bool is_json = first != std::string::npos && source.text()[first] == '{';
-        return is_json ? parse_json_scene(source) : parse_brlcad_asc(source, !strict);
+        return is_json ? parse_json_scene(source) : parse_brlcad_asc(source, !options.strict);
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, name + ": the model does not fit the memory");
     }

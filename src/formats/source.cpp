@@ -73,6 +73,13 @@ std::string read_file(const std::string& path) {
     return read_all(file.get(), path, ignored ? 0 : static_cast<std::size_t>(known_size));
 }
 
+std::vector<std::string> file_folders_of(const std::string& model, const std::vector<std::string>& allowed) {
+    std::vector<std::string> folders = allowed;
+    const std::string own = std::filesystem::path(model).parent_path().string();
+    folders.push_back(own.empty() ? "." : own);
+    return folders;
+}
+
 std::string read_standard_input() { return read_all(stdin, standard_input, 0); }
 
 void Findings::add(std::size_t offset, std::string object, std::string message, std::string suggestion) {

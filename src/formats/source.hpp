@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <csgrt/error.hpp>
 
@@ -16,6 +17,9 @@ inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
 /// The bytes of a file. Throws Error (file) if it cannot be read or is larger than max_file_bytes.
 std::string read_file(const std::string& path);
 
+/// Of files that a model names: its own folder, and `allowed`.
+std::vector<std::string> file_folders_of(const std::string& model, const std::vector<std::string>& allowed);
+
 /// The bytes of standard input, likewise.
 std::string read_standard_input();
 inline constexpr const char* standard_input = "standard input";
@@ -26,6 +30,9 @@ public:
     virtual Place place(std::size_t offset, std::string object = {}) const = 0;
     /// What stands at the offset, for a person to see; empty if that would help nobody.
     virtual std::string excerpt(std::size_t offset) const = 0;
+
+    /// The files that it may name lie below these. None: it may name no file, as a scene from memory.
+    std::vector<std::string> file_folders;
 
 protected:
     ~Source() = default;

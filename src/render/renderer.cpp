@@ -87,6 +87,8 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
         throw Error(Status::usage, "contraction is on a device only: the reference rounds every operation");
     if (settings.contraction && settings.check > 0)
         throw Error(Status::usage, "contraction changes the last digits, which a check by the reference compares");
+    if (settings.max_instances > Limits::most_instances)
+        throw Error(Status::usage, "max_instances is more than " + std::to_string(Limits::most_instances));
     Impl& impl = *impl_;
     impl.settings = settings;
     impl.title = scene.title;
@@ -95,7 +97,8 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     impl.scene = compile(scene, objects,
                          {.air = settings.air,
                           .skip_unsupported = settings.skip_unsupported,
-                          .display_shading = settings.display_shading});
+                          .display_shading = settings.display_shading,
+                          .max_instances = settings.max_instances});
     impl.statistics.ms.compile = milliseconds_since(start);
     impl.warnings = impl.scene.warnings;
     impl.statistics.precision = name_of(precision_names, settings.precision);

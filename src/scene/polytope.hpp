@@ -18,7 +18,7 @@ struct Polytope {
 };
 
 /// Clips a large cube by one half-space after the other. Normals are unit vectors. Time grows with planes x faces: a
-/// thousand planes take hundredths of a second, Limits::faces half a minute.
+/// thousand planes take hundredths of a second, Limits::faces a second or two.
 /// The vertices are good to about 1e-10 of the farthest plane's distance, then to 1e-15 of the polytope's size.
 Polytope intersect_half_spaces(const std::vector<Plane>& planes);
 

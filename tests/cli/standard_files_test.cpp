@@ -57,18 +57,89 @@ TEST_CASE("errors of a scene on standard input name it, with line and column") {
     CHECK(contains(run({"info", "-"}, {.input = folder.write("scene", "\x1f\x8b packed")}).err, "gunzip"));
 }
 
-TEST_CASE("files of a scene on standard input are relative to the present folder") {
-    // "standard input" has no folder.
+TEST_CASE("files of a scene on standard input are relative to the present folder, which must be allowed") {
     const Folder folder;
     const std::string text =
         "units mm\nput d.s dsp src f file heights w 2 n 2 sm 0 cut a stom {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\n";
     folder.write("heights", std::string("\0\5\0\5\0\5\0\5", 8));
     const fs::path before = fs::current_path();
     fs::current_path(folder / ".");
-    const csgrt::Scene scene = csgrt::parse_scene(text, "standard input");
+    const csgrt::Scene refused = csgrt::parse_scene(text, "standard input");
+    const csgrt::Scene allowed = csgrt::parse_scene(text, "standard input", {.file_folders = {"."}});
     fs::current_path(before);
-    REQUIRE(scene.objects.size() == 1);
-    CHECK(csgrt::type_name(std::get<csgrt::Solid>(scene.objects[0]).shape) == std::string("dsp"));
+    REQUIRE(refused.objects.size() == 1);
+    const auto& solid = std::get<csgrt::Solid>(refused.objects[0]);
+    REQUIRE(std::holds_alternative<csgrt::Unsupported>(solid.shape));
+    CHECK(contains(std::get<csgrt::Unsupported>(solid.shape).reason, "may not name"));
+    REQUIRE(allowed.objects.size() == 1);
+    CHECK(std::holds_alternative<csgrt::Dsp>(std::get<csgrt::Solid>(allowed.objects[0]).shape));
+}
+
+TEST_CASE("a scene names files below its own folder, and below those of --allow-files") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    for (const char* name : {"models", "models/inside", "cells", "cells2"}) fs::create_directory(folder / name);
+    const std::string bytes("\0\5\0\5\0\5\0\5", 8);
+    for (const char* name : {"models/own", "models/inside/own", "cells/other", "cells2/other"})
+        folder.write(name, bytes);
+    fs::create_symlink(folder / "cells/other", folder / "models/link");
+    fs::create_directory_symlink(folder / "models", folder / "way");
+    const auto model = [](const std::string& file) {
+        return "units mm\nput d.s dsp src f file {" + file +
+               "} w 2 n 2 sm 0 cut a stom {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}\nput r comb region yes tree {l d.s}\n";
+    };
+    const auto shown = [&](const std::string& file, std::vector<std::string> more = {}, const char* way = "models") {
+        folder.write("models/m.asc", model(file));
+        std::vector<std::string> words = {"info", folder / way + "/m.asc"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = run(words);
+        INFO(file + "\n" + result.out + result.err);
+        CHECK(result.status == 0);
+        CHECK(contains(result.out, "solids    1 (dsp 1)") != contains(result.out, "\nwarning "));
+        return result.out;
+    };
+    const auto is_read = [](const std::string& out) { return contains(out, "solids    1 (dsp 1)"); };
+    for (const char* file : {"own", "inside/own", "./inside/../own", "../models/own"}) {
+        CHECK(is_read(shown(file)));
+        CHECK(is_read(shown(file, {}, "way")));
+    }
+    CHECK(is_read(shown(folder / "models/own")));
+    CHECK(is_read(shown(folder / "way/own")));
+    for (const std::string& file : {std::string("../cells/other"), std::string("link"), folder / "cells/other"}) {
+        CHECK(!is_read(shown(file)));
+        CHECK(!is_read(shown(file, {"--allow-files", folder / "cells2"})));
+        CHECK(!is_read(shown(file, {"--allow-files", folder / "cell"})));
+        CHECK(is_read(shown(file, {"--allow-files", folder / "cells"})));
+        CHECK(is_read(shown(file, {"--allow-files", folder / "cells2", "--allow-files", folder / "cells/"})));
+    }
+    // The same is said whether the file exists or not, and of whatever size it is.
+    folder.write("cells/large", bytes + bytes);
+    std::string first;
+    for (const char* file : {"../cells/other", "../cells/large", "../cells/absen", "../nosuc/absen", "/etc/passwd",
+                             "/etc/shadow", "/root/.ssh/id"}) {
+        std::string said = shown(file);
+        const std::size_t begin = said.find(file);
+        REQUIRE(begin != said.npos);
+        said.erase(0, begin + std::string(file).size());
+        said.erase(said.find('\n'));
+        CHECK(contains(said, "may not name: allow its folder with --allow-files"));
+        if (first.empty()) first = said;
+        CHECK(said == first);
+    }
+    CHECK(contains(shown("absent"), "No such file"));
+    CHECK(contains(shown("../cells/absent", {"--allow-files", folder / "cells"}), "No such file"));
+    CHECK(contains(shown("../cells/large", {"--allow-files", folder / "cells"}), "has 16 bytes, not 8"));
+    // Neither convert nor --strict copies what may not be named.
+    folder.write("models/m.asc", model("../cells/other"));
+    CHECK(!contains(run({"convert", folder / "models/m.asc", "-"}).out, "heights"));
+    CHECK(!contains(run({"convert", folder / "models/m.asc", "-", "--strict"}).out, "heights"));
+    CHECK(run({"info", folder / "models/m.asc", "--strict"}).status == 3);
+    // Standard input and pipes have no folder.
+    folder.write("models/m.asc", model(folder / "models/own"));
+    const std::vector<std::string> allow = {"info", "-", "--allow-files", folder / "models"};
+    CHECK(!is_read(run({"info", "-"}, {.input = folder / "models/m.asc"}).out));
+    CHECK(is_read(run(allow, {.input = folder / "models/m.asc"}).out));
+    CHECK(!is_read(run({"info", "/dev/stdin"}, {.input = folder / "models/m.asc"}).out));
 }
 
 TEST_CASE("scene and rays cannot both be standard input") {

@@ -106,7 +106,7 @@ TEST_CASE("BRL-CAD's models flatten to the solids, regions and boxes that it fin
         REQUIRE(std::filesystem::exists(model));
         REQUIRE(std::filesystem::exists(truth_file));
         const Truth truth = read_truth(truth_file);
-        const Scene scene = load_scene(model, true);  // flattened as it is: a grip is an empty combination
+        const Scene scene = load_scene(model, {.strict = true});  // flattened as it is: a grip is an empty combination
         const FlatScene flat = flatten(scene, objects, false);
         ++sets;
 

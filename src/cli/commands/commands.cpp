@@ -33,8 +33,8 @@ void report(std::vector<Warning> warnings, bool pictures) {
     std::fputs(text.c_str(), stderr);
 }
 
-Scene load(const std::string& path, bool strict) try {
-    Scene scene = load_scene(path, strict);
+Scene load(const std::string& path, const LoadOptions& options) try {
+    Scene scene = load_scene(path, options);
     check_interrupt();
     return scene;
 } catch (const Error&) {
@@ -42,10 +42,10 @@ Scene load(const std::string& path, bool strict) try {
     throw;
 }
 
-Scene load_with_progress(const std::string& path, bool strict) {
+Scene load_with_progress(const std::string& path, const LoadOptions& options) {
     Progress progress;
     progress.stage("loading");
-    return load(path, strict);
+    return load(path, options);
 }
 
 }  // namespace csgrt::cli

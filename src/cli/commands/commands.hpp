@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <csgrt/renderer.hpp>
+#include <csgrt/scene_io.hpp>
 
 namespace csgrt::cli {
 
@@ -17,7 +18,7 @@ class Progress;
 struct SceneArguments {
     std::string scene;  ///< file or "-"
     std::vector<std::string> objects;
-    bool strict = false;  ///< refuse a database in which anything is missing or broken
+    LoadOptions load;
     Settings settings;
 };
 
@@ -58,7 +59,7 @@ struct InfoArguments : SceneArguments {
 
 struct ConvertArguments {
     std::string input, output;
-    bool strict = false;
+    LoadOptions load;
 };
 
 /// --help, --version and methods: a text that is printed.
@@ -88,9 +89,9 @@ Settings with_progress(const Settings& settings, Progress& progress);
 void report(std::vector<Warning> warnings, bool pictures = true);
 
 /// Loads a scene. Throws Error (interrupted) after an interrupt.
-Scene load(const std::string& path, bool strict);
+Scene load(const std::string& path, const LoadOptions& options);
 
 /// load() that shows its own progress.
-Scene load_with_progress(const std::string& path, bool strict);
+Scene load_with_progress(const std::string& path, const LoadOptions& options);
 
 }  // namespace csgrt::cli

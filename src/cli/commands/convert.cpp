@@ -13,7 +13,7 @@ Status run(const ConvertArguments& arguments) {
         !target_of(arguments.output).direct)
         throw Error(Status::usage, "OUT: '" + arguments.output + "' must end in .json, the format that is written");
     check_outputs({{"OUT", arguments.output}}, {{"IN", arguments.input}});
-    Scene scene = load_with_progress(arguments.input, arguments.strict);
+    Scene scene = load_with_progress(arguments.input, arguments.load);
     std::vector<Warning> warnings = scene.warnings;
     if (scene.lenient)
         validate(scene, {}, false,

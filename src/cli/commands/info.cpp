@@ -49,7 +49,7 @@ Renderer compile_with_progress(const Scene& scene, const InfoArguments& argument
 }  // namespace
 
 Status run(const InfoArguments& arguments) {
-    Scene scene = load_with_progress(arguments.scene, arguments.strict);
+    Scene scene = load_with_progress(arguments.scene, arguments.load);
 
     std::string text;
     if (!scene.title.empty()) text += row("title", scene.title);
@@ -67,7 +67,7 @@ Status run(const InfoArguments& arguments) {
         // error.
         std::vector<Warning> warnings = scene.warnings;
         if (error.status() != Status::scene || !scene.lenient ||
-            !validate(scene, arguments.objects, false, &warnings).empty())
+            !validate(scene, arguments.objects, false, &warnings, arguments.settings.max_instances).empty())
             throw;
         text = "\n" + row("compiled", "no: " + error.diagnostics().front().message);
         for (const Warning& warning : warnings) text += row("warning", format(warning));

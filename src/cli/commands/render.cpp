@@ -149,7 +149,9 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
         text.append(" --quartic ").append(name_of(quartic_names, arguments.settings.quartic));
     if (arguments.settings.contraction) text += " --contraction on";
     if (arguments.settings.air) text += " --air";
-    if (arguments.strict) text += " --strict";
+    if (arguments.load.strict) text += " --strict";
+    if (arguments.settings.max_instances > 0)
+        text += " --max-instances " + std::to_string(arguments.settings.max_instances);
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
     if (arguments.first_hit) text += " --first-hit";
     if (arguments.transparent) text += " --transparent";
@@ -201,7 +203,7 @@ Status run(const RenderArguments& arguments) {
     check(arguments);
     auto begin = Clock::now();
     prepare_devices(arguments.settings);
-    Scene scene = load_with_progress(arguments.scene, arguments.strict);
+    Scene scene = load_with_progress(arguments.scene, arguments.load);
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
     view.transparent = arguments.transparent;

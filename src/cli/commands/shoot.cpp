@@ -1,4 +1,6 @@
 // csgrt shoot: the partitions along given rays, in chunks, so that any number of rays fits into memory.
+#include <algorithm>
+
 #include <unistd.h>
 
 #include "commands.hpp"
@@ -14,7 +16,8 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr std::size_t chunk = 65'536;  ///< rays; enough to fill a device, and some 100 MB of answers in deep scenes
+constexpr std::size_t most_rays = 65'536;      ///< in a chunk; enough to fill a device
+constexpr std::size_t most_text = 64'000'000;  ///< bytes of a chunk's answers, more or less
 
 std::string header(const ShootArguments& arguments, const Renderer& renderer, std::uint64_t rays) {
     std::string text = std::string("# csgrt ") + version() + " model " + model_text(arguments) + "\n# rays " +
@@ -37,7 +40,7 @@ Status run(const ShootArguments& arguments) {
     Progress progress(arguments.output != "-" || isatty(STDOUT_FILENO) != 1);
     progress.stage("loading");
     prepare_devices(arguments.settings);
-    Scene scene = load(arguments.scene, arguments.strict);
+    Scene scene = load(arguments.scene, arguments.load);
     progress.stage("reading rays");
     RayReader reader(arguments.rays);
     progress.stage("compiling");
@@ -55,10 +58,12 @@ Status run(const ShootArguments& arguments) {
     std::string text;
     std::uint64_t done = 0;
     auto total = static_cast<double>(reader.count());
+    std::size_t chunk = 1;  // the answer to one ray has megabytes where thousands of regions overlap
     while (reader.next(rays, chunk)) {
         progress.range(static_cast<double>(done) / total, static_cast<double>(done + rays.size()) / total);
         for (const RayPartitions& along : renderer.shoot(rays)) writer.append(text, done++, along);
         out.write(text);
+        chunk = std::clamp(rays.size() * most_text / (text.size() + 1), std::size_t{1}, std::min(8 * chunk, most_rays));
         text.clear();
         check_interrupt();
     }

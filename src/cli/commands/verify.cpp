@@ -26,7 +26,7 @@ Status run(const VerifyArguments& arguments) {
         Progress progress;
         progress.stage("loading");
         prepare_devices(arguments.settings);
-        Scene scene = load(arguments.scene, arguments.strict);
+        Scene scene = load(arguments.scene, arguments.load);
         std::optional<RayReader> reader;
         if (!arguments.rays.empty()) {
             progress.stage("reading rays");

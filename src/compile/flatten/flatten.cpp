@@ -1,6 +1,7 @@
 #include "compile/flatten/flatten.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -13,6 +14,7 @@
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
 #include "scene/faults/finding_list.hpp"
+#include "scene/instances.hpp"
 
 namespace csgrt {
 
@@ -113,7 +115,8 @@ void prefetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<cons
     for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) prefetch_whole(nodes[k]);
 }
 
-TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms) {
+TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms,
+                       std::atomic<std::uint64_t>& path_bytes) {
     TermsPart part;
     part.regions.reserve(terms.size());
     Flattener flattener(scene, index, part.flat);
@@ -128,6 +131,7 @@ TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<c
         region.info =
             describe_region(std::get_if<Combination>(&origin), forest->attributes_of(start), scene.region_colors);
         region.info.path = forest->path(start.path);
+        check_path_bytes(path_bytes += region.info.path.size());
         written.contains_space = written.kind == Flattener::Kind::everything ||
                                  (written.kind == Flattener::Kind::tree && contains_empty_space(region.tree));
     }
@@ -145,8 +149,8 @@ struct NoRegion {
 /// Parts of a scene, joined in their order.
 class Joiner {
 public:
-    Joiner(const Scene& scene, const std::vector<Term>& terms, FlatScene& result)
-        : scene_(scene), terms_(terms), result_(result), instances_(scene.objects.size()) {}
+    Joiner(const Scene& scene, const ObjectIndex& index, const std::vector<Term>& terms, FlatScene& result)
+        : scene_(scene), index_(index), terms_(terms), result_(result), instances_(scene.objects.size()) {}
 
     void add(TermsPart& part) {
         numbers_.clear();
@@ -167,7 +171,7 @@ public:
         }
         has_unused_ = has_unused_ || part.flat.has_unused;
         result_.composites.merge(part.flat.composites);
-        check_references(references_ += part.flat.references);
+        index_.check_references(references_ += part.flat.references);
     }
 
     const std::vector<NoRegion>& no_regions() const { return no_regions_; }
@@ -175,6 +179,7 @@ public:
 
 private:
     const Scene& scene_;
+    const ObjectIndex& index_;
     const std::vector<Term>& terms_;
     FlatScene& result_;
     InstanceTable instances_;
@@ -187,9 +192,10 @@ private:
 
 }  // namespace
 
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air) {
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
+                  std::uint64_t max_instances) {
     FlatScene result;
-    ObjectIndex index(scene, names);
+    ObjectIndex index(scene, names, max_instances);
 
     // Which regions there are.
     struct Named {
@@ -203,11 +209,10 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     std::vector<Term> terms;
     std::vector<std::string> air_regions;
     double solids = 0;
-    const auto check = [](const std::string& object, double count) {
-        if (count > static_cast<double>(Limits::instances)) {
-            throw Error(Status::scene, "with object " + object + ", the trees of all regions hold more than " +
-                                           std::to_string(Limits::instances) + " solids together");
-        }
+    InstanceLimit limit(scene, max_instances);
+    const auto check = [&](const std::string& object, double count) {
+        if (!limit.allows(count))
+            throw Error(Status::scene, std::vector{limit.fault({}, "with object " + object + ", the scene", count)});
     };
     std::unordered_set<std::string> seen;
     for (const std::string& object : objects) {
@@ -232,12 +237,13 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     reserve_cleared(result.instances,
                     std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
     result.regions.reserve(terms.size());
-    Joiner joiner(scene, terms, result);
+    Joiner joiner(scene, index, terms, result);
     constexpr std::size_t part_size = 512;
+    std::atomic<std::uint64_t> path_bytes = 0;
     for_chunks_in_order(
         terms.size(), part_size, 0,
         [&](std::size_t first, std::size_t last) {
-            return flatten_part(scene, index, std::span(terms).subspan(first, last - first));
+            return flatten_part(scene, index, std::span(terms).subspan(first, last - first), path_bytes);
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);

@@ -40,7 +40,8 @@ const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instanc
 /// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
 /// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient
 /// scene such a region is left out.
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air);
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
+                  std::uint64_t max_instances = 0);
 
 inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
     return flatten(scene, Names(scene), objects, air);

@@ -6,13 +6,6 @@
 
 namespace csgrt {
 
-void check_references(std::uint64_t count) {
-    // Deep hierarchies hold more references than solids, though not many times more.
-    constexpr std::uint64_t limit = 16 * Limits::instances;
-    if (count > limit)
-        throw Error(Status::scene, "more than " + std::to_string(limit) + " references to combinations and solids");
-}
-
 Flattener::Kind Flattener::write(const RegionForest& forest, std::uint32_t term, FlatTree& tree) {
     tree_ = &tree;
     operands_.clear();
@@ -66,7 +59,7 @@ void Flattener::expand(std::uint32_t object, const Matrix& matrix) {
 }
 
 void Flattener::enter(std::uint32_t object, const Matrix& matrix) {
-    check_references(++result_.references);
+    index_.check_references(++result_.references);
     const Names::Kind kind = index_.kind(object);
     if (kind < Names::Kind::solid) {
         const Combination* combination = &std::get<Combination>(scene_.objects[object]);

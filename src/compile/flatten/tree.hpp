@@ -24,9 +24,6 @@ struct FlatPart {
     bool has_unused = false;       ///< leaves that no tree holds any more
 };
 
-/// Throws Error (scene) if there are more references than any model has.
-void check_references(std::uint64_t count);
-
 /// Writes the tree of one term in postfix order, dropping what is empty (or everything) on the way.
 class Flattener {
 public:

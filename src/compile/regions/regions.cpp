@@ -4,6 +4,7 @@
 #include <span>
 
 #include "compile/linear.hpp"
+#include "scene/instances.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -12,13 +13,26 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 
-// Groups of groups hold more references than solids, though not many times more.
-constexpr std::uint64_t reference_limit = 4 * Limits::instances;
-
 }  // namespace
 
-ObjectIndex::ObjectIndex(const Scene& scene, const Names& names)
-    : scene_(scene), names_(names), solids_(scene.objects.size(), -1) {}
+ObjectIndex::ObjectIndex(const Scene& scene, const Names& names, std::uint64_t max_instances)
+    : scene_(scene),
+      names_(names),
+      // Groups of groups hold more references than solids, though not many times more.
+      most_references_(8 * std::max({max_instances, Limits::instances, std::uint64_t{scene.objects.size()}})),
+      solids_(scene.objects.size(), -1) {}
+
+void ObjectIndex::check_references(std::uint64_t count) const {
+    if (count > most_references_)
+        throw Error(Status::scene,
+                    "more than " + std::to_string(most_references_) + " references to combinations and solids");
+}
+
+void check_path_bytes(std::uint64_t bytes) {
+    if (bytes > Limits::path_bytes)
+        throw Error(Status::scene, "the paths of all regions have more than " + std::to_string(Limits::path_bytes) +
+                                       " bytes together");
+}
 
 static std::uint32_t existing(std::uint32_t object, const std::string& name) {
     if (object == Names::none) throw Error(Status::scene, "there is no object '" + name + "'");
@@ -31,6 +45,11 @@ std::uint32_t ObjectIndex::child(std::uint32_t object, std::size_t node) const {
     return child;
 }
 
+double ObjectIndex::own_solids(std::uint32_t object) const {
+    const auto* solid = std::get_if<Solid>(&scene_.objects[object]);
+    return solid != nullptr ? static_cast<double>(instances_of(*solid)) : 0;
+}
+
 double ObjectIndex::solids_below(std::uint32_t object) {
     if (known_solids(object) >= 0) return known_solids(object);
     struct Frame {
@@ -38,7 +57,7 @@ double ObjectIndex::solids_below(std::uint32_t object) {
         std::size_t next;
         double solids;
     };
-    std::vector<Frame> frames{{object, 0, 0}};
+    std::vector<Frame> frames{{object, 0, own_solids(object)}};
     while (!frames.empty()) {
         Frame& frame = frames.back();
         const std::span<const std::uint32_t> children = names_.children(frame.object);
@@ -52,7 +71,7 @@ double ObjectIndex::solids_below(std::uint32_t object) {
             const std::uint32_t child = this->child(frame.object, number);
             const double solids = known_solids(child);
             if (solids < 0) {
-                frames.push_back({child, 0, 0});
+                frames.push_back({child, 0, own_solids(child)});
                 continue;
             }
             frame.solids += solids;
@@ -120,8 +139,7 @@ Attributes RegionForest::attributes_of(const RegionStart& start) const {
 
 void RegionForest::visit(RegionStart start, std::vector<std::string>& dropped) {
     const std::uint32_t object = start.object;
-    if (paths_.size() >= reference_limit)
-        throw Error(Status::scene, "more than " + std::to_string(reference_limit) + " references above the regions");
+    index_.check_references(paths_.size() + 1);
     if (const auto known = hollow_.find(object); known != hollow_.end()) {
         operands_.push_back(known->second);
         return;
@@ -142,6 +160,7 @@ void RegionForest::visit(RegionStart start, std::vector<std::string>& dropped) {
     }
     if (kind == Names::Kind::air_region && !air_) {
         dropped.push_back(this->path(path));
+        check_path_bytes(dropped_bytes_ += dropped.back().size());
         operands_.push_back(nothing);
         return;
     }

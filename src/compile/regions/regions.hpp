@@ -28,7 +28,7 @@ namespace csgrt {
 /// The objects of a scene by name, and how many solids there are below each.
 class ObjectIndex {
 public:
-    ObjectIndex(const Scene& scene, const Names& names);
+    ObjectIndex(const Scene& scene, const Names& names, std::uint64_t max_instances);
     /// What a leaf names; see Names::child. Throws Error (scene) if there is no such object.
     std::uint32_t child(std::uint32_t object, std::size_t node) const;
     /// See Names::children.
@@ -36,15 +36,26 @@ public:
     /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
     double solids_below(std::uint32_t object);
     Names::Kind kind(std::uint32_t object) const { return names_.kind(object); }
+    /// Throws Error (scene) if the trees refer to combinations and solids more often than any model of so many
+    /// instances does.
+    void check_references(std::uint64_t count) const;
 
 private:
     const Scene& scene_;
     const Names& names_;
+    const std::uint64_t most_references_;
     /// Negative: not counted yet.
-    double known_solids(std::uint32_t object) const { return names_.is_solid(object) ? 1 : solids_[object]; }
+    double known_solids(std::uint32_t object) const {
+        return names_.is_solid(object) && kind(object) != Names::Kind::composite ? 1 : solids_[object];
+    }
+    /// Of a composite: all of them.
+    double own_solids(std::uint32_t object) const;
 
-    std::vector<double> solids_;  ///< of combinations
+    std::vector<double> solids_;  ///< of combinations and composites
 };
+
+/// Throws Error (scene) if the paths of all regions have so many bytes.
+void check_path_bytes(std::uint64_t bytes);
 
 /// Where a region starts: a combination with the region flag, or a solid outside all regions.
 struct RegionStart {
@@ -129,6 +140,7 @@ private:
     std::vector<Node> nodes_;
     std::vector<RegionStart> starts_;
     std::vector<PathStep> paths_;
+    std::uint64_t dropped_bytes_ = 0;  ///< of paths
 };
 
 }  // namespace csgrt

@@ -21,9 +21,11 @@ bool is_v4(std::string_view text) {
 
 }  // namespace
 
-Scene read_brlcad_asc(const std::string& path, bool lenient) {
+Scene read_brlcad_asc(const std::string& path, bool lenient, const std::vector<std::string>& file_folders) {
     try {
-        return parse_brlcad_asc(TextSource::read(path), lenient);
+        TextSource source = TextSource::read(path);
+        source.file_folders = file_folders_of(path, file_folders);
+        return parse_brlcad_asc(source, lenient);
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, path + ": the model does not fit the memory");
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <csgrt/scene.hpp>
 
@@ -10,9 +11,9 @@ namespace csgrt {
 class TextSource;
 
 /// Reads an .asc file of either form. Throws Error: file if it cannot be read, scene with every finding if it is wrong,
-/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: see
-/// load_scene.
-Scene read_brlcad_asc(const std::string& path, bool lenient = false);
+/// out_of_memory if the host cannot hold it. Solids that csgrt does not know become Unsupported. `lenient`: as if not
+/// LoadOptions::strict. `file_folders`: see LoadOptions.
+Scene read_brlcad_asc(const std::string& path, bool lenient = false, const std::vector<std::string>& file_folders = {});
 
 /// The same for a text in memory: v5 if it starts with a Tcl command, else v4.
 Scene parse_brlcad_asc(const TextSource& source, bool lenient = false);

@@ -143,12 +143,13 @@ void BrlcadObjects::add_balls(const Entry& entry, const BrlcadPoints& points, bo
     objects.emplace_back(std::move(all));
 }
 
-std::vector<Object> BrlcadObjects::take(const std::string& model, std::vector<Warning>& warnings) {
+std::vector<Object> BrlcadObjects::take(const std::string& model, const std::vector<std::string>& file_folders,
+                                        std::vector<Warning>& warnings) {
     const auto find_part = [this](const std::string& name) -> const BrlcadItem* {
         const Entry* entry = find(name);
         return entry == nullptr ? nullptr : std::get_if<BrlcadItem>(&entry->object);
     };
-    BrlcadParts parts(std::filesystem::path(model).parent_path(), find_part);
+    BrlcadParts parts(std::filesystem::path(model).parent_path(), file_folders, find_part);
     const std::vector<bool> used = used_entries();
     std::vector<Object> objects;
     NoiseRemover noise;

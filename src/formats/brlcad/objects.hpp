@@ -70,11 +70,12 @@ public:
     Combination* find_combination(const std::string& name);
 
     /// Solids and combinations in the order in which they came; leaves none. Solids are completed from the other
-    /// objects and from files, whose names are relative to the folder of `model`; one whose parts are not to be had
-    /// becomes Unsupported, with the reason. What has no inside is left out, or, if a combination uses it, is the empty
-    /// set; in a lenient scene, Unsupported. Points are the union of their balls: a region of its own outside all
-    /// regions, as any solid is. What is borne is added to `warnings`.
-    std::vector<Object> take(const std::string& model, std::vector<Warning>& warnings);
+    /// objects and from files, whose names are relative to the folder of `model` and which lie below one of
+    /// `file_folders`; one whose parts are not to be had becomes Unsupported, with the reason. What has no inside is
+    /// left out, or, if a combination uses it, is the empty set; in a lenient scene, Unsupported. Points are the union
+    /// of their balls: a region of its own outside all regions, as any solid is. What is borne is added to `warnings`.
+    std::vector<Object> take(const std::string& model, const std::vector<std::string>& file_folders,
+                             std::vector<Warning>& warnings);
 
 private:
     struct Entry {

@@ -1,5 +1,6 @@
 #include "formats/brlcad/parts.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +12,8 @@
 namespace csgrt {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Of a path in a message; a person needs all of it.
 constexpr std::size_t longest_path = 1000;
@@ -53,7 +56,26 @@ void assign(std::vector<std::uint16_t>& heights, const std::string& bytes) {
     }
 }
 
+/// Without links and .., as far as it exists. Empty: that cannot be told.
+fs::path resolved(const fs::path& path) {
+    std::error_code failed;
+    const fs::path whole = fs::absolute(path, failed);
+    fs::path result = failed ? fs::path() : fs::weakly_canonical(whole, failed);
+    return failed ? fs::path() : result;
+}
+
+bool is_below(const fs::path& path, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
 }  // namespace
+
+BrlcadParts::BrlcadParts(fs::path folder, const std::vector<std::string>& allowed,
+                         std::function<const BrlcadItem*(const std::string&)> find)
+    : folder_(std::move(folder)), base_(resolved(folder_.empty() ? "." : folder_)), find_(std::move(find)) {
+    for (const std::string& name : allowed)
+        if (fs::path path = resolved(name); !path.empty()) allowed_.push_back(std::move(path));
+}
 
 void BrlcadParts::complete(Shape& shape, bool cells_in_object) {
     try {
@@ -97,15 +119,20 @@ std::string BrlcadParts::take_cells(const Cells& cells, bool in_object) {
     return in_object ? read_object(cells.source, bytes, cells.size) : read_file(cells.source, bytes);
 }
 
-/// Nothing but a file of just the right size is opened, so no device or pipe, and no more is read than expected.
+/// Nothing but a file of just the right size is opened, so no device or pipe, and no more is read than expected. What
+/// is said of a file that may not be named does not depend on whether it exists.
 std::string BrlcadParts::read_file(const std::string& name, std::uint64_t bytes) const {
-    const std::filesystem::path path = folder_ / name;
-    const std::string what = "its cells are in the file " + csgrt::quoted(path.string(), longest_path) + ", which ";
+    const std::string what =
+        "its cells are in the file " + csgrt::quoted((folder_ / name).string(), longest_path) + ", which ";
+    // Without .. first: what stands outside is not asked whether it exists on the way back in.
+    const fs::path path = resolved((base_ / name).lexically_normal());
+    if (std::none_of(allowed_.begin(), allowed_.end(), [&](const fs::path& f) { return is_below(path, f); }))
+        throw Lack{what + "the model may not name: allow its folder with --allow-files"};
     std::error_code failed;
-    if (!std::filesystem::is_regular_file(path, failed)) {
+    if (!fs::is_regular_file(path, failed)) {
         throw Lack{what + (failed ? "cannot be read: " + failed.message() : "is no file")};
     }
-    const std::uint64_t size = std::filesystem::file_size(path, failed);
+    const std::uint64_t size = fs::file_size(path, failed);
     if (failed) throw Lack{what + "cannot be read: " + failed.message()};
     if (size != bytes) {
         throw Lack{what + "has " + std::to_string(size) + " bytes, not " + std::to_string(bytes)};

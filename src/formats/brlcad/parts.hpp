@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <csgrt/scene.hpp>
 
@@ -18,9 +19,10 @@ public:
     /// each gets a copy.
     static constexpr std::uint64_t most_bytes = max_file_bytes;
 
-    /// `find` gives the object of a name, or nullptr; files are found from `folder`.
-    BrlcadParts(std::filesystem::path folder, std::function<const BrlcadItem*(const std::string&)> find)
-        : folder_(std::move(folder)), find_(std::move(find)) {}
+    /// `find` gives the object of a name, or nullptr. Names of files are relative to `folder`; only files below one of
+    /// `allowed` are looked at.
+    BrlcadParts(std::filesystem::path folder, const std::vector<std::string>& allowed,
+                std::function<const BrlcadItem*(const std::string&)> find);
 
     /// Completes a solid if it needs that; if it cannot be, it becomes Unsupported, with the reason.
     void complete(Shape& shape, bool cells_in_object);
@@ -38,7 +40,9 @@ private:
     std::string read_object(const std::string& name, std::uint64_t bytes, unsigned size) const;
     void spend(std::uint64_t bytes);
 
-    std::filesystem::path folder_;
+    std::filesystem::path folder_;                ///< as the model's name has it
+    std::filesystem::path base_;                  ///< the same without links and ..
+    std::vector<std::filesystem::path> allowed_;  ///< without links and ..
     std::function<const BrlcadItem*(const std::string&)> find_;
     std::uint64_t spent_ = 0;
 };

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/faults/finding_list.hpp"
+#include "scene/instances.hpp"
 #include "scene/nearest.hpp"
 #include "scene/faults/objects.hpp"
 #include "scene/object_path.hpp"
@@ -26,16 +27,13 @@ constexpr std::uint64_t far_too_many = UINT64_MAX;
 
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) { return a > far_too_many - b ? far_too_many : a + b; }
 
-std::string count_of_solids(std::uint64_t count) {
-    return count == far_too_many ? "more than 10^19 solids" : std::to_string(count) + " solids";
-}
-
 class Validation {
 public:
-    Validation(const Scene& scene, Names& names, bool skip_unsupported)
+    Validation(const Scene& scene, Names& names, bool skip_unsupported, std::uint64_t max_instances)
         : scene_(scene),
           names_(names),
           skip_unsupported_(skip_unsupported || scene.lenient),
+          instance_limit_(scene, max_instances),
           objects_(scene.objects.size()) {}
 
     std::vector<Diagnostic> run(const std::vector<std::string>& named, std::vector<Warning>& warnings) {
@@ -56,7 +54,7 @@ public:
             add(roots.empty() ? Place{} : place_of(scene_.objects[roots.front()]),
                 "there is nothing to render: the objects hold no solids", "name objects that do, or add solids");
         }
-        if (solids > Limits::instances && !too_many_reported_) report_too_many({}, "the scene", solids);
+        if (!instance_limit_.allows(static_cast<double>(solids))) report_too_many({}, "the scene", solids);
         take_warnings(warnings);
         return finish();
     }
@@ -64,7 +62,7 @@ public:
 private:
     enum class State : std::uint8_t { unseen, open, done };
     struct Reached {
-        std::uint64_t solids = 0;  ///< below, repeats counted
+        std::uint64_t solids = 0;  ///< instances, repeats counted: below, or of the solid itself
         std::uint32_t height = 0;  ///< combinations on the longest path downward, this one included
         std::uint32_t users = 0;   ///< legs that lead here, each counted once
         std::uint32_t first_user = 0;
@@ -90,6 +88,7 @@ private:
                 sound = true;
                 if (const auto* solid = std::get_if<Solid>(&scene_.objects[i])) {
                     sound = solid_faults(solid->shape).empty();
+                    objects_[i].solids = instances_of(*solid);
                 } else {
                     check_combination(std::get<Combination>(scene_.objects[i]), note);
                 }
@@ -218,8 +217,7 @@ private:
         } else if (child.state == State::done) {
             add_below(parent, child);
         } else if (child.sound && names_.is_solid(object)) {
-            child.solids = 1;  // what entering and leaving it comes to
-            child.state = State::done;
+            child.state = State::done;  // what entering and leaving it comes to
             add_below(parent, child);
         } else {
             enter(object);
@@ -235,14 +233,13 @@ private:
         const auto place = [&]() -> const Place& { return place_of(scene_.objects[object]); };
         if (names_.kind(object) == Names::Kind::left_out) {
             reached.solids = 0;
-        } else if (names_.is_solid(object)) {
-            reached.solids = 1;
-        } else if (++reached.height == Limits::nesting + 1) {
+        } else if (!names_.is_solid(object) && ++reached.height == Limits::nesting + 1) {
             add(place(),
                 "below " + name() + ", combinations are nested more than " + std::to_string(Limits::nesting) + " deep",
                 "join some of the combinations on the way");
         }
-        if (reached.solids > Limits::instances && !too_many_reported_) report_too_many(place(), name(), reached.solids);
+        if (!instance_limit_.allows(static_cast<double>(reached.solids)))
+            report_too_many(place(), name(), reached.solids);
         if (!path_.empty()) add_below(path_.back().object, reached);
     }
 
@@ -251,21 +248,20 @@ private:
         objects_[parent].height = std::max(objects_[parent].height, child.height);
     }
 
-    void report_too_many(const Place& place, const std::string& what, std::uint64_t solids) {
+    /// Of the first object that has too many.
+    void report_too_many(const Place& place, const std::string& what, std::uint64_t count) {
+        if (!too_many_reported_) found_.add(instance_limit_.fault(place, what, static_cast<double>(count)));
         too_many_reported_ = true;
-        add(place,
-            what + " expands to " + count_of_solids(solids) + "; at most " + std::to_string(Limits::instances) +
-                " are possible",
-            "render fewer objects, or use fewer copies");
     }
 
+    /// Of a long cycle the end is told: a scene may have as many of them as objects.
     void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object, const TreeNode& leg) {
-        std::string cycle;
-        bool on_cycle = false;
-        for (const Frame& frame : path_) {
-            on_cycle = on_cycle || frame.object == object;
-            if (on_cycle) cycle += name_of(scene_.objects[frame.object]) + "/";
-        }
+        if (!scene_.lenient && found_.full()) return found_.leave_out();
+        constexpr std::size_t most = 20;
+        std::size_t first = path_.size(), shown = 0;
+        while (shown++ < most && path_[--first].object != object) continue;
+        std::string cycle = path_[first].object == object ? "" : leg.object + "/.../";
+        for (; first < path_.size(); ++first) cycle += name_of(scene_.objects[path_[first].object]) + "/";
         if (scene_.lenient) {
             names_.leave_out(parent, node);
             bear(leg.object, leg.place, "contains itself: " + cycle + leg.object + "; that leg is left out");
@@ -330,6 +326,7 @@ private:
     const Scene& scene_;
     Names& names_;
     const bool skip_unsupported_;
+    InstanceLimit instance_limit_;
     std::vector<Reached> objects_;
     std::vector<Frame> path_;
     FindingList found_;
@@ -345,16 +342,17 @@ private:
 }  // namespace
 
 std::vector<Diagnostic> validate(const Scene& scene, Names& names, const std::vector<std::string>& objects,
-                                 bool skip_unsupported, std::vector<Warning>& warnings) {
-    return Validation(scene, names, skip_unsupported).run(objects, warnings);
+                                 bool skip_unsupported, std::vector<Warning>& warnings, std::uint64_t max_instances) {
+    return Validation(scene, names, skip_unsupported, max_instances).run(objects, warnings);
 }
 
 std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::string>& objects, bool skip_unsupported,
-                                 std::vector<Warning>* warnings) {
+                                 std::vector<Warning>* warnings, std::uint64_t max_instances) {
     const FloatingPoint own;
     Names names(scene);
     std::vector<Warning> passed_over;
-    return validate(scene, names, objects, skip_unsupported, warnings != nullptr ? *warnings : passed_over);
+    return validate(scene, names, objects, skip_unsupported, warnings != nullptr ? *warnings : passed_over,
+                    max_instances);
 }
 
 }  // namespace csgrt

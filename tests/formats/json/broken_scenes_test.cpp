@@ -55,7 +55,7 @@ TEST_CASE("broken scenes: each gives its findings at their places") {
         int status = static_cast<int>(Status::scene);
         std::vector<Diagnostic> found;
         try {
-            found = validate(load_scene(entry.path().string(), true));
+            found = validate(load_scene(entry.path().string(), {.strict = true}));
         } catch (const Error& error) {
             status = static_cast<int>(error.status());
             found = error.diagnostics();

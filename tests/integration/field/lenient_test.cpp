@@ -456,7 +456,7 @@ TEST_CASE("every model of BRL-CAD draws, with nothing left out but what is empty
         for (std::size_t at = told.find(": left out: "); at != std::string::npos;
              at = told.find(": left out: ", at + 1))
             CHECK(told.find("there is nothing in it", at) == at + 12);
-        CHECK(validate(load_scene(entry.path().string(), true)).empty());
+        CHECK(validate(load_scene(entry.path().string(), {.strict = true})).empty());
     }
     CHECK(models > 20);
 }

@@ -118,10 +118,3 @@ TEST_CASE("solid faults: terrains") {
     check_fault(changed(dsp, [](Dsp& d) { d.depth = 0; }), "must be greater than 0");
     check_fault(changed(dsp, [](Dsp& d) { d.matrix[10] = 0; }), "the matrix is singular");
 }
-
-TEST_CASE("solid faults: more triangles than the limit", "[.long]") {
-    Bot bot;
-    bot.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    bot.faces.resize(std::size_t{Limits::triangles} + 1, {0, 1, 2});
-    check_fault(bot, "at most 20000000");
-}

@@ -78,7 +78,7 @@ TEST_CASE("solid faults: half-spaces and what they bound") {
     check_fault(Arbn{closed}, "no volume in common");
     closed[1].normal = none;
     check_fault(Arbn{closed}, "of plane 1 has length 0");
-    check_fault(Arbn{std::vector<Plane>(Limits::faces + 1, {z, 1})}, "at most 65535");
+    check_fault(Arbn{std::vector<Plane>(Limits::faces + 1, {z, 1})}, "at most 16384");
 }
 
 TEST_CASE("solid faults: tori") {

@@ -126,10 +126,58 @@ TEST_CASE("validate: copies of copies are counted without making them") {
         objects.push_back(combination("c" + std::to_string(i), union_of({below, below})));
     }
     const Scene scene = make_scene(std::move(objects));
-    CHECK(validate(scene, {"c24"}).empty());  // 16,777,216
-    check_one(validate(scene, {"c25"}), "'c25' expands to 33554432 solids");
-    check_one(validate(scene), "'c25' expands to 33554432 solids");  // not 2^200
-    check_one(validate(scene, {"c24", "c24"}), "the scene expands to 33554432 solids");
+    CHECK(validate(scene, {"c18"}).empty());  // 262,144
+    check_one(validate(scene, {"c19"}), "'c19' expands to 524288 instances; at most 300000 are allowed");
+    check_one(validate(scene), "'c19' expands to 524288 instances");  // not 2^200
+    check_one(validate(scene, {"c18", "c18"}), "the scene expands to 524288 instances");
+    CHECK(validate(scene, {"c19"})[0].suggestion.find("--max-instances") != std::string::npos);
+    const auto most = [&](const char* object, std::uint64_t max_instances) {
+        return validate(scene, {object}, false, nullptr, max_instances);
+    };
+    CHECK(most("c24", Limits::most_instances).empty());  // 16,777,216
+    check_one(most("c25", UINT64_MAX), "at most 20000000 are allowed");
+    CHECK(most("c25", UINT64_MAX)[0].suggestion.find("--max-instances") == std::string::npos);
+    CHECK(most("c3", 8).empty());
+    check_one(most("c3", 7), "'c3' expands to 8 instances; at most 7 are allowed");
+}
+
+TEST_CASE("validate: each object once is never too many, and a few copies of large solids may be") {
+    std::vector<Object> objects;
+    std::vector<std::string> names;
+    for (std::uint64_t i = 0; i < Limits::instances + 5; ++i) {
+        names.push_back("b" + std::to_string(i));
+        objects.push_back(ball(names.back()));
+    }
+    objects.push_back(combination("all", union_of(names)));
+    CHECK(validate(make_scene(std::move(objects))).empty());
+
+    // A pipe is made of pieces, and each place of an arbn or a metaball has planes or points of its own.
+    Pipe pipe;
+    for (int i = 0; i < 1'000; ++i) pipe.points.push_back({{10.0 * i, 10.0 * (i % 2), 0}, 1, 0, 1});
+    Metaball metaball{Metaball::Method::blob, 1, {}};
+    for (int i = 0; i < 1'000; ++i) metaball.points.push_back({{1.0 * i, 0, 0}, 1, 1});
+    for (const Shape& shape : {Shape(pipe), Shape(metaball)}) {
+        const auto copies = [&](std::size_t count) {
+            return validate(
+                make_scene({solid("s", shape), combination("c", union_of(std::vector<std::string>(count, "s")))}));
+        };
+        CHECK(copies(30).empty());
+        check_one(copies(151), "instances; at most 300000 are allowed");
+    }
+    const std::string name(10 << 10, 'n');
+    const auto named = [&](std::size_t count) {
+        return validate(make_scene({ball(name), combination("c", union_of(std::vector<std::string>(200, name))),
+                                    combination("d", union_of(std::vector<std::string>(count, "c")))}));
+    };
+    CHECK(named(100).empty());
+    check_one(named(200), "instances; at most 300000 are allowed");
+}
+
+TEST_CASE("validate: of a long cycle the end is told") {
+    std::vector<Object> objects = {ball("s")};
+    for (int i = 0; i < 400; ++i)
+        objects.push_back(combination("c" + std::to_string(i), union_of({"s", "c" + std::to_string((i + 1) % 400)})));
+    check_one(validate(make_scene(std::move(objects)), {"c0"}), "'c0' contains itself: c0/.../c380/c381/");
 }
 
 TEST_CASE("validate: nesting is limited, and costs no stack up to there and beyond") {

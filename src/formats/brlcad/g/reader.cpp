@@ -45,7 +45,7 @@ public:
             read_objects(bytes.size());
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name(), scene_.warnings);
+        scene_.objects = objects_.take(source_.name(), source_.file_folders, scene_.warnings);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }
@@ -147,9 +147,11 @@ private:
 
 }  // namespace
 
-Scene read_brlcad_g(const std::string& path, bool lenient) {
+Scene read_brlcad_g(const std::string& path, bool lenient, const std::vector<std::string>& file_folders) {
     try {
-        return parse_brlcad_g(ByteSource(path, read_file(path)), lenient);
+        ByteSource source(path, read_file(path));
+        source.file_folders = file_folders_of(path, file_folders);
+        return parse_brlcad_g(source, lenient);
     } catch (const std::bad_alloc&) {
         throw Error(Status::out_of_memory, path + ": the model does not fit the memory");
     }

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <csgrt/scene.hpp>
 
@@ -12,8 +13,8 @@ class ByteSource;
 
 /// Reads a .g file. Throws Error: file if it cannot be read, scene with every finding if it is wrong, out_of_memory if
 /// the host cannot hold it. Solids that csgrt does not know become Unsupported. Places give the byte and the object.
-/// `lenient`: see load_scene.
-Scene read_brlcad_g(const std::string& path, bool lenient = false);
+/// `lenient`: as if not LoadOptions::strict. `file_folders`: see LoadOptions.
+Scene read_brlcad_g(const std::string& path, bool lenient = false, const std::vector<std::string>& file_folders = {});
 
 /// Whether these bytes begin a binary database, of release 5 or 4.
 bool is_brlcad_g(std::string_view bytes);

@@ -92,7 +92,7 @@ public:
             }
         }
         findings_.throw_if_any();
-        scene_.objects = objects_.take(source_.name(), scene_.warnings);
+        scene_.objects = objects_.take(source_.name(), source_.file_folders, scene_.warnings);
         warn_of_shaders(scene_);
         return std::move(scene_);
     }

@@ -232,7 +232,7 @@ TEST_CASE("v4: what is wrong is named with its place", "[asc][broken]") {
         {"duplicate", head + "C N c 0 0 0 0 0 0 0 0 0 0\nS 19 c 0 0" + numbers + "\n", 4, 1, "c", "line 3"},
         {"planes missing", head + "n a 3\nn 0 0 1 5\nn 0 0 -1 5\n", 6, 1, "a", "plane 3 of 3 is missing"},
         {"plane cut off", head + "n a 2\nn 0 0 1\nn 0 0 -1 5\n", 4, 8, "a", "3 of 4"},
-        {"too many planes", head + "n a 65536\n", 3, 5, "a", "outside 1 to 65535"},
+        {"too many planes", head + "n a 16385\n", 3, 5, "a", "outside 1 to 16384"},
         {"mesh cut off", head + "t b 2 2 0 3 1\n\t0: 0 0 0\n\t1: 1 0 0\n", 6, 1, "b", "2 of 4"},
         {"corner", head + "t b 2 2 0 1 1\n\t0: 0 0 0\n\t0: 0 0 1\n", 5, 9, "b", "there is no number 1"},
         {"plate without bits", head + "t b 3 2 0 1 1\n\t0: 0 0 0\n\t0: 0 0 0 5\n", 6, 1, "b", "2 of 3"},

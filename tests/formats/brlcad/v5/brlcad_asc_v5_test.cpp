@@ -212,7 +212,7 @@ TEST_CASE("v5: what is wrong is named with its place", "[asc][broken]") {
         {"not a number, second line", head + "put {a} half N {0\n0 0x1} d 3\n", 4, 3, "a", "'0x1' is not a number"},
         {"not finite", head + "put {a} half N {0 0 1} d inf\n", 3, 26, "a", "not a finite number"},
         {"number of planes", head + "put {a} arbn N 2 P0 {0 0 1 5}\n", 3, 9, "a", "the arbn has no P1"},
-        {"planes without number", head + "put {a} arbn N 0\n", 3, 16, "a", "outside 1 to 65535"},
+        {"planes without number", head + "put {a} arbn N 0\n", 3, 16, "a", "outside 1 to 16384"},
         {"too many planes given", head + "put {a} arbn N 1 P0 {0 0 1 5} P1 {0 0 1 5}\n", 3, 31, "a", "'P1' is no"},
         {"duplicate", head + "put {a} brep\nput {a} brep\n", 4, 6, "a", "line 3"},
         {"operator", c + "{? {l a} {l b}}\n", 3, 30, "c", "'?' is no operator"},
