@@ -141,7 +141,9 @@ struct Broken {
 
 using Parse = Scene (*)(const std::string& bytes, bool lenient);
 Scene parse_asc(const std::string& text, bool lenient) {
-    return parse_brlcad_asc(TextSource("model.asc", text), lenient);
+    TextSource source("model.asc", text);
+    source.file_folders = {"."};
+    return parse_brlcad_asc(source, lenient);
 }
 Scene parse_g(const std::string& bytes, bool lenient) { return parse_brlcad_g(ByteSource("model.g", bytes), lenient); }
 
