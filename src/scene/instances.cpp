@@ -9,7 +9,7 @@ namespace csgrt {
 
 namespace {
 
-/// What each place of a solid takes, in balls of 5 microseconds and 1.6 kB. From measurements.
+/// What each place of a solid takes, in balls of 6 microseconds and 1.6 kB. From measurements.
 struct Cost {
     std::uint64_t parts = 0;  ///< grows with the file that they are in
     std::uint64_t more = 0;   ///< grows faster
