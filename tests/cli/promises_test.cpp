@@ -99,7 +99,7 @@ TEST_CASE("each row of docs/reliability.md names tests that exist") {
     const char* scenes = std::getenv("CSGRT_SCENES");
     if (!scenes) return;
     const std::string root = std::string(scenes) + "/../";
-    static const std::regex test("`([a-z_]+/[a-z_]+)`");
+    static const std::regex test("`([a-z_]+(?:/[a-z_]+)+)`");
     std::istringstream page(read_file(root + "docs/reliability.md"));
     std::size_t rows = 0;
     for (std::string line; std::getline(page, line) && !line.starts_with("## ");) {
