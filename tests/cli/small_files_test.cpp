@@ -3,6 +3,7 @@
 #include <random>
 
 #include "cli/command.hpp"
+#include "sanitized.hpp"
 
 using namespace command_test;
 
@@ -70,6 +71,7 @@ void check(const std::vector<std::string>& words, int status, const std::string&
 
 TEST_CASE("small files of nine kinds cost little, or are refused") {
     NEEDS_COMMAND();
+    if (csgrt::test::sanitized) return;  // they cost the sanitizer minutes
     const Folder folder;
     const auto info = [&](const std::string& name, const std::string& text, int status, const std::string& said) {
         check({"info", folder.write(name, text), "--depth", "0"}, status, said);
