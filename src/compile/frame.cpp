@@ -222,7 +222,8 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     frame.width = static_cast<std::uint32_t>(view.width);
     frame.height = static_cast<std::uint32_t>(view.height);
     frame.perspective = perspective;
-    frame.every_partition = view.every_partition;
+    // First hits are looked for in the order of the solids' boxes; a plate that a ray grazes begins far before its box.
+    frame.every_partition = view.every_partition || (scene.solid_types >> SOLID_PLATE & 1u);
     frame.channels = view.channels & (view.every_partition ? channel::all : channel::all & ~channel::counts);
 
     result.lights = scene.lights;

@@ -200,7 +200,8 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
 void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& watch) {
     const auto start = Clock::now();
     const PreparedFrame prepared = prepare_frame(scene, view, statistics.tolerance);
-    start_call(std::uint64_t(view.width) * std::uint64_t(view.height), view.every_partition, view.width, view.height);
+    const bool every_partition = prepared.frame.every_partition;
+    start_call(std::uint64_t(view.width) * std::uint64_t(view.height), every_partition, view.width, view.height);
     const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
     std::vector<const ChannelSource*> sources;
     std::vector<std::string> names;
@@ -214,10 +215,10 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
     const auto fit = [&] { framebuffer.fit(view.width, view.height, std::move(names), std::move(background), watch); };
     if (framebuffer.covered_.empty()) {
         std::future<void> fitting = start_async(fit);
-        prepare(view.every_partition);  // a compiler leaves most processors idle
+        prepare(every_partition);  // a compiler leaves most processors idle
         fitting.get();
     } else {
-        prepare(view.every_partition);
+        prepare(every_partition);
         fit();
     }
     Image& image = framebuffer.image_;
