@@ -22,7 +22,7 @@ struct View {
     int width = 1024, height = 1024;  ///< pixels, 1 to 32,768 each
     Camera camera = {};
     /// True: everything along each ray is computed. False: only the first hits, several times faster, and the picture
-    /// has none of the channels of channel::counts.
+    /// has none of the channels of channel::counts. A scene with plates (a bot of that mode) takes as long as if true.
     bool every_partition = true;
     std::uint32_t channels = channel::all;  ///< the groups that the picture has, in the order of their bits
     bool transparent = false;  ///< true: R, G, B and A are 0 where a ray hits nothing, in place of the background

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <type_traits>
 
 #include <csgrt/scene.hpp>
+
+#include "base/identical.hpp"
 
 namespace csgrt {
 
@@ -30,13 +30,6 @@ inline bool plainly_independent(const Vec3& a, const Vec3& b, const Vec3& c) {
 inline Vec3 unit(const Vec3& a) {
     const double l = length(a);
     return l == 0 ? a : Vec3{a.x / l, a.y / l, a.z / l};
-}
-
-/// Whether all numbers of two vectors, matrices or solids are the same bit by bit, signs of zeros too.
-template <class Numbers>
-bool same_bits(const Numbers& a, const Numbers& b) {
-    static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) % sizeof(double) == 0);
-    return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 /// The matrix that applies `inner`, then `outer`: each element summed from left to right, as BRL-CAD does it.

@@ -10,31 +10,13 @@
 
 #include "base/new_file.hpp"
 #include "catch.hpp"
+#include "folder.hpp"
 
 using csgrt::NewFile;
+using csgrt::test::Folder;
 namespace fs = std::filesystem;
 
 namespace {
-
-class Folder {
-public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "csgrt-new-file-XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        path_ = name;
-    }
-    ~Folder() { fs::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    std::size_t files() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-    }
-
-private:
-    fs::path path_;
-};
 
 std::string content_of(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -58,7 +40,7 @@ TEST_CASE("what a killed process left is removed by the next that writes that fi
     leave(folder / "a.4.part");
     fs::create_symlink(folder / "b.0.part", folder / "a.3.part");
     NewFile second(file);  // beside the first, which lives
-    CHECK(folder.files() == 4);
+    CHECK(folder.files().size() == 4);
     first.write("first");
     second.write("second");
     first.keep();
@@ -69,7 +51,7 @@ TEST_CASE("what a killed process left is removed by the next that writes that fi
     CHECK(content_of(file) == "second");
     third.keep();
     CHECK(content_of(file) == "third");
-    CHECK(folder.files() == 3);  // the link and another file's
+    CHECK(folder.files().size() == 3);  // the link and another file's
 }
 
 TEST_CASE("threads that write one file at once, beside what others left, lose none and leave nothing") {
@@ -97,5 +79,5 @@ TEST_CASE("threads that write one file at once, beside what others left, lose no
     CHECK(wrong == 0);
     CHECK(refused == 0);
     NewFile(file).keep();  // removes the last that were left
-    CHECK(folder.files() == 1);
+    CHECK(folder.files().size() == 1);
 }

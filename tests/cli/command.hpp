@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "catch.hpp"
+#include "folder.hpp"
 
 namespace command_test {
 
@@ -34,37 +35,7 @@ inline std::string command() {
         return;                                             \
     }
 
-/// A folder that is gone when the test is.
-class Folder {
-public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "csgrt-cli-XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        path_ = name;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(*this / name, std::ios::binary) << text;
-        return *this / name;
-    }
-
-    std::vector<std::string> files() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename().string());
-        return names;
-    }
-
-private:
-    fs::path path_;
-};
+using csgrt::test::Folder;
 
 inline std::string read_file(const std::string& path) {
     std::ifstream file(path, std::ios::binary);

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -12,6 +13,9 @@
 #include <type_traits>
 #include <vector>
 
+#include <csgrt/error.hpp>
+
+#include "catch.hpp"
 #include "device/opencl_table.hpp"
 
 namespace csgrt::test {
@@ -308,5 +312,16 @@ private:
         return bytes;
     }
 };
+
+/// What a call says that fails as a device's fault; empty: it does not fail.
+inline std::string failure(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        CHECK(error.status() == Status::device_fault);
+        return error.what();
+    }
+    return {};
+}
 
 }  // namespace csgrt::test

@@ -7,34 +7,16 @@
 
 #include <csgrt/scene_io.hpp>
 
+#include "folder.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"
 
 using namespace csgrt;
+using test::Folder;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own, gone at the end.
-class Folder {
-public:
-    Folder()
-        : path_(fs::temp_directory_path() /
-                ("csgrt_scene_io_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    std::size_t count() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-    }
-
-private:
-    fs::path path_;
-};
 
 Status status_of(const std::function<void()>& action) {
     try {
@@ -59,7 +41,7 @@ TEST_CASE("scene io: what is saved loads to the same scene") {
     const Scene scene = make_scene({ball("a", 0.1), combination("c", union_of({"a"}))});
     save_scene(scene, folder / "scene.JSON");
     CHECK(same_scene(load_scene(folder / "scene.JSON"), scene));
-    CHECK(folder.count() == 1);
+    CHECK(folder.files().size() == 1);
 }
 
 TEST_CASE("scene io: files that cannot be read") {
@@ -84,11 +66,11 @@ TEST_CASE("scene io: a file is replaced whole, or left alone") {
     scene = make_scene({ball("a")});
     save_scene(scene, path);
     CHECK(content(path).find("sphere") != std::string::npos);
-    CHECK(folder.count() == 1);
+    CHECK(folder.files().size() == 1);
 
     CHECK(status_of([&] { save_scene(scene, folder / "absent/scene.json"); }) == Status::file);
     CHECK(status_of([&] { save_scene(scene, folder / "scene.g"); }) == Status::file);
-    CHECK(folder.count() == 1);
+    CHECK(folder.files().size() == 1);
 }
 
 TEST_CASE("scene io: a link stays, what it leads to is replaced; a device is written to") {

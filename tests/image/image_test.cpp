@@ -16,27 +16,15 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "folder.hpp"
 #include "image/encode.hpp"
 #include "image/whole.hpp"
 
 using namespace csgrt;
+using test::Folder;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// An empty folder that goes with the test.
-struct Folder {
-    fs::path path;
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "csgrt-image-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~Folder() { fs::remove_all(path); }
-    std::string operator/(const char* name) const { return (path / name).string(); }
-    std::size_t files() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-    }
-};
 
 Image full_picture() {
     Image image;
@@ -87,7 +75,7 @@ TEST_CASE("an EXR keeps every channel, bit by bit, and the header", "[image]") {
     const Folder folder;
     const Image written = full_picture();
     write_image(written, folder / "picture.exr");
-    CHECK(folder.files() == 1);
+    CHECK(folder.files().size() == 1);
     const Image read = read_image(folder / "picture.exr");
     CHECK(read.width == 7);
     CHECK(read.height == 5);
@@ -204,7 +192,7 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
     std::ofstream(folder / "a.png") << "old";
     write_image(gray({1, 0}), folder / "a.png");
     CHECK(content(folder / "a.png").starts_with("\x89PNG"));
-    CHECK(folder.files() == 1);
+    CHECK(folder.files().size() == 1);
 
     std::ofstream(folder / "b.png") << "old";
     Image broken = gray({1, 0});
@@ -216,7 +204,7 @@ TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image
     fs::create_directory(folder / "c.png");
     const std::string text = failure(Status::file, [&] { write_image(gray({1}), folder / "c.png"); });
     CHECK(text == (folder / "c.png") + ": cannot replace: Is a directory");
-    CHECK(folder.files() == 3);
+    CHECK(folder.files().size() == 3);
 }
 
 TEST_CASE("a file that cannot be written is named, with the reason", "[image]") {

@@ -154,6 +154,9 @@ TEST_CASE("random scenes: device and reference agree, and a sample is right", "[
 }
 TEST_CASE("random scenes: a plate that a ray grazes begins far before its box", "[agreement]") {
     require_scenes(10'007'577, 1, 1);
+    Renderer renderer(SceneMaker(10'007'577).make(), {}, test::on_native_device());
+    renderer.render({.width = 8, .height = 8, .camera = {}, .every_partition = false});
+    CHECK(renderer.statistics().method == "every partition, five kernels");
 }
 TEST_CASE("random scenes: 100,000", "[.long][agreement]") {
     const char* const first = std::getenv("CSGRT_SEED");  // for several processes at once

@@ -11,21 +11,12 @@
 #include "sanitized.hpp"
 
 using namespace csgrt;
+using test::failure;
 using test::FaultyOpenCl;
 
 namespace {
 
 constexpr double timeout = 0.05;
-
-std::string failure(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::device_fault);
-        return error.what();
-    }
-    return {};
-}
 
 }  // namespace
 

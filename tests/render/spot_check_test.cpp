@@ -9,6 +9,7 @@
 
 using namespace csgrt;
 using test::Call;
+using test::failure;
 using test::FaultyOpenCl;
 
 namespace {
@@ -24,16 +25,6 @@ View view_of(bool every_partition) {
     View view{.width = 48, .height = 40};
     view.every_partition = every_partition;
     return view;
-}
-
-std::string failure(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        CHECK(error.status() == Status::device_fault);
-        return error.what();
-    }
-    return {};
 }
 
 }  // namespace

@@ -5,31 +5,17 @@
 #include <filesystem>
 #include <fstream>
 
+#include "folder.hpp"
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/brlcad/g/reader.hpp"
 
 using namespace csgrt;
 using asc_test::shape;
+using test::Folder;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-class Folder {
-public:
-    Folder() : path_(fs::temp_directory_path() / ("csgrt_cells_" + std::to_string(getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    fs::path write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 const std::string unit = "{1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1}";
 

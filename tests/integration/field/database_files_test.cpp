@@ -10,6 +10,7 @@
 #include "catch.hpp"
 
 #include "compile/compiled_scene.hpp"
+#include "folder.hpp"
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
@@ -21,6 +22,7 @@ using asc_test::comb;
 using asc_test::parse;
 using asc_test::shape;
 using asc_test::written;
+using test::Folder;
 
 namespace {
 
@@ -38,21 +40,6 @@ std::vector<RayPartitions> shot(const Scene& scene, const std::vector<std::strin
                                 const std::vector<Ray>& rays) {
     return Renderer(scene, objects, test::on_reference()).shoot(rays);
 }
-
-class Folder {
-public:
-    Folder() : path_(fs::temp_directory_path() / ("csgrt_files_" + std::to_string(getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    std::string write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return (path_ / name).string();
-    }
-
-private:
-    fs::path path_;
-};
 
 }  // namespace
 
