@@ -13,10 +13,6 @@
 namespace csgrt {
 namespace {
 
-// Parts of a device's share of what the rays cost. Of first hits, launches soon cost as much as rays; of every
-// partition, what the host waits for in each (docs/experiments/gpu-frames.md).
-constexpr std::uint64_t parts_of_first_hits = 8, parts_of_partitions = 5;
-
 constexpr const char* registered_name = "registered memory";
 
 }  // namespace
@@ -35,29 +31,29 @@ DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const Compiled
     setup_ms_ = milliseconds_since(start);
 }
 
-// One device alone takes all rays as batches of its own, unless it copies the first ones' pixels while it draws others;
-// of every partition it has large ones.
-std::uint64_t DeviceGroup::parts_of(const RayCosts& costs, bool every_partition) const {
-    constexpr std::uint64_t large = RayCosts::of_shown << 22;
-    const bool is_alone = pipelines_.size() == 1;
-    if (is_alone && !pipelines_.front()->is_asynchronous()) return 1;
-    return !every_partition ? parts_of_first_hits : is_alone ? 1 + costs.total() / large : parts_of_partitions;
+// A device's share of first hits comes in 8 parts, for launches soon cost as much as rays; that of every partition in
+// 5, for the host waits in each (docs/experiments/gpu-frames.md). One device alone takes all rays at once, unless it
+// copies the first ones' pixels while it draws others.
+Parts DeviceGroup::parts_of(std::uint64_t rays, std::uint64_t row, std::size_t devices, bool every_partition) const {
+    if (devices == 1 && (every_partition || !pipelines_.front()->is_asynchronous()))
+        return Parts(rays, row, 1, rays, rays);
+    const std::uint64_t worth_launches = devices == 1 ? 1 << 20 : 1 << 16;
+    const std::uint64_t most =
+        std::max(rays / devices / (every_partition ? 5 : 8), devices == 1 ? worth_launches : row);
+    return Parts(rays, row, devices, std::min(worth_launches, most), most);
 }
 
-// A thread for each device. What the first of the devices threw is thrown, once all threads have stopped.
-void DeviceGroup::share(const RayCosts& costs, bool every_partition, Watch* watch, PipelineCounts& counts,
-                        const Work& work) {
-    const std::uint64_t rays = costs.rays(), parts_each = parts_of(costs, every_partition);
-    const bool is_one = parts_each == 1 || rays <= tile_rays;
-    const std::size_t devices = is_one ? 1 : pipelines_.size();
-    Parts parts(costs, pipelines_.size(), parts_each, !every_partition);
+// A thread for each device. What the first of the devices threw is thrown, once all threads have stopped. `row`: rays
+// of a row of a picture's tiles.
+void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partition, Watch* watch,
+                        PipelineCounts& counts, const Work& work) {
+    const std::size_t devices = rays <= tile_rays ? 1 : pipelines_.size();
+    Parts parts = parts_of(rays, row, devices, every_partition);
     std::mutex mutex;
-    bool is_taken = false;
     std::vector<std::exception_ptr> thrown(devices);
     const TakeRays take = [&] {
         const std::lock_guard lock(mutex);
-        if (!is_one) return parts.take();
-        return std::exchange(is_taken, true) ? RayRange{} : RayRange{0, rays};
+        return parts.take();
     };
     if (watch) watch->begin(rays);
     const Told told = [&](std::uint64_t more) {
@@ -141,7 +137,8 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
             for (const auto& pipeline : pipelines) pipeline->abandon();
         }
     } if_thrown{pipelines_};
-    share(RayCosts(prepared.frame, target), prepared.frame.every_partition, watch, counts,
+    const std::uint64_t row = std::max(1u, kernel::tiles_across(prepared.frame.screen)) * std::uint64_t{tile_rays};
+    share(prepared.rays, row, prepared.frame.every_partition, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
               pipeline.render(prepared, take, shared, told, own);
           });
@@ -154,7 +151,7 @@ std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, con
                                               PipelineCounts& counts) {
     start_call();
     std::vector<RayPartitions> answers(rays.size());
-    share(RayCosts(rays.size()), true, watch, counts,
+    share(rays.size(), 1, true, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
               pipeline.shoot(prepared, rays, take, answers.data(), told, own);
           });

@@ -38,8 +38,9 @@ public:
 
 private:
     using Work = std::function<void(Pipeline&, const TakeRays&, const Told&, PipelineCounts&)>;
-    std::uint64_t parts_of(const RayCosts& costs, bool every_partition) const;
-    void share(const RayCosts& costs, bool every_partition, Watch* watch, PipelineCounts& counts, const Work& work);
+    Parts parts_of(std::uint64_t rays, std::uint64_t row, std::size_t devices, bool every_partition) const;
+    void share(std::uint64_t rays, std::uint64_t row, bool every_partition, Watch* watch, PipelineCounts& counts,
+               const Work& work);
 
     void start_call();
     void drop_claims();
