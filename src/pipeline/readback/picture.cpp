@@ -1,11 +1,10 @@
 #include "pipeline/readback/picture.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 
 #include "kernel_host/geometry.hpp"
 #include "base/parallel.hpp"
-#include "pipeline/readback/tile_rows.hpp"
 
 namespace csgrt {
 namespace {
@@ -13,106 +12,121 @@ namespace {
 // Fewer are copied sooner than a thread starts: pixels of tiles, and floats of long lines.
 constexpr std::size_t pixels_a_thread = 1 << 17, floats_a_thread = 1 << 20;
 
-/// A part of a channel's line.
-void copy(float* to, std::size_t count, const float* values) {
-    if (count == TILE) {
-        std::array<float, TILE> eight;  // of a fixed size: no call
-        std::copy_n(values, TILE, eight.begin());
-        std::copy(eight.begin(), eight.end(), to);
-    } else {
-        std::copy_n(values, count, to);
+constexpr std::uint32_t not_drawn = UINT32_MAX;
+
+/// The first tile from `begin` on that is 1, or `end`.
+std::size_t next_covered(std::span<const std::uint8_t> tiles, std::size_t begin, std::size_t end) {
+    const void* const found = std::memchr(tiles.data() + begin, 1, end - begin);
+    return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - tiles.data()) : end;
+}
+
+/// Where a batch's tiles are: numbers of tiles of the picture.
+struct BatchTiles {
+    BatchTiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end)
+        : BatchTiles(frame.screen, frame.width, first, end) {}
+    BatchTiles(const kernel::ScreenBounds& of, std::uint32_t width, std::uint32_t first, std::uint32_t end)
+        : screen(of), across((width + TILE - 1) / TILE) {
+        const std::size_t row = kernel::tiles_across(screen);
+        left = screen.left / TILE + first % row;
+        top = screen.top / TILE + first / row;
+        columns = std::min<std::size_t>(end - first, row);
+        rows = (end - first) / columns;
+    }
+
+    std::span<std::uint8_t> covered(std::size_t row, const RenderTarget& target) const {
+        return target.covered.subspan((top + row) * across + left, columns);
+    }
+    /// Pixels of a row, from one column of the batch's tiles to another.
+    Rectangle pixels(std::size_t row, std::size_t begin, std::size_t end) const {
+        return {(left + begin) * TILE, std::min<std::size_t>((left + end) * TILE, screen.right), (top + row) * TILE,
+                std::min<std::size_t>((top + row + 1) * TILE, screen.bottom)};
+    }
+
+    kernel::ScreenBounds screen;
+    std::size_t across, left, top, columns, rows;
+};
+
+void fill(const ChannelMemory& channel, std::size_t width, const Rectangle& r) {
+    for (std::size_t y = r.top; y < r.bottom; ++y)
+        std::fill_n(channel.pixels + y * width + r.left, r.columns(), channel.background);
+}
+
+/// `values`: of a tile.
+void put_tile(const ChannelMemory& channel, std::size_t width, const Rectangle& r, const float* values) {
+    for (std::size_t y = r.top; y < r.bottom; ++y, values += TILE) {
+        float* const line = channel.pixels + y * width + r.left;
+        if (r.columns() == TILE)
+            std::memcpy(line, values, TILE * sizeof(float));  // of a fixed size: no call
+        else
+            std::copy_n(values, r.columns(), line);
     }
 }
 
-constexpr std::uint32_t not_drawn = UINT32_MAX;
-
-/// Tiles of a row that stand side by side and are background, or a single one that was drawn.
-struct Run {
-    std::size_t begin, end;  ///< pixels of a line
-    std::uint32_t place;     ///< of the drawn one, else not_drawn
-};
-
-class Tiles {
-public:
-    Tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-          const float* values, const RenderTarget& target)
-        : rows_(frame, first, end),
-          width_(frame.width),
-          drawn_(drawn.size()),
-          values_(values),
-          places_(end - first, not_drawn),
-          target_(target) {
-        for (std::size_t i = 0; i < drawn.size(); ++i) places_[drawn[i] - first] = static_cast<std::uint32_t>(i);
-        std::size_t covered = 0;
-        for (std::size_t row = 0; row < rows_.count(); ++row) covered += count_covered(rows_.covered(row, target));
-        pixels_ = (drawn.size() + covered) * TILE * TILE;
-    }
-
-    void put() const {
-        const std::size_t rows = rows_.count();
-        const std::size_t rows_a_chunk =
-            std::max<std::size_t>(1, rows * pixels_a_thread / std::max<std::size_t>(pixels_, 1));
-        for_chunks(rows, rows_a_chunk, target_.threads, [&](std::size_t row, std::size_t last, std::size_t) {
-            std::vector<Run> runs;
-            for (; row < last; ++row) {
-                find_runs(row, runs);
-                if (!runs.empty()) put_row(row, runs);
-            }
-        });
-    }
-
-private:
-    /// What is to be written of a row of tiles; and keeps what the row then holds.
-    void find_runs(std::size_t row, std::vector<Run>& runs) const {
-        runs.clear();
-        const TileRows::Extent all = rows_.whole(row);
-        const std::span<std::uint8_t> covered = rows_.covered(row, target_);
-        for (std::size_t tile = all.begin; tile < all.end; ++tile) {
-            const std::uint32_t place = places_[rows_.place(row, tile)];
-            const bool is_drawn = place != not_drawn;
-            std::uint8_t& holds = covered[tile - all.begin];
-            if (is_drawn || holds) {
-                const std::size_t begin = rows_.column(tile), end = rows_.column(tile + 1);
-                if (!is_drawn && !runs.empty() && runs.back().place == not_drawn && runs.back().end == begin)
-                    runs.back().end = end;
-                else
-                    runs.push_back({begin, end, place});
-            }
-            holds = is_drawn;
+/// Adds what follows beneath, to the last one if the pixels around both take less time than another copy.
+void add(std::vector<Rectangle>& all, const Rectangle& next) {
+    constexpr std::size_t copy_cost = 1 << 12;  // pixels: docs/experiments/gpu-frames.md
+    if (!all.empty()) {
+        Rectangle& last = all.back();
+        const Rectangle both{std::min(last.left, next.left), std::max(last.right, next.right), last.top, next.bottom};
+        if (both.size() <= last.size() + next.size() + copy_cost) {
+            last = both;
+            return;
         }
     }
-
-    void put_row(std::size_t row, std::span<const Run> runs) const {
-        const std::size_t top = rows_.top(row), lines = rows_.top(row + 1) - top;
-        for (std::size_t c = 0; c < target_.channels.size(); ++c) {
-            const ChannelMemory& channel = target_.channels[c];
-            for (std::size_t y = 0; y < lines; ++y) {
-                float* line = channel.pixels + (top + y) * width_;
-                for (const Run& run : runs) {
-                    if (run.place != not_drawn)
-                        copy(line + run.begin, run.end - run.begin,
-                             values_ + ((c * drawn_ + run.place) * TILE + y) * TILE);
-                    else
-                        std::fill_n(line + run.begin, run.end - run.begin, channel.background);
-                }
-            }
-        }
-    }
-
-    TileRows rows_;
-    std::size_t width_;  ///< of the picture
-    std::size_t drawn_;  ///< how many
-    const float* values_;
-    std::vector<std::uint32_t> places_;  ///< of the batch's tiles among the drawn ones
-    const RenderTarget& target_;
-    std::size_t pixels_;  ///< that are written, at most
-};
+    all.push_back(next);
+}
 
 }  // namespace
 
 void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
                const float* values, const RenderTarget& target) {
-    Tiles(frame, first, end, drawn, values, target).put();
+    const BatchTiles tiles(frame, first, end);
+    std::vector<std::uint32_t> places(end - first, not_drawn);
+    for (std::size_t i = 0; i < drawn.size(); ++i) places[drawn[i] - first] = static_cast<std::uint32_t>(i);
+    const std::size_t chunk = std::max<std::size_t>(1, pixels_a_thread / (tiles.columns * TILE * TILE));
+    for_chunks(tiles.rows, chunk, target.threads, [&](std::size_t row, std::size_t last, std::size_t) {
+        for (; row < last; ++row) {
+            const std::span<std::uint8_t> covered = tiles.covered(row, target);
+            const std::uint32_t* const of_row = places.data() + row * tiles.columns;
+            for (std::size_t c = 0; c < target.channels.size(); ++c)
+                for (std::size_t i = 0; i < tiles.columns; ++i) {
+                    const Rectangle r = tiles.pixels(row, i, i + 1);
+                    if (of_row[i] != not_drawn)
+                        put_tile(target.channels[c], frame.width, r,
+                                 values + (c * drawn.size() + of_row[i]) * TILE * TILE);
+                    else if (covered[i])
+                        fill(target.channels[c], frame.width, r);
+                }
+            for (std::size_t i = 0; i < tiles.columns; ++i) covered[i] = of_row[i] != not_drawn;
+        }
+    });
+}
+
+std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
+                                       std::span<const std::uint8_t> shown, const RenderTarget& target) {
+    const BatchTiles tiles(frame, first, end);
+    std::vector<Rectangle> found;
+    std::vector<std::uint8_t> needed(tiles.columns);
+    for (std::size_t row = 0; row < tiles.rows; ++row) {
+        const auto own = shown.subspan(row * tiles.columns, tiles.columns);
+        const auto covered = tiles.covered(row, target);
+        for (std::size_t i = 0; i < tiles.columns; ++i) needed[i] = own[i] | covered[i];
+        std::ranges::copy(own, covered.begin());
+        std::size_t right = tiles.columns, left = next_covered(needed, 0, right);
+        if (left == right) continue;
+        while (!needed[right - 1]) --right;
+        // Whole lines of the processor's cache: a GPU writes those a quarter sooner (docs/experiments/gpu-frames.md).
+        if (left > 0) left -= (tiles.left + left) % 2;
+        if (right < tiles.columns) right += (tiles.left + right) % 2;
+        add(found, tiles.pixels(row, left, right));
+    }
+    return found;
+}
+
+Rectangle rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end) {
+    const BatchTiles tiles(frame, first, end);
+    return {frame.screen.left, frame.screen.right, tiles.pixels(0, 0, 0).top,
+            tiles.pixels(tiles.rows - 1, 0, 0).bottom};
 }
 
 void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
@@ -144,26 +158,25 @@ void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> recta
 
 void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
     const kernel::ScreenBounds& screen = frame.screen;
-    const kernel::ScreenBounds all{0, 0, frame.width, frame.height};
-    const std::size_t across = kernel::tiles_across(all), down = kernel::tiles_down(all);
-    const std::size_t left = screen.left / TILE, right = (screen.right + TILE - 1) / TILE;
+    const BatchTiles all({0, 0, frame.width, frame.height}, frame.width, 0,
+                         static_cast<std::uint32_t>(target.covered.size()));
     std::vector<std::size_t> covered;
-    const auto find = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; (i = next_covered(target.covered, i, end)) < end; ++i) covered.push_back(i);
+    const auto find = [&](std::size_t row, std::size_t begin, std::size_t end) {
+        for (end += row * all.columns, begin += row * all.columns;
+             (begin = next_covered(target.covered, begin, end)) < end; ++begin)
+            covered.push_back(begin);
     };
-    for (std::size_t row = 0; row < down; ++row) {
+    for (std::size_t row = 0; row < all.rows; ++row) {
         const bool is_within = row * TILE >= screen.top && row * TILE < screen.bottom;
-        find(row * across, row * across + (is_within ? left : across));
-        if (is_within) find(row * across + right, (row + 1) * across);
+        find(row, 0, is_within ? screen.left / TILE : all.columns);
+        if (is_within) find(row, (screen.right + TILE - 1) / TILE, all.columns);
     }
     for_chunks(covered.size(), pixels_a_thread / (TILE * TILE), target.threads,
                [&](std::size_t i, std::size_t last, std::size_t) {
                    for (; i < last; ++i) {
-                       const std::size_t x = covered[i] % across * TILE, y = covered[i] / across * TILE;
-                       const std::size_t columns = std::min<std::size_t>(TILE, frame.width - x);
+                       const std::size_t column = covered[i] % all.columns;
                        for (const ChannelMemory& channel : target.channels)
-                           for (std::size_t line = y; line < std::min<std::size_t>(y + TILE, frame.height); ++line)
-                               std::fill_n(channel.pixels + line * frame.width + x, columns, channel.background);
+                           fill(channel, frame.width, all.pixels(covered[i] / all.columns, column, column + 1));
                        target.covered[covered[i]] = 0;
                    }
                });

@@ -1,9 +1,10 @@
-// Pixels on the host -> the channels of an image.
+// Pixels of batches -> the channels of an image.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "kernel_host/kernels.hpp"
 
@@ -25,15 +26,6 @@ struct RenderTarget {
     const RegisteredMemory* registered = nullptr;  ///< the channels' memory, as far as devices copy into it
 };
 
-/// Writes the pixels of the screen's tiles from number `first` to `end`. `drawn`: the tiles that were drawn, in any
-/// order; `values`: for each channel the floats of their rays, tile by tile. The others become background if they were
-/// covered.
-void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
-               const float* values, const RenderTarget& target);
-
-/// Writes the background into the covered tiles outside of the frame's screen bounds.
-void clear_around(const kernel::Frame& frame, const RenderTarget& target);
-
 /// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.
 struct Rectangle {
     std::size_t left = 0, right = 0, top = 0, bottom = 0;
@@ -43,6 +35,24 @@ struct Rectangle {
     std::size_t lines() const { return bottom - top; }
     std::size_t size() const { return columns() * lines(); }
 };
+
+// A batch is the screen's tiles from number `first` to `end`: whole rows of tiles, or a part of one row.
+
+/// Writes the pixels of a batch. `drawn`: the tiles that were drawn, in any order; `values`: for each channel the
+/// floats of their rays, tile by tile. The others become background if they were covered.
+void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end, std::span<const std::uint32_t> drawn,
+               const float* values, const RenderTarget& target);
+
+/// Writes the background into the covered tiles outside of the frame's screen bounds.
+void clear_around(const kernel::Frame& frame, const RenderTarget& target);
+
+/// What a GPU copies of a batch: few rectangles that hold its tiles that show something and those that were covered
+/// before. From then on those are covered that show something. `shown`: of each tile 1 if it shows something, else 0.
+std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end,
+                                       std::span<const std::uint8_t> shown, const RenderTarget& target);
+
+/// The whole rows of pixels within the screen bounds that a batch's tiles touch.
+Rectangle rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end);
 
 /// Writes rectangles' pixels. `arrived`, if there is one, is called before the values of part i are read: part i is
 /// channel i % channels of rectangle i / channels. Several threads call it.

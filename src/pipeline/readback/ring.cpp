@@ -43,8 +43,7 @@ void ReadbackRing::collect(const kernel::Frame& frame, const RayBatch& batch, st
     picture.is_in_use = false;
     picture.used = ++collected_;
     if (target.channels.empty()) return;
-    std::vector<Rectangle> rectangles = find_rectangles(frame, first, end, shown, target);
-    mark_covered(frame, first, end, shown, target);
+    std::vector<Rectangle> rectangles = take_rectangles(frame, first, end, shown, target);
     if (rectangles.empty()) return;
     const Rectangle all = rows_of(frame, first, end);
     const bool is_registered = target.registered && target.registered->has(device_);

@@ -13,7 +13,7 @@
 
 #include "device/copy_feed.hpp"
 #include "pipeline/batch.hpp"
-#include "pipeline/readback/rectangles.hpp"
+#include "pipeline/readback/picture.hpp"
 
 namespace csgrt {
 

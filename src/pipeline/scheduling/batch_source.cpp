@@ -8,15 +8,16 @@
 namespace csgrt {
 namespace {
 
-// The range's first batch, of at most `most` rays: whole tiles, or parts of one; and whole rows of the screen's tiles
-// if they are many, for what a GPU copies of them is in few pieces then.
+// The range's first batch, of at most `most` rays: whole rows of the screen's tiles, else a part of one row, else a
+// part of a tile.
 std::uint64_t end_of_batch(const RayRange& range, std::uint64_t most, std::uint64_t row) {
-    const std::uint64_t end = std::min(range.first + most, range.end), in_tile = range.first % tile_rays;
+    const std::uint64_t end = std::min(range.first + most, range.end);
     if (row == 0) return end;
-    if (in_tile != 0) return std::min(end, range.first - in_tile + tile_rays);
-    if (end == range.end || most < tile_rays) return end;
-    const std::uint64_t unit = most >= 4 * row ? row : tile_rays;
-    return std::max(end / unit * unit, range.first + tile_rays);
+    const auto end_of = [&](std::uint64_t unit) { return range.first / unit * unit + unit; };
+    if (range.first % tile_rays != 0) return std::min(end, end_of(tile_rays));
+    if (end - range.first < tile_rays) return end;
+    if (range.first % row == 0 && end - range.first >= row) return end / row * row;
+    return std::min(end / tile_rays * tile_rays, end_of(row));
 }
 
 }  // namespace

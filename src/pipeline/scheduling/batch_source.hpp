@@ -17,8 +17,8 @@ using TakeRays = std::function<RayRange()>;
 
 class BatchSource {
 public:
-    /// `most`: rays of a batch, asked for when a range is taken. `row`: of a row of the picture's tiles; 0: the batches
-    /// need no whole tiles, for their rays are a list's.
+    /// `most`: rays of a batch, asked for when a range is taken. `row`: of a row of the screen's tiles, so that a batch
+    /// is whole rows, or a part of one; 0: the rays are a list's.
     BatchSource(TakeRays take, std::function<std::uint64_t()> most, std::uint64_t row)
         : take_(std::move(take)), most_(std::move(most)), row_(row) {}
 
