@@ -5,16 +5,29 @@
 #include <system_error>
 #include <utility>
 
+#include "base/parallel.hpp"
+
 namespace csgrt {
 namespace {
 
 // A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause
 // (docs/experiments/gpu-frames.md).
-constexpr std::size_t piece = std::size_t{1} << 21;  // floats
-constexpr std::size_t most_underway = 2 * piece * sizeof(float);
+constexpr std::size_t most_underway = 2 * CopyFeed::piece;
+constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // that a thread writes as soon as another one starts
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
     return copy.begin + (copy.channels - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
+}
+
+/// From one channel and line right behind the other to where they belong.
+void put(const CopyFeed::Copy& copy, const float* values, unsigned threads) {
+    for_chunks(copy.channels * copy.lines, std::max<std::size_t>(1, floats_a_thread / copy.columns), threads,
+               [&](std::size_t i, std::size_t last, std::size_t) {
+                   for (; i < last; ++i)
+                       std::copy_n(
+                           values + i * copy.columns, copy.columns,
+                           copy.target + i / copy.lines * copy.target_slice + i % copy.lines * copy.target_pitch);
+               });
 }
 
 }  // namespace
@@ -35,13 +48,13 @@ CopyFeed::~CopyFeed() {
     if (thread_) thread_->join();
 }
 
-std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies) {
+std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered,
+                                       unsigned threads) {
     for (const Copy& copy : copies)
-        if (copy.size() > 0 && (end_of(copy) * sizeof(float) > buffer.size()))
-            throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end");
-    const auto job = std::make_shared<Job>();
-    job->buffer = &buffer;
-    job->copies = std::move(copies);
+        if (end_of(copy) * sizeof(float) > buffer.size() || copy.columns * copy.channels > piece)
+            throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end, or of too long lines");
+    if (!is_registered && !staging_) staging_.emplace(device_, "staging memory", most_underway * sizeof(float));
+    const auto job = std::make_shared<Job>(Job{&buffer, std::move(copies), is_registered, threads, {}, nullptr});
     std::shared_future<void> done = job->done.get_future();
     if (!thread_) {
         give(job);
@@ -77,75 +90,66 @@ void CopyFeed::work() {
 
 void CopyFeed::give(const std::shared_ptr<Job>& job) {
     try {
-        for (const Copy& copy : job->copies) give_pieces(job, copy);
+        for (const Copy& copy : job->copies) {
+            const std::size_t lines = piece / (copy.columns * copy.channels);
+            for (std::size_t y = 0; y < copy.lines; y += lines) {
+                Copy part = copy;
+                part.lines = std::min(lines, copy.lines - y);
+                part.begin += y * copy.pitch;
+                part.target += y * copy.target_pitch;
+                give_piece(job, part);
+            }
+        }
     } catch (...) {
         job->failure = std::current_exception();
     }
-    underway_.push_back({Event(), job, 0, true});
-}
-
-// Several channels, or part of one, or of a line.
-void CopyFeed::give_pieces(const std::shared_ptr<Job>& job, const Copy& copy) {
-    const std::size_t channel = copy.columns * copy.lines;
-    const std::size_t channels = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, channel));
-    const std::size_t lines = std::max<std::size_t>(1, piece / std::max<std::size_t>(1, copy.columns));
-    for (std::size_t p = 0; p < copy.channels; p += channels)
-        for (std::size_t y = 0; y<copy.lines; y += channels> 1 ? copy.lines : lines)
-            for (std::size_t x = 0; x<copy.columns; x += lines> 1 ? copy.columns : piece) {
-                Copy part = copy;
-                part.channels = std::min(channels, copy.channels - p);
-                part.lines = channels > 1 ? copy.lines : std::min(lines, copy.lines - y);
-                part.columns = lines > 1 ? copy.columns : std::min(piece, copy.columns - x);
-                part.begin += p * copy.slice + y * copy.pitch + x;
-                part.target += p * copy.target_slice + y * copy.target_pitch + x;
-                give_piece(job, part);
-            }
+    underway_.push_back({job, {}, nullptr, true, {}});
 }
 
 void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
-    const std::size_t bytes = copy.size() * sizeof(float);
-    while (bytes_ > 0 && bytes_ + bytes > most_underway) retire();
-    underway_.push_back({Event(), job, bytes, false});
-    bytes_ += bytes;
-    underway_.back().event = queue(device_, *job->buffer, copy);
-    device_.flush_copies();
-}
-
-Event CopyFeed::queue(const Device& device, const Buffer& buffer, const Copy& copy) {
-    constexpr std::size_t size = sizeof(float);
-    if (copy.size() == 0) return {};
-    if (copy.lines == 1 && copy.channels == 1)
-        return buffer.copy_read(copy.target, copy.columns * size, copy.begin * size);
-    const std::size_t from[3] = {copy.begin % copy.pitch * size, copy.begin / copy.pitch, 0}, to[3] = {0, 0, 0},
-                      region[3] = {copy.columns * size, copy.lines, copy.channels};
-    const bool is_flat = copy.channels == 1;
-    device.cl().check_lost();
+    Copy first = copy;  // where the device copies it to
+    if (!job->is_registered) {
+        first.target = static_cast<float*>(staging_->data()) + next_ * piece;
+        first.target_pitch = copy.columns;
+        first.target_slice = copy.columns * copy.lines;
+        next_ = 1 - next_;
+    }
+    const float* const staged = job->is_registered ? nullptr : first.target;
+    const auto has_place = [&] {
+        return floats_ + copy.size() <= most_underway &&
+               (!staged || std::ranges::find(underway_, staged, &Underway::staged) == underway_.end());
+    };
+    while (!has_place()) retire();
+    const std::size_t from[3] = {first.begin % first.pitch * sizeof(float), first.begin / first.pitch, 0},
+                      to[3] = {0, 0, 0}, region[3] = {first.columns * sizeof(float), first.lines, first.channels};
+    underway_.push_back({job, copy, staged, false, {}});
+    floats_ += copy.size();
+    device_.cl().check_lost();
     cl_event event = nullptr;
-    check(
-        device.cl().EnqueueReadBufferRect(device.copy_queue(), buffer.get(), CL_FALSE, from, to, region,
-                                          copy.pitch * size, is_flat ? 0 : copy.slice * size, copy.target_pitch * size,
-                                          is_flat ? 0 : copy.target_slice * size, copy.target, 0, nullptr, &event),
-        "clEnqueueReadBufferRect (" + buffer.name() + ")");
-    return Event(device.cl(), event);
+    check(device_.cl().EnqueueReadBufferRect(device_.copy_queue(), job->buffer->get(), CL_FALSE, from, to, region,
+                                             first.pitch * sizeof(float), first.slice * sizeof(float),
+                                             first.target_pitch * sizeof(float), first.target_slice * sizeof(float),
+                                             first.target, 0, nullptr, &event),
+          "clEnqueueReadBufferRect (" + job->buffer->name() + ")");
+    underway_.back().event = Event(device_.cl(), event);
+    device_.flush_copies();
 }
 
 /// Waits for the first of those underway.
 void CopyFeed::retire() {
     const Underway first = std::move(underway_.front());
     underway_.pop_front();
-    bytes_ -= first.bytes;
-    if (!first.is_end) {
-        try {
-            wait_patiently(first.event);
-        } catch (...) {
-            if (!first.job->failure) first.job->failure = std::current_exception();
-        }
+    Job& job = *first.job;
+    if (first.is_end) {
+        job.failure ? job.done.set_exception(job.failure) : job.done.set_value();
         return;
     }
-    if (first.job->failure) {
-        first.job->done.set_exception(first.job->failure);
-    } else {
-        first.job->done.set_value();
+    floats_ -= first.copy.size();
+    try {
+        wait_patiently(first.event);
+        if (first.staged && !job.failure) put(first.copy, first.staged, job.threads);
+    } catch (...) {
+        if (!job.failure) job.failure = std::current_exception();
     }
 }
 

@@ -1,6 +1,7 @@
-// Copies from the device to the host's memory beside kernels, by a thread of its own, a few at a time, so that what a
-// QueuedRead asks for stands behind few of them. (NVIDIA's driver leaves one queue's copies for another's only when
-// none is left, or a millisecond has gone by.)
+// Copies from the device to the host's memory beside kernels, by a thread of its own, in pieces, few at a time, so that
+// what a QueuedRead asks for stands behind few of them. (NVIDIA's driver leaves one queue's copies for another's only
+// when none is left, or a millisecond has gone by.) A piece goes straight into memory that the device knows; for other
+// memory it goes into pinned memory, from which the thread puts it while the device copies the next one.
 #pragma once
 
 #include <condition_variable>
@@ -20,6 +21,7 @@ namespace csgrt {
 class CopyFeed {
 public:
     /// Floats that stand apart as those of a picture's rectangle do: of each channel its lines, one beneath the other.
+    /// A line of all channels has at most `piece` floats.
     struct Copy {
         std::size_t columns, lines = 1, channels = 1;
         /// Where the first one is in the buffer; from line to line, and from channel to channel, of which the first
@@ -30,9 +32,7 @@ public:
 
         std::size_t size() const { return columns * lines * channels; }
     };
-
-    /// Queues the copy, as one command of the device's copy queue. Does not wait.
-    static Event queue(const Device& device, const Buffer& buffer, const Copy& copy);
+    static constexpr std::size_t piece = std::size_t{1} << 21;  ///< floats
 
     explicit CopyFeed(const Device& device);
     CopyFeed(const CopyFeed&) = delete;
@@ -41,27 +41,30 @@ public:
     ~CopyFeed();
 
     /// Makes the copies when those given before are made. Does not wait: until the future is ready the buffer must stay
-    /// as it is, and what wrote it must be done already. The future throws Error (device_fault, out_of_memory) if a
-    /// copy failed.
-    std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies);
+    /// as it is, and what wrote it must be done already. `is_registered`: the target is memory that the device knows;
+    /// else at most `threads` write it (0: all). The future throws Error (device_fault, out_of_memory) if a copy
+    /// failed.
+    std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered, unsigned threads);
 
 private:
     struct Job {
         const Buffer* buffer;
         std::vector<Copy> copies;
+        bool is_registered;
+        unsigned threads;
         std::promise<void> done;
         std::exception_ptr failure;
     };
     /// A piece that the device has been given.
     struct Underway {
-        Event event;
         std::shared_ptr<Job> job;
-        std::size_t bytes;
-        bool is_end;  ///< of a job, no piece
+        Copy copy;
+        const float* staged;  ///< where it comes first; null: nowhere
+        bool is_end;          ///< of a job, no piece
+        Event event;
     };
     void work();
     void give(const std::shared_ptr<Job>& job);
-    void give_pieces(const std::shared_ptr<Job>& job, const Copy& copy);
     void give_piece(const std::shared_ptr<Job>& job, const Copy& copy);
     void retire();
 
@@ -70,9 +73,11 @@ private:
     bool stop_ = false;
     std::mutex mutex_;
     std::condition_variable changed_;
+    std::optional<PinnedMemory> staging_;  ///< two pieces
     // The thread's own.
     std::deque<Underway> underway_;
-    std::size_t bytes_ = 0;         ///< underway
+    std::size_t floats_ = 0;        ///< underway
+    std::size_t next_ = 0;          ///< the piece of the staging memory that was used longest ago
     std::optional<Thread> thread_;  ///< none: there was none to be had
 };
 

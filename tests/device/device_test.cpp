@@ -310,12 +310,14 @@ TEST_CASE("registered host memory keeps what it holds, takes copies by lines, an
         const Buffer buffer(*device, "lines", values);
         CopyFeed copies(*device);
         copies
-            .add(buffer, {{.columns = 30,
-                           .lines = 20,
-                           .begin = 30 * 10,
-                           .pitch = 30,
-                           .target = host.data() + 5 * 100 + 11,
-                           .target_pitch = 100}})
+            .add(buffer,
+                 {{.columns = 30,
+                   .lines = 20,
+                   .begin = 30 * 10,
+                   .pitch = 30,
+                   .target = host.data() + 5 * 100 + 11,
+                   .target_pitch = 100}},
+                 true, 1)
             .get();
     }
     std::vector<float> expected(host.size(), 7);

@@ -9,8 +9,7 @@
 namespace csgrt {
 namespace {
 
-// Fewer are copied sooner than a thread starts: pixels of tiles, and floats of long lines.
-constexpr std::size_t pixels_a_thread = 1 << 17, floats_a_thread = 1 << 20;
+constexpr std::size_t pixels_a_thread = 1 << 17;  // fewer are copied sooner than a thread starts
 
 constexpr std::uint32_t not_drawn = UINT32_MAX;
 
@@ -127,33 +126,6 @@ Rectangle rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t
     const BatchTiles tiles(frame, first, end);
     return {frame.screen.left, frame.screen.right, tiles.pixels(0, 0, 0).top,
             tiles.pixels(tiles.rows - 1, 0, 0).bottom};
-}
-
-void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
-                    const RenderTarget& target, const std::function<void(std::size_t)>& arrived) {
-    struct ChannelLines {
-        const Rectangle* rectangle;
-        const float* values;
-        float* pixels;
-    };
-    std::vector<ChannelLines> parts;
-    std::size_t floats = 0;
-    for (const Rectangle& r : rectangles)
-        for (std::size_t p = 0; p < target.channels.size(); ++p) {
-            parts.push_back(
-                {&r, values + r.begin + p * r.size(), target.channels[p].pixels + r.top * frame.width + r.left});
-            floats += r.size();
-        }
-    const std::size_t threads = 1 + floats / floats_a_thread;
-    const unsigned most = thread_count(target.threads);
-    for_chunks(parts.size(), 1, static_cast<unsigned>(std::min<std::size_t>(threads, most)),
-               [&](std::size_t i, std::size_t, std::size_t) {
-                   if (arrived) arrived(i);
-                   const ChannelLines& part = parts[i];
-                   const std::size_t columns = part.rectangle->columns();
-                   for (std::size_t line = 0; line < part.rectangle->lines(); ++line)
-                       std::copy_n(part.values + line * columns, columns, part.pixels + line * frame.width);
-               });
 }
 
 void clear_around(const kernel::Frame& frame, const RenderTarget& target) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,7 +28,6 @@ struct RenderTarget {
 /// Pixels of a picture: columns left ... right - 1, lines top ... bottom - 1.
 struct Rectangle {
     std::size_t left = 0, right = 0, top = 0, bottom = 0;
-    std::size_t begin = 0;  ///< among floats of rectangles: of each channel its lines
 
     std::size_t columns() const { return right - left; }
     std::size_t lines() const { return bottom - top; }
@@ -53,11 +51,6 @@ std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t
 
 /// The whole rows of pixels within the screen bounds that a batch's tiles touch.
 Rectangle rows_of(const kernel::Frame& frame, std::uint32_t first, std::uint32_t end);
-
-/// Writes rectangles' pixels. `arrived`, if there is one, is called before the values of part i are read: part i is
-/// channel i % channels of rectangle i / channels. Several threads call it.
-void put_rectangles(const kernel::Frame& frame, std::span<const Rectangle> rectangles, const float* values,
-                    const RenderTarget& target, const std::function<void(std::size_t)>& arrived = nullptr);
 
 /// Writes the pixels of single rays: `values` has for each channel a float a ray.
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,

@@ -1,13 +1,10 @@
 // Pixels of a GPU's batches on their way into the picture, while the GPU draws the next batches.
 //
 // A batch is drawn into a row-major picture on the device. Rectangles of it that show something, or did so before, are
-// copied into the target: by the GPU itself where the target's memory is registered with it, else into staging memory,
-// from which the host copies them.
+// copied into the target (device/copy_feed.hpp).
 #pragma once
 
-#include <array>
 #include <future>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,9 +35,8 @@ public:
 
     /// Queues the copies of the batch's pixels, which are drawn, into the target. `shown`: of each tile a byte, not 0
     /// if it shows something. May return before the copies are made: the target must live until finish() or abandon().
-    /// Of a frame's last batch only copies into registered memory are left then.
     void collect(const kernel::Frame& frame, const RayBatch& batch, std::span<const std::uint8_t> shown,
-                 DevicePicture& picture, bool is_last, const RenderTarget& target);
+                 DevicePicture& picture, const RenderTarget& target);
     /// Returns when all copies are made. Throws what kept one from being made.
     void finish();
     /// The same, but throws nothing, and no batch uses a picture any more.
@@ -52,25 +48,10 @@ public:
 
 private:
     static constexpr std::size_t depth = Device::queues + 1;  ///< batches that are drawn, and one that is copied
-    /// Host memory that the device copies to at full speed.
-    struct Staging {
-        std::optional<PinnedMemory> memory;
-        std::future<void> done;  ///< its destructor waits until nothing works on the memory
-    };
-    Staging& free_staging(std::size_t bytes);
-    void copy_by_thread(const kernel::Frame& frame, std::vector<Rectangle> rectangles,
-                        std::vector<CopyFeed::Copy> copies, const RenderTarget& target, Staging& staging,
-                        DevicePicture& picture);
-    void copy_at_once(const kernel::Frame& frame, std::span<const Rectangle> rectangles,
-                      std::span<const CopyFeed::Copy> copies, const RenderTarget& target, const Staging& staging,
-                      const Buffer& picture);
-
     Device& device_;
     std::vector<DevicePicture> pictures_;
     std::uint64_t collected_ = 0;  ///< batches
     CopyFeed copies_;              ///< is destroyed before the pictures
-    std::array<Staging, 2> staging_;
-    std::size_t next_ = 0;  ///< the staging memory that was used longest ago
 };
 
 }  // namespace csgrt

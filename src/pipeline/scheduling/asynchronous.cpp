@@ -311,8 +311,7 @@ bool AsynchronousSchedule::try_alone(Batch& batch, const FrameJob& job) {
 void AsynchronousSchedule::read_pixels(Batch& batch, const FrameJob& job) {
     batch.state = State::free;
     for (const Event& event : batch.culling) add_time(&PipelineCounts::cull_tiles, event, job.counts);
-    const bool is_last = is_idle() && job.source.is_empty();
-    ring_.collect(batch.frame, batch.rays, batch.shown(), *batch.picture, is_last, job.target);
+    ring_.collect(batch.frame, batch.rays, batch.shown(), *batch.picture, job.target);
     job.tell(batch.rays);
 }
 
