@@ -18,19 +18,26 @@ if(CSGRT_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND TARGET csgrt_cli
     list(JOIN words "\n" words)
     set(dictionary ${CMAKE_CURRENT_BINARY_DIR}/fuzz/words.dict)
     file(GENERATE OUTPUT ${dictionary} CONTENT "${words}\n")
+    # What longer runs have found, reduced to what reaches more code; see coverage.cmake.
+    set(corpus ${CMAKE_CURRENT_BINARY_DIR}/fuzz/corpus)
+    file(ARCHIVE_EXTRACT INPUT ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus.txz DESTINATION ${corpus})
     foreach(reader json asc g rays view)
         set(found ${CMAKE_CURRENT_BINARY_DIR}/fuzz/${reader})  # what libFuzzer adds to the seeds
         file(MAKE_DIRECTORY ${found})
         set(seeds ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/seeds/${reader})
         set(command csgrt_fuzz -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 -print_funcs=0
             -dict=${dictionary} -artifact_prefix=${found}_ ${found} ${seeds})
-        set(more "")  # to be read takes them a minute
+        set(more ${corpus}/${reader})  # to be read takes them a minute
         if(reader STREQUAL "json")
-            set(more ${PROJECT_SOURCE_DIR}/scenes ${PROJECT_SOURCE_DIR}/scenes/broken)
+            list(APPEND more ${PROJECT_SOURCE_DIR}/scenes ${PROJECT_SOURCE_DIR}/scenes/broken)
         endif()
         add_test(NAME fuzz/${reader} COMMAND ${command} -max_total_time=5)
         add_test(NAME fuzz/hour/${reader} CONFIGURATIONS Long COMMAND ${command} ${more} -max_total_time=3600)
         set_tests_properties(fuzz/${reader} fuzz/hour/${reader} PROPERTIES ENVIRONMENT "CSGRT_FUZZ=${reader}")
         set_tests_properties(fuzz/hour/${reader} PROPERTIES LABELS fuzz TIMEOUT 4000)
     endforeach()
+    add_test(NAME fuzz/coverage CONFIGURATIONS Long COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+        -DGENERATOR=${CMAKE_GENERATOR} -DWORK=${CMAKE_CURRENT_BINARY_DIR}/coverage
+        -P ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/coverage.cmake)
+    set_tests_properties(fuzz/coverage PROPERTIES LABELS fuzz TIMEOUT 3600 SKIP_REGULAR_EXPRESSION "SKIPPED:")
 endif()
