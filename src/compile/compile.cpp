@@ -22,9 +22,9 @@
 #include "compile/solids/pack.hpp"
 #include "compile/solids/polyhedron.hpp"
 #include "compile/regions/terms.hpp"
-#include "formats/source.hpp"
 #include "base/parallel.hpp"
 #include "scene/excerpt.hpp"
+#include "scene/faults/finding_list.hpp"
 #include "scene/faults/validate.hpp"
 
 namespace csgrt {
@@ -163,16 +163,15 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     CompiledScene compiled;
     compiled.warnings = scene.warnings;
     compiled.display_shading = options.display_shading;
-    if (std::vector<Diagnostic> findings =
-            validate(scene, names, objects, options.skip_unsupported, compiled.warnings, options.max_instances);
-        !findings.empty())
-        throw Error(Status::scene, std::move(findings));
+    Validated validated =
+        validate(scene, names, objects, options.skip_unsupported, compiled.warnings, options.max_instances);
+    if (!validated.findings.empty()) throw Error(Status::scene, std::move(validated.findings));
     if (roots.empty()) roots = names.top_objects();  // all were in cycles, which are cut now
 
-    FlatScene flat = flatten(scene, names, roots, options.air, options.max_instances);
+    FlatScene flat = flatten(scene, names, validated.instances, roots, options.air, options.max_instances);
     std::optional<Measured> measured(std::in_place, scene, flat);
     while (leave_out_extremes(scene, flat, *measured, names, compiled.warnings)) {
-        flat = flatten(scene, names, roots, options.air, options.max_instances);
+        flat = flatten(scene, names, validated.instances, roots, options.air, options.max_instances);
         measured.emplace(scene, flat);
     }
     std::move(flat.warnings.begin(), flat.warnings.end(), std::back_inserter(compiled.warnings));

@@ -7,13 +7,13 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "compile/flatten/tree.hpp"
+#include "compile/flatten/flattener.hpp"
 #include "compile/flatten/instance_table.hpp"
-#include "compile/regions/linearize.hpp"
-#include "compile/regions/regions.hpp"
+#include "compile/flatten/region_forest.hpp"
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
 #include "scene/faults/finding_list.hpp"
+#include "scene/faults/validate.hpp"
 #include "scene/instances.hpp"
 
 namespace csgrt {
@@ -96,44 +96,42 @@ struct Term {
 struct TermsPart {
     struct Written {
         FlatRegion region;
-        Flattener::Kind kind;
-        bool contains_space;
+        Constants constants;
     };
     std::vector<Written> regions;
     FlatPart flat;
 };
 
 /// Asks for what the terms after number `i` will read first, most of the time.
-void prefetch_ahead(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms, std::size_t i) {
+void prefetch_ahead(const Source& source, std::span<const Term> terms, std::size_t i) {
+    const Scene& scene = source.scene;
     const auto object_at = [&](std::size_t term) {
         return terms[term].forest->leftmost_start(terms[term].node).object;
     };
     if (i + 2 < terms.size()) prefetch_whole(scene.objects[object_at(i + 2)]);
-    if (i + 1 == terms.size() || index.kind(object_at(i + 1)) >= Names::Kind::solid) return;
+    if (i + 1 == terms.size() || source.names.is_solid(object_at(i + 1))) return;
     const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[object_at(i + 1)]).tree.nodes;
     constexpr std::size_t most = 8;
     for (std::size_t k = 0; k < std::min(nodes.size(), most); ++k) prefetch_whole(nodes[k]);
 }
 
-TermsPart flatten_part(const Scene& scene, const ObjectIndex& index, std::span<const Term> terms,
-                       std::atomic<std::uint64_t>& path_bytes) {
+TermsPart flatten_part(const Source& source, std::span<const Term> terms, std::atomic<std::uint64_t>& path_bytes) {
+    const Scene& scene = source.scene;
     TermsPart part;
     part.regions.reserve(terms.size());
-    Flattener flattener(scene, index, part.flat);
+    Flattener flattener(source, part.flat);
     for (std::size_t i = 0; i < terms.size(); ++i) {
-        prefetch_ahead(scene, index, terms, i);
+        prefetch_ahead(source, terms, i);
         const auto& [forest, term] = terms[i];
         const RegionStart& start = forest->leftmost_start(term);
         const Object& origin = scene.objects[forest->origin_of(start)];
         TermsPart::Written& written = part.regions.emplace_back();
         FlatRegion& region = written.region;
-        written.kind = flattener.write(*forest, term, region.tree);
+        written.constants = flattener.write(*forest, term, region.tree);
         region.info =
             describe_region(std::get_if<Combination>(&origin), forest->attributes_of(start), scene.region_colors);
         region.info.path = forest->path(start.path);
         check_path_bytes(path_bytes += region.info.path.size());
-        written.contains_space = written.kind == Flattener::Kind::everything ||
-                                 (written.kind == Flattener::Kind::tree && contains_empty_space(region.tree));
     }
     return part;
 }
@@ -149,20 +147,21 @@ struct NoRegion {
 /// Parts of a scene, joined in their order.
 class Joiner {
 public:
-    Joiner(const Scene& scene, const ObjectIndex& index, const std::vector<Term>& terms, FlatScene& result)
-        : scene_(scene), index_(index), terms_(terms), result_(result), instances_(scene.objects.size()) {}
+    Joiner(const Source& source, const std::vector<Term>& terms, FlatScene& result)
+        : source_(source), terms_(terms), result_(result), instances_(source.scene.objects.size()) {}
 
     void add(TermsPart& part) {
         numbers_.clear();
         const std::vector<Matrix>& matrices = result_.matrices.emplace_back(std::move(part.flat.matrices));
         for (const auto& [object, piece, matrix] : part.flat.leaves)
             numbers_.push_back(instances_.number({object, piece, &matrices[matrix]}, result_.instances));
-        for (auto& [region, kind, contains_space] : part.regions) {
+        for (auto& [region, constants] : part.regions) {
             const std::size_t term = next_++;
-            if (kind == Flattener::Kind::nothing || contains_space) {
+            const bool contains_space = constants.outside == Value::everything;
+            if (constants.value == Value::nothing || contains_space) {
                 const RegionStart& start = terms_[term].forest->leftmost_start(terms_[term].node);
                 no_regions_.push_back(
-                    {term, contains_space, std::move(region.info.path), place_of(scene_.objects[start.object])});
+                    {term, contains_space, std::move(region.info.path), place_of(source_.scene.objects[start.object])});
                 continue;
             }
             for (FlatTree::Node& node : region.tree.nodes)
@@ -171,15 +170,14 @@ public:
         }
         has_unused_ = has_unused_ || part.flat.has_unused;
         result_.composites.merge(part.flat.composites);
-        index_.check_references(references_ += part.flat.references);
+        source_.references.check(references_ += part.flat.references);
     }
 
     const std::vector<NoRegion>& no_regions() const { return no_regions_; }
     bool has_unused() const { return has_unused_; }
 
 private:
-    const Scene& scene_;
-    const ObjectIndex& index_;
+    const Source& source_;
     const std::vector<Term>& terms_;
     FlatScene& result_;
     InstanceTable instances_;
@@ -192,10 +190,10 @@ private:
 
 }  // namespace
 
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
-                  std::uint64_t max_instances) {
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
+                  const std::vector<std::string>& objects, bool air, std::uint64_t max_instances) {
     FlatScene result;
-    ObjectIndex index(scene, names, max_instances);
+    const Source source{scene, names, instances, ReferenceLimit(scene, max_instances)};
 
     // Which regions there are.
     struct Named {
@@ -225,8 +223,8 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
             continue;
         }
         const std::size_t air_before = air_regions.size();
-        check(object, solids + index.solids_below(path.object()));
-        auto forest = std::make_unique<RegionForest>(scene, index, path, air, air_regions);
+        check(object, solids + static_cast<double>(instances[path.object()]));
+        auto forest = std::make_unique<RegionForest>(source, path, air, air_regions);
         solids += forest->solids_in_terms();
         check(object, solids);
         forest->for_each_term([&](std::uint32_t term) { terms.push_back({forest.get(), term}); });
@@ -237,13 +235,13 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     reserve_cleared(result.instances,
                     std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
     result.regions.reserve(terms.size());
-    Joiner joiner(scene, index, terms, result);
+    Joiner joiner(source, terms, result);
     constexpr std::size_t part_size = 512;
     std::atomic<std::uint64_t> path_bytes = 0;
     for_chunks_in_order(
         terms.size(), part_size, 0,
         [&](std::size_t first, std::size_t last) {
-            return flatten_part(scene, index, std::span(terms).subspan(first, last - first), path_bytes);
+            return flatten_part(source, std::span(terms).subspan(first, last - first), path_bytes);
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
@@ -299,6 +297,13 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
              counted(empty_regions.size(), "region without solids", "regions without solids") +
                  " left out: " + some(empty_regions));
     return result;
+}
+
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
+    Names names(scene);
+    std::vector<Warning> warnings;
+    const Validated validated = validate(scene, names, objects, true, warnings);
+    return flatten(scene, names, validated.instances, objects, air);
 }
 
 }  // namespace csgrt

@@ -37,14 +37,13 @@ struct FlatScene {
 const Shape& shape_of(const Scene& scene, const FlatScene& flat, const Instance& instance);
 const std::vector<Plane>& cuts_of(const FlatScene& flat, const Instance& instance);
 
-/// Follows `objects` down to solids. The scene must be sound as far as names and trees go (see `validate`).
+/// Follows `objects` down to solids. The scene must be sound as far as names and trees go; `instances`: see Validated.
 /// Throws Error (scene): too many solids, or a region that contains the empty space where no solid is; in a lenient
 /// scene such a region is left out.
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::string>& objects, bool air,
-                  std::uint64_t max_instances = 0);
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
+                  const std::vector<std::string>& objects, bool air, std::uint64_t max_instances = 0);
 
-inline FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air) {
-    return flatten(scene, Names(scene), objects, air);
-}
+/// The same of a scene whose findings do not matter.
+FlatScene flatten(const Scene& scene, const std::vector<std::string>& objects, bool air);
 
 }  // namespace csgrt

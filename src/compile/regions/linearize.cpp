@@ -23,40 +23,6 @@ void check_tree_words(std::uint64_t count) {
         throw Error(Status::scene, "the trees of all regions together exceed " + std::to_string(TREE_MASK) + " words");
 }
 
-bool contains_empty_space(const FlatTree& tree) {
-    std::vector<bool> stack;
-    for (const FlatTree::Node& node : tree.nodes) {
-        if (node.op == Operator::leaf) {
-            stack.push_back(false);
-            continue;
-        }
-        const std::size_t first = stack.size() - node.arity;
-        const auto operands = stack.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto trues = std::count(operands, stack.end(), true);
-        bool value = false;
-        switch (node.op) {
-            case Operator::union_:
-                value = trues > 0;
-                break;
-            case Operator::intersection:
-                value = trues == static_cast<std::ptrdiff_t>(node.arity);
-                break;
-            case Operator::difference:
-                value = *operands && trues == 1;
-                break;
-            case Operator::xor_:
-                value = trues % 2 == 1;
-                break;
-            default:
-                value = trues == 0;
-                break;
-        }
-        stack.resize(first);
-        stack.push_back(value);
-    }
-    return !stack.empty() && stack.back();
-}
-
 namespace {
 
 constexpr std::uint32_t none = 0xffffffff;

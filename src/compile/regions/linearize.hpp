@@ -13,10 +13,7 @@ struct LinearTree {
     std::uint32_t stack = 0;                       ///< entries that the walk needs at most
 };
 
-/// Is the tree true where no solid is? Such a tree is no region.
-bool contains_empty_space(const FlatTree& tree);
-
-/// Appends the tree to `words`. It must not contain the empty space.
+/// Appends the tree to `words`. It must be false where no solid is.
 /// Throws Error (scene) if it does not fit 29 bits of position or of solid.
 LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words);
 

@@ -1,5 +1,5 @@
-// One walk over everything that the rendered objects reach, depth first, each object once. The walk keeps its own
-// stack, and how many solids stand below an object is summed on the way back, so neither depth nor sharing costs.
+// One walk over everything that the rendered objects reach, each object once. How many solids stand below an object is
+// summed on the way back, so neither depth nor sharing costs.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -18,6 +18,7 @@
 #include "scene/faults/solids.hpp"
 #include "scene/faults/unsupported.hpp"
 #include "scene/faults/validate.hpp"
+#include "scene/walk.hpp"
 
 namespace csgrt {
 
@@ -36,7 +37,7 @@ public:
           instance_limit_(scene, max_instances),
           objects_(scene.objects.size()) {}
 
-    std::vector<Diagnostic> run(const std::vector<std::string>& named, std::vector<Warning>& warnings) {
+    Validated run(const std::vector<std::string>& named, std::vector<Warning>& warnings) {
         for (const std::uint32_t object : names_.taken())
             add(place_of(scene_.objects[object]),
                 "there are two objects named '" + name_of(scene_.objects[object]) + "'", "rename one of them");
@@ -56,7 +57,10 @@ public:
         }
         if (!instance_limit_.allows(static_cast<double>(solids))) report_too_many({}, "the scene", solids);
         take_warnings(warnings);
-        return finish();
+        Validated result{finish(), {}};
+        result.instances.reserve(objects_.size());
+        for (const Reached& object : objects_) result.instances.push_back(object.solids);
+        return result;
     }
 
 private:
@@ -69,10 +73,9 @@ private:
         State state = State::unseen;
         bool sound = false;  ///< by itself
     };
-    struct Frame {
-        std::uint32_t object;
-        std::size_t next_node;
-    };
+    struct Level {};
+    friend class Walk<Level>;
+    using Open = Walk<Level>::Open;
 
     void add(const Place& place, std::string message, std::string suggestion = {}) {
         found_.add({place, std::move(message), std::move(suggestion), {}});
@@ -119,25 +122,19 @@ private:
     }
 
     void walk(std::uint32_t root) {
-        enter(root);
-        while (!path_.empty()) {
-            Frame& frame = path_.back();
-            const std::span<const std::uint32_t> children = names_.children(frame.object);
-            if (frame.next_node < children.size()) {
-                const std::size_t number = frame.next_node++;
-                if (children[number] != Names::operation && children[number] != Names::left_out)
-                    follow(frame.object, number, children[number]);
-            } else {
-                leave();
-            }
+        if (objects_[root].state != State::unseen) return;
+        if (enter(root)) {
+            walk_.below(names_, root, {}, *this);
+        } else {
+            close(root);
         }
     }
 
-    void enter(std::uint32_t object) {
-        if (objects_[object].state != State::unseen) return;
+    /// Returns whether the object is a combination whose tree is walked.
+    bool enter(std::uint32_t object) {
         objects_[object].state = State::open;
-        path_.push_back({object, 0});
-        if (objects_[object].sound) return;
+        const bool is_solid = names_.is_solid(object);
+        if (objects_[object].sound) return !is_solid;
         if (const auto* solid = std::get_if<Solid>(&scene_.objects[object])) {
             std::string all;
             for (const std::string& fault : solid_faults(solid->shape)) {
@@ -146,10 +143,11 @@ private:
             }
             if (scene_.lenient) leave_out(object, solid->place, all);
         } else if (scene_.lenient) {
-            leave_out_parts(object);
+            return leave_out_parts(object);
         } else {
             check_combination(std::get<Combination>(scene_.objects[object]), report_);
         }
+        return !is_solid;
     }
 
     void bear(const std::string& object, const Place& place, std::string reason) {
@@ -163,8 +161,8 @@ private:
         bear(name_of(scene_.objects[object]), place, "left out: " + reason);
     }
 
-    /// Of a combination, no more than what is wrong.
-    void leave_out_parts(std::uint32_t object) {
+    /// Of a combination, no more than what is wrong. Returns whether its tree can be walked.
+    bool leave_out_parts(std::uint32_t object) {
         const Combination& combination = std::get<Combination>(scene_.objects[object]);
         check_attributes(combination, [&](const Place& place, const std::string& message, const std::string&) {
             bear(combination.name, place, message + "; taken as it is");
@@ -174,10 +172,7 @@ private:
             if (sound) leave_out(object, place, message);
             sound = false;
         });
-        if (!sound) {
-            path_.back().next_node = names_.children(object).size();
-            return;
-        }
+        if (!sound) return false;
         for (std::size_t i = 0; i < combination.tree.nodes.size(); ++i) {
             if (combination.tree.nodes[i].op != Operator::leaf) continue;
             check_matrix(combination.tree.nodes[i],
@@ -186,6 +181,7 @@ private:
                              bear(combination.name, place, message + "; the leg is left out");
                          });
         }
+        return true;
     }
 
     /// One warning for all legs that name the same missing object.
@@ -200,33 +196,52 @@ private:
              "left out: there is no such object; used by '" + name_of(scene_.objects[parent]) + "'");
     }
 
+    // The visitor of the walk.
+
     /// From a combination down one leg. A child that is done already is added now, one that is new when it is left.
-    void follow(std::uint32_t parent, std::size_t node, std::uint32_t object) {
-        const auto combination = [&]() -> const Combination& { return std::get<Combination>(scene_.objects[parent]); };
+    std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t object) {
         if (object == Names::none) {
-            const TreeNode& leg = combination().tree.nodes[node];
-            if (scene_.lenient) return leave_out_missing(parent, node, leg);
-            add(leg.place, "'" + combination().name + "' uses '" + leg.object + "', which does not exist",
-                found_.full() ? std::string() : did_you_mean_object(scene_, leg.object));
-            return;
+            follow_missing(parent.object, node);
+            return {};
         }
         Reached& child = objects_[object];
-        if (child.users++ == 0) child.first_user = parent;
+        if (child.users++ == 0) child.first_user = parent.object;
         if (child.state == State::open) {
-            report_cycle(parent, node, object, combination().tree.nodes[node]);
+            report_cycle(parent.object, node, object);
         } else if (child.state == State::done) {
-            add_below(parent, child);
+            add_below(parent.object, child);
         } else if (child.sound && names_.is_solid(object)) {
-            child.state = State::done;  // what entering and leaving it comes to
-            add_below(parent, child);
+            child.state = State::done;  // what entering and closing it comes to
+            add_below(parent.object, child);
+        } else if (enter(object)) {
+            return Level{};
         } else {
-            enter(object);
+            close(object);
+            add_below(parent.object, child);
         }
+        return {};
+    }
+    void operate(const Open&, std::uint32_t) {}
+    void nothing() {}
+    void leave(const Open& done) {
+        close(done.object);
+        if (!walk_.open().empty()) add_below(walk_.open().back().object, objects_[done.object]);
     }
 
-    void leave() {
-        const std::uint32_t object = path_.back().object;
-        path_.pop_back();
+    const TreeNode& leg(std::uint32_t parent, std::size_t node) const {
+        return std::get<Combination>(scene_.objects[parent]).tree.nodes[node];
+    }
+
+    void follow_missing(std::uint32_t parent, std::size_t node) {
+        const TreeNode& missing = leg(parent, node);
+        if (scene_.lenient) return leave_out_missing(parent, node, missing);
+        add(missing.place,
+            "'" + name_of(scene_.objects[parent]) + "' uses '" + missing.object + "', which does not exist",
+            found_.full() ? std::string() : did_you_mean_object(scene_, missing.object));
+    }
+
+    /// What is below the object is known.
+    void close(std::uint32_t object) {
         Reached& reached = objects_[object];
         reached.state = State::done;
         const auto name = [&] { return "'" + name_of(scene_.objects[object]) + "'"; };
@@ -240,7 +255,6 @@ private:
         }
         if (!instance_limit_.allows(static_cast<double>(reached.solids)))
             report_too_many(place(), name(), reached.solids);
-        if (!path_.empty()) add_below(path_.back().object, reached);
     }
 
     void add_below(std::uint32_t parent, const Reached& child) {
@@ -255,19 +269,21 @@ private:
     }
 
     /// Of a long cycle the end is told: a scene may have as many of them as objects.
-    void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object, const TreeNode& leg) {
+    void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object) {
         if (!scene_.lenient && found_.full()) return found_.leave_out();
+        const TreeNode& back = leg(parent, node);
+        const std::vector<Open>& path = walk_.open();
         constexpr std::size_t most = 20;
-        std::size_t first = path_.size(), shown = 0;
-        while (shown++ < most && path_[--first].object != object) continue;
-        std::string cycle = path_[first].object == object ? "" : leg.object + "/.../";
-        for (; first < path_.size(); ++first) cycle += name_of(scene_.objects[path_[first].object]) + "/";
+        std::size_t first = path.size(), shown = 0;
+        while (shown++ < most && path[--first].object != object) continue;
+        std::string cycle = path[first].object == object ? "" : back.object + "/.../";
+        for (; first < path.size(); ++first) cycle += name_of(scene_.objects[path[first].object]) + "/";
         if (scene_.lenient) {
             names_.leave_out(parent, node);
-            bear(leg.object, leg.place, "contains itself: " + cycle + leg.object + "; that leg is left out");
+            bear(back.object, back.place, "contains itself: " + cycle + back.object + "; that leg is left out");
             return;
         }
-        add(leg.place, "'" + leg.object + "' contains itself: " + cycle + leg.object, "take one of these legs out");
+        add(back.place, "'" + back.object + "' contains itself: " + cycle + back.object, "take one of these legs out");
     }
 
     /// Combinations without a tree, which BRL-CAD's objects without an inside are, too. Regions are told by flattening.
@@ -328,7 +344,7 @@ private:
     const bool skip_unsupported_;
     InstanceLimit instance_limit_;
     std::vector<Reached> objects_;
-    std::vector<Frame> path_;
+    Walk<Level> walk_;
     FindingList found_;
     std::vector<Warning> warnings_;
     std::vector<std::pair<std::size_t, std::uint32_t>> counted_;  ///< warnings, and the objects whose legs they count
@@ -341,8 +357,8 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> validate(const Scene& scene, Names& names, const std::vector<std::string>& objects,
-                                 bool skip_unsupported, std::vector<Warning>& warnings, std::uint64_t max_instances) {
+Validated validate(const Scene& scene, Names& names, const std::vector<std::string>& objects, bool skip_unsupported,
+                   std::vector<Warning>& warnings, std::uint64_t max_instances) {
     return Validation(scene, names, skip_unsupported, max_instances).run(objects, warnings);
 }
 
@@ -352,7 +368,8 @@ std::vector<Diagnostic> validate(const Scene& scene, const std::vector<std::stri
     Names names(scene);
     std::vector<Warning> passed_over;
     return validate(scene, names, objects, skip_unsupported, warnings != nullptr ? *warnings : passed_over,
-                    max_instances);
+                    max_instances)
+        .findings;
 }
 
 }  // namespace csgrt

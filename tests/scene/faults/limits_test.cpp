@@ -9,7 +9,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "compile/regions/regions.hpp"
+#include "compile/flatten/region_forest.hpp"
 #include "integration/scenes.hpp"
 #include "scene/instances.hpp"
 #include "scene/faults/check_faults.hpp"

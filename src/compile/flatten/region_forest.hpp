@@ -14,48 +14,40 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "compile/flatten/attributes.hpp"
+#include "compile/flatten/fold.hpp"
 #include "scene/names.hpp"
 #include "scene/object_path.hpp"
+#include "scene/walk.hpp"
 
 namespace csgrt {
 
-/// The objects of a scene by name, and how many solids there are below each.
-class ObjectIndex {
+/// How often trees may lead to combinations and solids.
+class ReferenceLimit {
 public:
-    ObjectIndex(const Scene& scene, const Names& names, std::uint64_t max_instances);
-    /// What a leaf names; see Names::child. Throws Error (scene) if there is no such object.
-    std::uint32_t child(std::uint32_t object, std::size_t node) const;
-    /// See Names::children.
-    std::span<const std::uint32_t> children(std::uint32_t object) const { return names_.children(object); }
-    /// How many solids there are below an object, repeats counted; rounded, since there may be far too many.
-    double solids_below(std::uint32_t object);
-    Names::Kind kind(std::uint32_t object) const { return names_.kind(object); }
-    /// Throws Error (scene) if the trees refer to combinations and solids more often than any model of so many
-    /// instances does.
-    void check_references(std::uint64_t count) const;
+    ReferenceLimit(const Scene& scene, std::uint64_t max_instances);
+    /// Throws Error (scene) if that is more often than any model of so many instances does.
+    void check(std::uint64_t count) const;
 
 private:
-    const Scene& scene_;
-    const Names& names_;
-    const std::uint64_t most_references_;
-    /// Negative: not counted yet.
-    double known_solids(std::uint32_t object) const {
-        return names_.is_solid(object) && kind(object) != Names::Kind::composite ? 1 : solids_[object];
-    }
-    /// Of a composite: all of them.
-    double own_solids(std::uint32_t object) const;
-
-    std::vector<double> solids_;  ///< of combinations and composites
+    std::uint64_t most_;
 };
 
 /// Throws Error (scene) if the paths of all regions have so many bytes.
 void check_path_bytes(std::uint64_t bytes);
+
+/// What regions are found in. All of it outlives who reads it.
+struct Source {
+    const Scene& scene;
+    const Names& names;
+    const std::vector<std::uint64_t>& instances;  ///< see Validated
+    ReferenceLimit references;
+};
 
 /// Where a region starts: a combination with the region flag, or a solid outside all regions.
 struct RegionStart {
@@ -70,8 +62,7 @@ class RegionForest {
 public:
     /// Walks down from where a path leads. The paths of air regions that are left out are appended to `dropped`.
     /// Throws Error (scene) if there are more references than any model has.
-    RegionForest(const Scene& scene, ObjectIndex& index, const ObjectPath& object, bool air,
-                 std::vector<std::string>& dropped);
+    RegionForest(const Source& source, const ObjectPath& object, bool air, std::vector<std::string>& dropped);
 
     /// How many solids the trees of all terms hold together. Pulling unions up may multiply them.
     double solids_in_terms() const;
@@ -84,14 +75,14 @@ public:
     /// Calls with the topmost node of each term, in BRL-CAD's order of regions.
     void for_each_term(const std::function<void(std::uint32_t)>& call);
     /// The expression is true even where no solid is.
-    bool is_everything() const { return root_ == everything; }
+    bool is_everything() const { return root_.value == Value::everything; }
 
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
     const RegionStart& leftmost_start(std::uint32_t node) const;
     /// The object whose id, air code and the like a region has: where it starts, or the region that the path to the
     /// named object leads through.
-    std::uint32_t origin_of(const RegionStart& start) const { return inside_ == nothing ? start.object : inside_; }
+    std::uint32_t origin_of(const RegionStart& start) const { return inside_ == none ? start.object : inside_; }
     /// Where it stands, and what it and all above have set. Left to those who need them, since the walk is one
     /// thread's.
     Matrix matrix_of(const RegionStart& start) const;
@@ -100,43 +91,50 @@ public:
     std::string path(std::uint32_t number) const;
 
 private:
-    // Expressions that are a constant have no node.
-    static constexpr std::uint32_t nothing = 0xffffffff, everything = 0xfffffffe;
+    static constexpr std::uint32_t none = 0xffffffff;
 
+    /// Of an expression that is a constant there is no node.
+    struct Operand {
+        Value value;
+        std::uint32_t node;
+    };
     /// A combination above regions, in one of its places.
     struct Above {
         std::uint32_t object;
         Matrix matrix;
         Attributes attributes;
     };
-    struct Frame {
+    struct Level {
         std::uint32_t above, path;
-        std::uint32_t next;
         std::size_t first_start;  ///< number of the first start below
     };
+    using Open = Walk<Level>::Open;
+    friend class Walk<Level>;
     struct PathStep {
         std::uint32_t above, object;
     };
 
     /// Where a path leads, with what is above it.
     RegionStart start_of(const ObjectPath& path);
-    /// `start`: with the path of what is above it.
-    void visit(RegionStart start, std::vector<std::string>& dropped);
-    void operate(Operator op, std::uint32_t arity);
-    std::uint32_t combine(Operator op, std::uint32_t left, std::uint32_t right);
-    std::uint32_t complement(std::uint32_t operand);
+    /// `start`: with the path of what is above it. Returns the level if it is a combination to walk.
+    std::optional<Level> visit(RegionStart start);
+    // The visitor of the walk.
+    std::optional<Level> follow(const Open& parent, std::uint32_t node, std::uint32_t child);
+    void operate(const Open& parent, std::uint32_t node);
+    void nothing() { operands_.push_back({Value::nothing, none}); }
+    void leave(const Open& done);
+
     std::uint32_t add_node(Operator op, std::uint32_t left, std::uint32_t right = 0);
 
-    const Scene& scene_;
-    ObjectIndex& index_;
+    const Source& source_;
     bool air_;
-    std::unordered_map<std::uint32_t, std::uint32_t>
-        hollow_;  ///< combinations without starts, and the constant they are
-    std::vector<Frame> frames_;
+    std::vector<std::string>& dropped_;
+    std::unordered_map<std::uint32_t, Value> hollow_;  ///< combinations without starts, and the constant they are
+    Walk<Level> walk_;
     std::vector<Above> above_;
-    std::vector<std::uint32_t> operands_;
-    std::uint32_t root_ = nothing;
-    std::uint32_t inside_ = nothing;  ///< the region that the named object is a part of, where a path says so
+    std::vector<Operand> operands_;
+    Operand root_ = {Value::nothing, none};
+    std::uint32_t inside_ = none;  ///< the region that the named object is a part of, where a path says so
     std::vector<Node> nodes_;
     std::vector<RegionStart> starts_;
     std::vector<PathStep> paths_;

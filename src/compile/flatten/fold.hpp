@@ -1,0 +1,52 @@
+// Boolean operators over operands of which some are constants.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt {
+
+/// An operand: a tree of solids, the empty set, or all of space.
+enum class Value : std::uint8_t { tree, nothing, everything };
+
+/// What an operator comes to.
+struct Folded {
+    Value value;  ///< tree: `op` over the operands that are trees, in their order
+    std::size_t trees;
+    Operator op;
+    bool complement;  ///< of that tree
+};
+
+/// `operands`: at least one; of a complement one.
+inline Folded fold(Operator op, std::span<const Value> operands) {
+    const auto count = [&](Value value) {
+        return static_cast<std::size_t>(std::count(operands.begin(), operands.end(), value));
+    };
+    const std::size_t trees = count(Value::tree), wholes = count(Value::everything);
+    const auto tree_or = [&](Value constant) { return trees > 0 ? Value::tree : constant; };
+    const auto result = [&](Value value, Operator operation, bool complement = false) {
+        if (complement && value != Value::tree) value = value == Value::nothing ? Value::everything : Value::nothing;
+        return Folded{value, trees, operation, complement};
+    };
+    switch (op) {
+        case Operator::union_:
+            return result(wholes > 0 ? Value::everything : tree_or(Value::nothing), op);
+        case Operator::intersection:
+            return result(count(Value::nothing) > 0 ? Value::nothing : tree_or(Value::everything), op);
+        case Operator::difference:
+            if (operands[0] == Value::nothing || wholes > (operands[0] == Value::everything ? 1 : 0))
+                return result(Value::nothing, op);
+            if (operands[0] == Value::tree) return result(Value::tree, op);
+            return result(tree_or(Value::nothing), Operator::union_, true);
+        case Operator::xor_:
+            return result(tree_or(Value::nothing), op, wholes % 2 == 1);
+        default:  // complement
+            return result(operands[0], op, true);
+    }
+}
+
+}  // namespace csgrt
