@@ -1,7 +1,6 @@
 // Solids are computed by several threads. What they share is found as if one after the other, in their order, so that
 // the result does not depend on the threads.
 #include <algorithm>
-#include <unordered_set>
 
 #include "compile/linear.hpp"
 #include "compile/pack_chunks.hpp"
@@ -36,26 +35,6 @@ struct IsSmall {
 
 void check_numbers(std::size_t count) {
     if (count > 0xffffffffu) throw Error(Status::scene, "the parameters of all solids together exceed 2^32 numbers");
-}
-
-void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
-                CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared) {
-    std::vector<Plane> faces;
-    Packer packer{matrix, scene, shared, scene.reals, faces};
-    packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
-    std::visit(packer, shape);
-    kernel::SolidRecord& record = packer.record;
-    surfaces.share(record, packer.axes_in_world, box, scene);
-    const std::size_t first = scene.words.size();
-    std::unordered_set<kernel::PlaneRef> seen;
-    for (const Plane& face : faces) {
-        const kernel::PlaneRef ref = planes.add(face, box);
-        if (seen.insert(ref).second || !packer.is_polyhedron) scene.words.push_back(ref);
-    }
-    for (const Plane& cut : cuts) scene.words.push_back(planes.add(transform_plane(matrix, cut), box));
-    record.first_plane = static_cast<std::uint32_t>(first);
-    record.plane_count = static_cast<std::uint32_t>(scene.words.size() - first);
-    scene.solids.push_back(record);
 }
 
 namespace {

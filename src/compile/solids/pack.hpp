@@ -18,14 +18,9 @@ namespace csgrt {
 /// holds): its other places use the same.
 using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 
-/// Appends a solid in its place to solids, reals and words of `scene`, and its faces to `planes`. `box` is the
-/// solid's own, or the scene's if it is not bounded. Its regions are not filled in.
-/// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
-void pack_solid(const Shape& shape, const std::vector<Plane>& cuts, const Matrix& matrix, const Box& box,
-                CompiledScene& scene, PlaneTable& planes, SurfaceTable& surfaces, SharedParts& shared);
-
-/// pack_solid for each instance of `order`; `common` stands for the box of those that are not bounded. The arithmetic
+/// Each instance of `order` becomes a solid; `common` stands for the box of those that are not bounded. The arithmetic
 /// is done by several threads.
+/// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
 void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
                  const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled);
 

@@ -167,17 +167,4 @@ std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, co
     return number;
 }
 
-void SurfaceTable::share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene) {
-    const auto surface = surface_of(record.type, scene.reals.data() + record.first_real, axes, box);
-    if (!surface) return;
-    const std::size_t count = scene.reals.size() - record.first_real;
-    const std::uint32_t first = add(
-        *surface, record.first_real,
-        [&](std::uint32_t real) { return std::span<double>(scene.reals).subspan(real, count); },
-        [&](std::uint32_t) { return axes; });
-    if (first == record.first_real) return;
-    scene.reals.resize(record.first_real);
-    record.first_real = first;
-}
-
 }  // namespace csgrt

@@ -46,10 +46,6 @@ public:
     /// The solid whose parameters stand for those of solid `number`: an earlier one with the same surface, or itself.
     std::uint32_t add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
 
-    /// If the solid whose parameters end `scene.reals` has a surface that is there already, drops them and lets it have
-    /// those.
-    void share(kernel::SolidRecord& record, const WideMatrix& axes, const Box& box, CompiledScene& scene);
-
     /// Without surfaces, in the memory that it has.
     void clear() {
         entries_.clear();

@@ -9,7 +9,7 @@
 #include "bench/stress/build.hpp"
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
-#include "compile/solids/pack.hpp"
+#include "compile/solids/pack_one.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;
@@ -29,8 +29,8 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
     for (const Instance& instance : flat.instances) by_name[name_of(scene.objects[instance.object])] = &instance;
     for (std::size_t i = 0; i < compiled.solids.size(); ++i) {
         const Instance& instance = *by_name.at(compiled.solid_info[i].name);
-        pack_solid(shape_of(scene, flat, instance), {}, *instance.matrix, compiled.solid_boxes[i], alone, planes,
-                   surfaces, shared);
+        test::pack_one(shape_of(scene, flat, instance), *instance.matrix, compiled.solid_boxes[i], alone, planes,
+                       surfaces, shared);
     }
     CHECK((alone.reals == compiled.reals));
     CHECK((alone.words == compiled.words));

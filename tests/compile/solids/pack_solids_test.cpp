@@ -6,7 +6,7 @@
 #include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/model.hpp"
-#include "compile/solids/pack.hpp"
+#include "compile/solids/pack_one.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -23,9 +23,9 @@ struct Packed {
         Box box = solid_box(shape, matrix);
         if (!is_finite(box)) box = {{-100, -100, -100}, {100, 100, 100}};
         // Not the first of its scene: offsets count.
-        pack_solid(Ell{{9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, identity, box, scene, planes, surfaces, shared);
-        pack_solid(block_shape({50, 50, 50}, {51, 51, 51}), {}, identity, box, scene, planes, surfaces, shared);
-        pack_solid(shape, {}, matrix, box, scene, planes, surfaces, shared);
+        pack_one(Ell{{9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, identity, box, scene, planes, surfaces, shared);
+        pack_one(block_shape({50, 50, 50}, {51, 51, 51}), identity, box, scene, planes, surfaces, shared);
+        pack_one(shape, matrix, box, scene, planes, surfaces, shared);
         scene.planes = planes.records();
     }
 
