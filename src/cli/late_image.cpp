@@ -1,6 +1,10 @@
 // The command's write_image and read_image. They load csgrt::image when they are first called: OpenImageIO needs some
 // 260 libraries, which take a fifth of a second to load, and a command that writes no picture should not wait for them.
 // A command that will write a picture loads them on a thread.
+//
+// One dlopen of everything looks up each symbol in all libraries that it loads, and takes almost twice as long as one
+// dlopen for each of them, after those that it needs. So the build lists the libraries in that order
+// (cmake/openimageio.cmake).
 #include "late_image.hpp"
 
 #include <dlfcn.h>
@@ -9,6 +13,9 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <sstream>
+#include <stop_token>
+#include <string>
 #include <thread>
 
 #include <csgrt/image.hpp>
@@ -17,7 +24,6 @@
 #include "image/functions.hpp"
 #include "fatal_end.hpp"
 #include "interrupt.hpp"
-#include "leaves_first.hpp"
 
 namespace csgrt {
 namespace {
@@ -34,13 +40,21 @@ std::string library_path() {
     return path / CSGRT_IMAGE_LIBRARY;
 }
 
+/// Loads none into the global scope. Returns at the next library after a request to stop.
+void load_one_by_one(const std::stop_token& stop) {
+    std::istringstream names(CSGRT_PICTURE_LIBRARIES);
+    // NOW: a library that uses symbols of others than it names fails here, as one that is not found does. The dlopen of
+    // csgrt::image loads it, or reports it.
+    for (std::string name; !stop.stop_requested() && names >> name;) dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+}
+
 const ImageFunctions& functions() {
     static const ImageFunctions* found = [] {
         const cli::LoadingLimit limit;
         const std::string path = library_path();
         cli::expect_picture_libraries();
         if (loading.joinable()) loading.join();
-        if (!has_begun) cli::load_leaves_first(path);
+        if (!has_begun) load_one_by_one({});
         void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
         if (!library) library = dlopen(CSGRT_IMAGE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
         void* symbol = library ? dlsym(library, image_functions_name) : nullptr;
@@ -78,7 +92,7 @@ ImageLoading::ImageLoading(const Command& command) {
         expect_picture_libraries();
         loading = std::jthread([](std::stop_token stop) {
             try {
-                load_leaves_first(library_path(), stop);
+                load_one_by_one(stop);
             } catch (const std::exception&) {  // no memory: functions() tries again, and reports it
             }
         });
