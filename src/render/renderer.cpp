@@ -63,6 +63,7 @@ struct Renderer::Impl {
     const unsigned process = process_number();  ///< where it works: its threads, and what drivers keep, are there alone
     Settings settings;
     CompiledScene scene;
+    double tolerance = 0;  ///< as kernels get it, in millimetres
     std::string title;
     std::unique_ptr<ReferenceKernels> kernels;
     std::unique_ptr<Backend> backend;
@@ -105,7 +106,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
     if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
     impl.statistics.contraction = settings.contraction;
     impl.statistics.quartic = name_of(quartic_names, settings.quartic);
-    impl.statistics.tolerance = tolerance_of(impl.scene, settings);
+    impl.statistics.tolerance = impl.tolerance = tolerance_of(impl.scene, settings);
     settings.reference ? impl.use_reference() : impl.set_up_devices();
     impl.statistics.device = impl.backend->name();
     impl.statistics.method = impl.backend->method(true);
@@ -149,7 +150,7 @@ void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int wi
     fresh.precision = statistics.precision;
     fresh.method = backend->method(every_partition);
     fresh.quartic = statistics.quartic;
-    fresh.tolerance = statistics.tolerance;
+    fresh.tolerance = tolerance;
     fresh.contraction = statistics.contraction;
     fresh.ms.compile = statistics.ms.compile;
     fresh.ms.build = statistics.ms.build;
@@ -199,7 +200,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
 
 void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& watch) {
     const auto start = Clock::now();
-    const PreparedFrame prepared = prepare_frame(scene, view, statistics.tolerance);
+    const PreparedFrame prepared = prepare_frame(scene, view, tolerance);
     const bool every_partition = prepared.frame.every_partition;
     start_call(std::uint64_t(view.width) * std::uint64_t(view.height), every_partition, view.width, view.height);
     const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
@@ -265,7 +266,7 @@ std::vector<RayPartitions> Renderer::Impl::shoot(const std::vector<Ray>& rays, W
             throw Error(Status::usage, "ray " + std::to_string(i) + ": " + fault);
         any_scaled = any_scaled || exponent_of(rays[i].direction) != 0;
     }
-    const PreparedFrame prepared = prepare_rays(scene, static_cast<std::uint32_t>(rays.size()), statistics.tolerance);
+    const PreparedFrame prepared = prepare_rays(scene, static_cast<std::uint32_t>(rays.size()), tolerance);
     kernels->check(rays);
     start_call(rays.size(), true, 0, 0);
     std::vector<Ray> scaled;
@@ -284,7 +285,7 @@ std::vector<RayPartitions> Renderer::Impl::shoot(const std::vector<Ray>& rays, W
 std::vector<Ray> Renderer::rays_of(const View& view) const {
     const FloatingPoint own;
     const Impl& impl = this->impl();
-    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.statistics.tolerance);
+    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.tolerance);
     std::vector<Ray> rays;
     rays.reserve(std::size_t{prepared.frame.width} * prepared.frame.height);
     for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
