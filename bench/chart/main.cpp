@@ -266,9 +266,7 @@ int measure(Options options) {
     const auto start = std::chrono::steady_clock::now();
     const DeviceInfo device = device_of(options);
     const bool is_gpu = device.type == "gpu";
-    std::vector<Variant> variants_chosen = choose(variants(), options.variants, "--variants");
-    // On a GPU every ray is traced by itself anyway.
-    if (is_gpu) std::erase_if(variants_chosen, [](const Variant& variant) { return variant.ray_by_ray; });
+    const std::vector<Variant> variants_chosen = choose(variants(), options.variants, "--variants");
     const std::vector<Method> methods_chosen = choose(methods(), options.methods, "--methods");
     if (options.trial.size == 0) options.trial.size = is_gpu ? 4096 : 512;
     if (options.trial.deep_size == 0) options.trial.deep_size = std::max(1, options.trial.size / 32);

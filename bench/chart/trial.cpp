@@ -9,7 +9,6 @@
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
-#include "pipeline/passes/program_options.hpp"
 
 namespace csgrt::bench {
 namespace {
@@ -35,7 +34,7 @@ int side_of(const ChartWorkload& workload, const TrialOptions& options) {
 class VariantTrial : public Trial {
 public:
     VariantTrial(const Variant& variant, const ChartWorkload& workload, const Truth& truth, const TrialOptions& options)
-        : workload_(workload), options_(options), ray_by_ray_(variant.ray_by_ray), times_(options.modes.size()) {
+        : workload_(workload), options_(options), times_(options.modes.size()) {
         row_.variant = row_.method = variant.name;
         row_.workload = workload.name;
         row_.family = workload.family;
@@ -98,7 +97,6 @@ private:
     /// What a method cannot do is its result; that there is no device is nobody's.
     template <class Work>
     void guard(const Work& work) {
-        traces_ray_by_ray = ray_by_ray_;
         try {
             work();
         } catch (const Error& error) {
@@ -108,7 +106,6 @@ private:
             renderer_.reset();
             times_.assign(options_.modes.size(), {});
         }
-        traces_ray_by_ray = false;
     }
 
     std::vector<Accuracy> judge(Renderer& renderer, const Task& task, const std::vector<TrueRay>& truth) const {
@@ -148,7 +145,6 @@ private:
 
     const ChartWorkload& workload_;
     const TrialOptions& options_;
-    bool ray_by_ray_;
     Settings settings_;
     Row row_;
     std::vector<Accuracy> accuracy_;  ///< by mode

@@ -12,7 +12,6 @@ namespace csgrt::bench {
 struct Variant {
     std::string name;
     Settings settings;
-    bool ray_by_ray = false;  ///< on processors: not in packets of eight rays
     /// The reference computes it to the device's last bit (tests/pipeline), so it may answer in the device's place.
     bool on_reference() const { return !settings.contraction; }
 };
@@ -20,12 +19,10 @@ struct Variant {
 inline std::vector<Variant> variants() {
     std::vector<Variant> all;
     const auto add = [&](const char* name) -> Settings& {
-        all.push_back({name, {}, false});
+        all.push_back({name, {}});
         return all.back().settings;
     };
     add("default");
-    add("ray by ray");  // as single precision is, on processors too
-    all.back().ray_by_ray = true;
     add("single").precision = Precision::single;
     add("single-world").precision = Precision::single_world;
     add("bracketed-unshifted").quartic = Quartic::bracketed_unshifted;

@@ -471,7 +471,7 @@ TEST_CASE("a variant: first hits and every partition, its times, and its faults"
     const Truth truth = maker.take();
     TrialOptions options;
     options.size = 16;
-    Variant variant{"reference", {}, false};
+    Variant variant{"reference", {}};
     variant.settings.reference = true;
     const auto rows_of = [&] {
         const std::unique_ptr<Trial> trial = try_variant(variant, workload, truth, options);

@@ -19,7 +19,7 @@ bool has_shaped_lights(const CompiledScene& scene) {
 std::size_t divergent_group(const Device& device) { return device.info().type == "cpu" ? 1 : work_group; }
 
 bool traces_packets(const Device& device, const Settings& settings) {
-    return device.info().type == "cpu" && settings.precision == Precision::double_ && !traces_ray_by_ray;
+    return device.info().type == "cpu" && settings.precision == Precision::double_;
 }
 
 std::vector<std::string> program_options(const Device& device, const CompiledScene& scene, const Settings& settings) {

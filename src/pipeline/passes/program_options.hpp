@@ -1,7 +1,6 @@
 // How the pipeline's programs are compiled and launched.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,8 +18,6 @@ std::size_t divergent_group(const Device& device);
 
 /// Do a picture's rays go side by side in a processor's vectors, `packet_rays` a work-item?
 bool traces_packets(const Device& device, const Settings& settings);
-/// For measurements (bench/chart): what is set up while it is true traces processors' rays one by one.
-inline std::atomic<bool> traces_ray_by_ray = false;
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet/packet.h
 
 /// The options (-D) that a program for this scene is compiled with.
