@@ -70,10 +70,12 @@ __kernel void count_segments(__global const Frame* frame, GEOMETRY_ARGS, __globa
 // Adds up each ray's counts, and gives each candidate its place among the ray's segments. `deep_words`: of the bit
 // arrays of a deep ray, which needs none: DEEP_WORDS if the sum is to tell that there is one, else 0.
 __kernel void sum_segments(__global const Frame* frame, __global const CandidateCount* places,
-                           __global Candidate* candidates, u32 deep_words, __global RayCount* counts) {
+                           __global Candidate* candidates, u32 deep_words, __global RayCount* counts,
+                           __global BatchReport* report) {
     u32 id = (u32)get_global_id(0), i;
     RayCount count;
     if (id >= frame->ray_count) return;
+    if (id == 0 && frame->rows) report->candidates = places[frame->ray_count].candidates;
     if (places[frame->ray_count].candidates > frame->candidate_capacity) {
         counts[id].segments = counts[id].words = COUNT_MAX;
         return;

@@ -12,10 +12,7 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
     pixel_position at;
     ray3 r;
     if (id >= frame->ray_count) return;
-    if (id == 0 && frame->rows) {  // behind the rays' tallies stands the count of candidates: weaving left it
-        report->candidates = tallies[frame->ray_count].partitions;
-        report->total = offsets[frame->ray_count];
-    }
+    if (id == 0 && frame->rows) report->total = offsets[frame->ray_count];
     if (!segments_fit(frame, offsets)) return;
     number = number_of(frame, listed, id);
     at = pixel_of(number, frame->screen);

@@ -193,7 +193,7 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     });
     run.candidates = candidates.size();
     run.offsets.resize(count + 1);
-    each([&] { sum_segments(&frame, places.data(), candidates.data(), 0, run.offsets.data()); });
+    each([&] { sum_segments(&frame, places.data(), candidates.data(), 0, run.offsets.data(), nullptr); });
     const RayCount sum = scan(run.offsets);
     run.ends.resize(2 * std::size_t{sum.segments});
     run.nodes.resize(run.ends.size());

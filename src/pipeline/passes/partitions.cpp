@@ -185,9 +185,10 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
 }
 
 void PartitionPass::sum_segments(const Input& input, std::uint32_t deep_words, TimedKernels& timed) {
-    timed.emplace_back(&PipelineCounts::count_hits,
-                       sum_segments_.launch(input.rays, work_group, input.batch.frame, memory_.candidate_places(),
-                                            memory_.candidates(), cl_uint{deep_words}, memory_.offsets()));
+    timed.emplace_back(
+        &PipelineCounts::count_hits,
+        sum_segments_.launch(input.rays, work_group, input.batch.frame, memory_.candidate_places(),
+                             memory_.candidates(), cl_uint{deep_words}, memory_.offsets(), input.batch.report));
     scan(memory_.offsets(), input.rays, timed);
 }
 
