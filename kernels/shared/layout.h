@@ -235,6 +235,7 @@ typedef struct {
     u32 left, top, right, bottom;
 } ScreenBounds;
 
+// First the numbers that are `wide`, then what is the same in all precisions.
 typedef struct {
     // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
     wide eye[3];      // perspective: the eye. Orthographic: the middle of where rays start, before the whole model

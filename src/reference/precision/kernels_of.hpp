@@ -1,9 +1,11 @@
 // HostKernels and ReferenceKernels over the kernels in the namespace CSGRT_KERNELS, made by CSGRT_MAKE_KERNELS: the
 // body of the one file that includes this.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
-#include <iterator>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -22,49 +24,46 @@ using k::wide;
 template <class To, class From>
 using Converted = std::conditional_t<std::is_same_v<To, From>, std::span<const From>, std::vector<To>>;
 
+/// The record in this precision: it begins with `numbers` that are `wide`, and the rest is the same in all precisions.
+template <class To, std::size_t numbers, class From>
+To converted(const From& record) {
+    constexpr std::size_t own = numbers * sizeof(wide), other = numbers * sizeof(double);
+    constexpr std::size_t rest = std::min(sizeof(To) - own, sizeof(From) - other);
+    static_assert(sizeof(To) - own - rest < alignof(To) && sizeof(From) - other - rest < alignof(From));  // padding
+    std::array<double, numbers> from;
+    std::array<wide, numbers> to;
+    std::memcpy(from.data(), &record, other);
+    std::transform(from.begin(), from.end(), to.begin(), [](double x) { return static_cast<wide>(x); });
+    To result{};
+    std::memcpy(&result, to.data(), own);
+    std::memcpy(reinterpret_cast<std::byte*>(&result) + own, reinterpret_cast<const std::byte*>(&record) + other, rest);
+    return result;
+}
+
 real convert(double x) { return static_cast<real>(x); }
-[[maybe_unused]] k::PlaneRecord convert(const kernel::PlaneRecord& p) {
-    return {static_cast<wide>(p.nx), static_cast<wide>(p.ny), static_cast<wide>(p.nz), static_cast<wide>(p.d)};
-}
-[[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) {
-    const auto to_wide = [](double x) { return static_cast<wide>(x); };
-    return {to_wide(l.x),  to_wide(l.y),      to_wide(l.z), to_wide(l.w), to_wide(l.bx), to_wide(l.by),
-            to_wide(l.bz), to_wide(l.cosine), l.r,          l.g,          l.b,           l.beam};
-}
-[[maybe_unused]] k::MaterialRecord convert(const kernel::MaterialRecord& m) {
-    return {m.r, m.g, m.b, m.specular, m.diffuse, m.ambient, m.shine, m.glow};
-}
+[[maybe_unused]] k::PlaneRecord convert(const kernel::PlaneRecord& p) { return converted<k::PlaneRecord, 4>(p); }
+[[maybe_unused]] k::LightRecord convert(const kernel::LightRecord& l) { return converted<k::LightRecord, 8>(l); }
+k::MaterialRecord convert(const kernel::MaterialRecord& m) { return std::bit_cast<k::MaterialRecord>(m); }
 
 // In single precision a ray may meet a solid a little beside where it is: the boxes make room for that, so that a
 // device finds everything that the reference finds.
 [[maybe_unused]] k::BvhNode convert_node(const kernel::BvhNode& n) {
-    k::BvhNode node{};
+    k::BvhNode node = std::bit_cast<k::BvhNode>(n);
     double diagonal = 0;
     for (int i = 0; i < 3; ++i) diagonal += double(n.high[i] - n.low[i]) * double(n.high[i] - n.low[i]);
     const bool single = sizeof(real) == sizeof(float);
     const auto pad = static_cast<float>(single ? 0x1p-10 * std::sqrt(diagonal) : 0);
     for (int i = 0; i < 3; ++i) {
-        node.low[i] = n.low[i] - pad;
-        node.high[i] = n.high[i] + pad;
+        node.low[i] -= pad;
+        node.high[i] += pad;
     }
-    node.skip = n.skip;
-    node.leaf = n.leaf;
     return node;
 }
 
 [[maybe_unused]] k::SolidRecord convert_solid(const kernel::SolidRecord& s, const CompiledScene& scene) {
     k::SolidRecord solid{};
-    solid.type = s.type;
-    solid.first_real = s.first_real;
-    solid.first_word = s.first_word;
-    solid.first_plane = s.first_plane;
-    solid.plane_count = s.plane_count;
-    solid.first_start = s.first_start;
-    solid.start_count = s.start_count;
-    solid.first_leaf = s.first_leaf;
-    solid.leaf_count = s.leaf_count;
-    solid.begins = s.begins;
-    solid.alone = s.alone;
+    static_assert(offsetof(k::SolidRecord, alone) == offsetof(kernel::SolidRecord, alone));
+    std::memcpy(&solid, &s, sizeof s);  // the center stands behind
 #ifdef CSGRT_EYE_RELATIVE
     if (s.type != SOLID_ARB && s.type != SOLID_HALF)  // all others begin with their center
         for (std::size_t i = 0; i < 3; ++i) solid.center[i] = scene.reals[s.first_real + i];
@@ -117,38 +116,9 @@ std::vector<std::byte> bytes_of(const T* values, std::size_t count) {
 [[maybe_unused]] const kernel::Frame& convert_frame(const kernel::Frame& f, const kernel::Frame*) { return f; }
 template <class Frame>
 Frame convert_frame(const kernel::Frame& f, const Frame*) {
-    Frame frame{};
-    for (int i = 0; i < 3; ++i) {
-        frame.eye[i] = static_cast<wide>(f.eye[i]);
-        frame.u[i] = static_cast<wide>(f.u[i]);
-        frame.v[i] = static_cast<wide>(f.v[i]);
-        frame.w[i] = static_cast<wide>(f.w[i]);
-        frame.center[i] = static_cast<wide>(f.center[i]);
-    }
-    for (int i = 0; i < 4; ++i) frame.background[i] = f.background[i];
-    frame.radius = static_cast<wide>(f.radius);
-    frame.t_min = static_cast<wide>(f.t_min);
-    frame.tolerance = static_cast<wide>(f.tolerance);
-    frame.ambient = static_cast<wide>(f.ambient);
-    frame.width = f.width;
-    frame.height = f.height;
-    frame.perspective = f.perspective;
-    frame.work = f.work;
-    frame.first_ray = f.first_ray;
-    frame.ray_count = f.ray_count;
-    frame.solid_count = f.solid_count;
-    frame.unbounded_count = f.unbounded_count;
-    frame.node_count = f.node_count;
-    frame.light_count = f.light_count;
-    frame.every_partition = f.every_partition;
-    frame.channels = f.channels;
-    frame.screen = {f.screen.left, f.screen.top, f.screen.right, f.screen.bottom};
-    frame.rows = f.rows;
-    std::copy(std::begin(f.rank_ends), std::end(f.rank_ends), std::begin(frame.rank_ends));
-    frame.candidate_capacity = f.candidate_capacity;
-    frame.segment_capacity = f.segment_capacity;
-    frame.word_capacity = f.word_capacity;
-    return frame;
+    static_assert(offsetof(Frame, word_capacity) - offsetof(Frame, background) ==
+                  offsetof(kernel::Frame, word_capacity) - offsetof(kernel::Frame, background));
+    return converted<Frame, offsetof(kernel::Frame, background) / sizeof(double)>(f);
 }
 decltype(auto) convert_frame(const kernel::Frame& f) { return convert_frame(f, static_cast<const k::Frame*>(nullptr)); }
 
