@@ -68,7 +68,8 @@ private:
     Handle<cl_kernel, &OpenCl::ReleaseKernel> kernel_;
 };
 
-/// OpenCL C source, compiled for one device. `source` is what assemble_program gives; each of `defines` becomes a -D
+/// OpenCL C source, compiled for one device. `source` is what assemble_program gives, or for a native device the name
+/// of a program that was compiled ahead; each of `defines` becomes a -D
 /// ("COUNT=3", "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly
 /// where the device can do it, as every result in double is.
 class Program {

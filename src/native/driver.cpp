@@ -56,6 +56,7 @@ struct Memory {
     bool is_own;
 };
 struct BuiltProgram {
+    std::string name;
     const Program* program = nullptr;  ///< null: not built, or refused
 };
 struct BuiltKernel {
@@ -267,47 +268,23 @@ cl_int mark(cl_command_queue, cl_uint, const cl_event*, cl_event* event) {
     return CL_SUCCESS;
 }
 
-// ---- Programs: the options tell which one is meant ----
+// ---- Programs: the source is the name of one that was compiled ahead ----
 
-cl_program create_program(cl_context, cl_uint, const char**, const std::size_t*, cl_int* code) {
+cl_program create_program(cl_context, cl_uint, const char** texts, const std::size_t* sizes, cl_int* code) {
+    auto* const program = new BuiltProgram{std::string(texts[0], sizes[0])};
     set(code, CL_SUCCESS);
-    return handle_of<cl_program>(new BuiltProgram);
+    return handle_of<cl_program>(program);
 }
-cl_program create_from_binary(cl_context, cl_uint, const cl_device_id*, const std::size_t*, const unsigned char**,
-                              cl_int*, cl_int* code) {
-    set(code, CL_INVALID_BINARY);
-    return nullptr;
-}
-
-bool has(std::string_view options, std::string_view option) {
-    const std::size_t at = options.find(option);
-    const std::size_t end = at + option.size();
-    return at != options.npos && (end == options.size() || options[end] == ' ');
-}
-
-/// What was compiled ahead is double precision in packets, with the default quartic.
-bool was_compiled(std::string_view options) {
-    return has(options, "-DCSGRT_REAL=double") && has(options, "-DCSGRT_QUARTIC=0") &&
-           has(options, "-DCSGRT_PACKETS") && !has(options, "-DCSGRT_CONTRACT") &&
-           !has(options, "-DCSGRT_EYE_RELATIVE");
-}
-
-cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const char* options, void (*)(cl_program, void*),
+cl_int build(cl_program program, cl_uint, const cl_device_id* devices, const char*, void (*)(cl_program, void*),
              void*) {
     BuiltProgram& p = as<BuiltProgram>(program);
-    const bool is_first_hits = has(options, "-DCSGRT_PRIVATE_ENDS");
-    if (!was_compiled(options)) return CL_BUILD_PROGRAM_FAILURE;
-    const Level& level = level_of(*devices);
-    p.program = level.program(!is_first_hits                     ? "partitions"
-                              : has(options, "-DCSGRT_PREFETCH") ? "first_hits_prefetch"
-                                                                 : "first_hits");
-    return CL_SUCCESS;
+    p.program = level_of(*devices).program(p.name);
+    return p.program ? CL_SUCCESS : CL_BUILD_PROGRAM_FAILURE;
 }
 cl_int release_program(cl_program program) {
     delete &as<BuiltProgram>(program);
     return CL_SUCCESS;
 }
-cl_int get_program_info(cl_program, cl_program_info, std::size_t, void*, std::size_t*) { return CL_INVALID_VALUE; }
 cl_int get_build_info(cl_program program, cl_device_id, cl_program_build_info what, std::size_t room, void* out,
                       std::size_t* needed) {
     if (what != CL_PROGRAM_BUILD_LOG) return CL_INVALID_VALUE;
@@ -434,10 +411,8 @@ const OpenCl& functions() {
                                .CreateBuffer = create_buffer,
                                .ReleaseMemObject = release_memory,
                                .CreateProgramWithSource = create_program,
-                               .CreateProgramWithBinary = create_from_binary,
                                .BuildProgram = build,
                                .ReleaseProgram = release_program,
-                               .GetProgramInfo = get_program_info,
                                .GetProgramBuildInfo = get_build_info,
                                .CreateKernel = create_kernel,
                                .ReleaseKernel = release_kernel,

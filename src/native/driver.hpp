@@ -3,6 +3,7 @@
 //
 // A command is done when the call that queues it returns, whatever its queue; so events only tell when it ran. It holds
 // what csgrt uses of OpenCL and no more: one dimension, buffers, programs of double precision with the default quartic.
+// The source of such a program is its name in kernels.hpp, and it takes no options.
 #pragma once
 
 #include <vector>

@@ -21,7 +21,7 @@ struct CompiledKernel {
 
 /// What a program may be: one of these, with every type of solid.
 struct Program {
-    const char* name;  ///< first_hits, first_hits_prefetch (CSGRT_PREFETCH), partitions
+    const char* name;  ///< as cmake/native_kernels.cmake lists them
     std::span<const CompiledKernel> kernels;
 };
 

@@ -10,6 +10,7 @@
 #include "device/program.hpp"
 #include "kernel_host/kernels.hpp"
 #include "integration/same_answers.hpp"
+#include "pipeline/passes/program_options.hpp"
 
 using namespace csgrt;
 
@@ -19,10 +20,6 @@ bool have_native() {
     if (!find_native_devices().empty()) return true;
     WARN("no native device: nothing seen");
     return false;
-}
-
-Program every_partition(const Device& device) {
-    return Program(device, "", {"CSGRT_SOLIDS=1u", "CSGRT_QUARTIC=0", "CSGRT_PACKETS"});
 }
 
 /// What kernels/scan.cl says of a list, one entry after the other: sums that stay at COUNT_MAX.
@@ -44,7 +41,7 @@ std::vector<kernel::RayCount> sums_before(const std::vector<kernel::RayCount>& c
 TEST_CASE("the native device's sums are those of one entry after the other", "[device]") {
     if (!have_native()) return;
     Device device("native");
-    const Program program = every_partition(device);
+    const Program program(device, "partitions");
     Kernel scan_blocks = program.kernel("scan_blocks"), scan_sums = program.kernel("scan_sums"),
            scan_add = program.kernel("scan_add");
     std::mt19937 random(7);
@@ -72,14 +69,15 @@ TEST_CASE("the native device's sums are those of one entry after the other", "[d
 TEST_CASE("the native device has the kernels of the default method and says so of others", "[device]") {
     if (!have_native()) return;
     Device device("native");
-    for (const char* other : {"CSGRT_CONTRACT", "CSGRT_EYE_RELATIVE"}) {
-        INFO(other);
-        CHECK_THROWS_WITH(Program(device, "", {"CSGRT_QUARTIC=0", "CSGRT_PACKETS", other}),
+    std::vector<Settings> others(4);
+    others[0].contraction = true;
+    others[1].precision = Precision::single;
+    others[2].precision = Precision::single_world;
+    others[3].quartic = Quartic::ferrari;
+    for (const Settings& other : others)
+        CHECK_THROWS_WITH(Program(device, program_source(device, other, "partitions", {})),
                           ContainsSubstring("the kernels that were compiled with csgrt, no others"));
-    }
-    CHECK_THROWS_AS(Program(device, "", {"CSGRT_QUARTIC=1", "CSGRT_PACKETS"}), Error);
-    CHECK_THROWS_AS(Program(device, "", {"CSGRT_QUARTIC=0", "CSGRT_PACKETS"}, true), Error);
-    const Program program = every_partition(device);
+    const Program program(device, "partitions");
     CHECK_THROWS_WITH(program.kernel("list_tiles"), ContainsSubstring("clCreateKernel (list_tiles)"));
     Kernel scan_sums = program.kernel("scan_sums");
     Buffer sums(device, "sums", 64);

@@ -88,7 +88,7 @@ TEST_CASE("a native kernel leaves out the work-items that have not begun when it
     const auto native = std::ranges::find_if(found, [](const FoundDevice& f) { return is_native(f.info); });
     if (native == found.end()) return;
     Device device(*native, 0, 1);
-    const Program program(device, "", {"CSGRT_SOLIDS=1u", "CSGRT_QUARTIC=0", "CSGRT_PACKETS"});
+    const Program program(device, "partitions");
     Kernel clear = program.kernel("clear_status");
     constexpr cl_uint words = 1000;
     const Buffer outside(device, "outside", std::vector<cl_uint>(words, 0x5a5a5a5au));

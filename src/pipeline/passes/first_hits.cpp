@@ -3,11 +3,15 @@
 namespace csgrt {
 namespace {
 
+bool prefetches(const Device& device, const CompiledScene& scene, const Settings& settings) {
+    constexpr std::size_t cached_nodes = 1u << 18;  // of a larger scene the processor's caches hold too little
+    return traces_packets(device, settings) && scene.nodes.size() > cached_nodes;
+}
+
 std::vector<std::string> options_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> options = program_options(device, scene, settings);
     options.push_back("CSGRT_PRIVATE_ENDS");
-    constexpr std::size_t cached_nodes = 1u << 18;  // of a larger scene the processor's caches hold too little
-    if (traces_packets(device, settings) && scene.nodes.size() > cached_nodes) options.push_back("CSGRT_PREFETCH");
+    if (prefetches(device, scene, settings)) options.push_back("CSGRT_PREFETCH");
     if (scene.solids.size() > 32) options.push_back("CSGRT_FEW=64u");  // measured: docs/experiments/gpu-kernels.md
     return options;
 }
@@ -18,9 +22,10 @@ FirstHitPass::FirstHitPass(Device& device, const CompiledScene& scene, const Set
     : device_(device),
       rays_an_item_(traces_packets(device, settings) ? packet_rays : 1),
       program_(device,
-               assemble_program({CullPass::file,
-                                 rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h",
-                                 "first_hits.cl"}),
+               program_source(
+                   device, settings, prefetches(device, scene, settings) ? "first_hits_prefetch" : "first_hits",
+                   {CullPass::file, rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h",
+                    "first_hits.cl"}),
                options_of(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")) {}

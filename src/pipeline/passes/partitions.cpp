@@ -37,7 +37,8 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       kernels_(kernels),
       other_evaluation_(other),
       program_(device,
-               assemble_program(files_of(traces_packets(device, settings), has_flat_faced(scene))) +
+               program_source(device, settings, "partitions",
+                              files_of(traces_packets(device, settings), has_flat_faced(scene))) +
                    (other ? other->source : ""),
                options_for(device, scene, settings, other != nullptr), settings.precision != Precision::double_),
       cull_(device, program_),
