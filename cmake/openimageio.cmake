@@ -1,5 +1,5 @@
-# The target csgrt_OpenImageIO; csgrt_has_openimageio: whether it is there; csgrt_picture_libraries: the libraries that it
-# needs, in the order in which src/cli/late_image.cpp loads them, empty without ldd. OpenImageIO_ROOT and Imath_ROOT
+# The target csgrt_OpenImageIO; csgrt_has_openimageio: whether it is there; csgrt_picture_libraries: the libraries that
+# it needs, in the order in which src/cli/late_image.cpp loads them, empty without ldd. OpenImageIO_ROOT and Imath_ROOT
 # name folders to look in first. OpenImageIO's own package file is not used: it stops CMake where the tools of
 # OpenImageIO or the headers of OpenCV are not installed. csgrt needs neither.
 find_path(CSGRT_OpenImageIO_INCLUDE_DIR OpenImageIO/imageio.h HINTS ${OpenImageIO_ROOT} PATH_SUFFIXES include)

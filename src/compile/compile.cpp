@@ -1,28 +1,24 @@
-// The steps: validate, flatten, measure boxes, number, pack solids, pack regions, list terms.
+// The steps: validate; flatten and measure, until all stand where they may; number; regions, looks, shapes.
 
 #include "compile/compiled_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
 
-#include "compile/bvh/build.hpp"
+#include "compile/bvh/space.hpp"
 #include "compile/bounds/extent.hpp"
 #include "compile/flatten/flatten.hpp"
 #include "compile/hash.hpp"
-#include "compile/lights.hpp"
+#include "compile/looks.hpp"
 #include "compile/linear.hpp"
 #include "compile/bounds/instance_bounds.hpp"
 #include "compile/regions/pack.hpp"
 #include "compile/solids/pack.hpp"
-#include "compile/solids/polyhedron.hpp"
-#include "compile/regions/terms.hpp"
-#include "base/parallel.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/faults/finding_list.hpp"
 #include "scene/faults/validate.hpp"
@@ -31,74 +27,18 @@ namespace csgrt {
 
 namespace {
 
-/// The sphere around all bounded solids, from the box around their boxes. Returns how many solids are not bounded.
-std::size_t set_sphere(const std::vector<Box>& boxes, CompiledScene& compiled) {
-    struct Part {
-        Box box = empty_box;
-        std::size_t unbounded = 0;
-    };
-    constexpr std::size_t many = 16'384;
-    std::vector<Part> parts((boxes.size() + many - 1) / many);
-    for_chunks(boxes.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t number) {
-        Part part;
-        for (std::size_t i = first; i < last; ++i) {
-            if (is_finite(boxes[i])) {
-                part.box = united(part.box, boxes[i]);
-            } else {
-                ++part.unbounded;
-            }
-        }
-        parts[number] = part;
-    });
-    Part all;
-    for (const Part& part : parts) all = {united(all.box, part.box), all.unbounded + part.unbounded};
-    if (!is_empty(all.box)) {
-        compiled.center = narrow(0.5L * (wide(all.box.low) + wide(all.box.high)));
-        compiled.radius = 0.5 * diagonal(all.box);
-    }
-    return all.unbounded;
-}
-
-/// Numbers the instances: the `unbounded` ones first, then in the order of the hierarchy's leaves. Returns old numbers
-/// in the new order.
-std::vector<std::uint32_t> number_solids(const std::vector<Box>& boxes, std::size_t unbounded,
-                                         CompiledScene& compiled) {
-    compiled.unbounded_count = static_cast<std::uint32_t>(unbounded);
-    std::vector<std::uint32_t> order, bounded;
-    if (unbounded > 0)
-        for (std::uint32_t i = 0; i < boxes.size(); ++i) (is_finite(boxes[i]) ? bounded : order).push_back(i);
-    Hierarchy hierarchy = build_bvh(
-        boxes.size() - unbounded, [&](std::size_t i) { return boxes[unbounded > 0 ? bounded[i] : i]; }, compiled.center,
-        compiled.radius, compiled.unbounded_count);
-    compiled.nodes = std::move(hierarchy.nodes);
-    if (unbounded == 0) return std::move(hierarchy.order);
-    for (const std::uint32_t i : hierarchy.order) order.push_back(bounded[i]);
-    return order;
-}
-
 /// Where planes of unbounded solids are compared: around everything bounded, or where there is nothing, around the feet
 /// of the planes.
-Box common_box(const Scene& scene, const FlatScene& flat, const CompiledScene& compiled) {
-    double reach = compiled.radius;
+Box common_box(const Scene& scene, const FlatScene& flat, const Space& space) {
+    double reach = space.radius;
     if (reach == 0) {
         reach = 1;
         for (const Instance& instance : flat.instances)
             if (const auto* half = std::get_if<Half>(&shape_of(scene, flat, instance)))
                 reach = std::max(reach, 2 * std::fabs(transform_plane(*instance.matrix, half->plane).distance));
     }
-    const Vec3& c = compiled.center;
+    const Vec3& c = space.center;
     return {{c.x - reach, c.y - reach, c.z - reach}, {c.x + reach, c.y + reach, c.z + reach}};
-}
-
-void set_surroundings(const Scene& scene, CompiledScene& compiled) {
-    for (Light light : scene.lights) {
-        light.color = compiled.shaded(light.color);
-        compiled.lights.push_back(light_record(light));
-    }
-    const Vec3 background = compiled.shaded(scene.background);
-    compiled.background = {background.x, background.y, background.z};
-    compiled.ambient = scene.ambient;
-    compiled.tolerance = scene.tolerance;
 }
 
 /// Whether solids are left out because of where they stand, so that the trees change. Throws Error (scene) if the scene
@@ -160,39 +100,31 @@ std::vector<Diagnostic> nothing_to_render(std::vector<Warning>& warnings) {
 CompiledScene compile(const Scene& scene, const std::vector<std::string>& objects, const CompileOptions& options) {
     Names names(scene);
     std::vector<std::string> roots = objects.empty() ? names.top_objects() : objects;
-    CompiledScene compiled;
-    compiled.warnings = scene.warnings;
-    compiled.display_shading = options.display_shading;
-    Validated validated =
-        validate(scene, names, objects, options.skip_unsupported, compiled.warnings, options.max_instances);
+    std::vector<Warning> warnings = scene.warnings;
+    Validated validated = validate(scene, names, objects, options.skip_unsupported, warnings, options.max_instances);
     if (!validated.findings.empty()) throw Error(Status::scene, std::move(validated.findings));
     if (roots.empty()) roots = names.top_objects();  // all were in cycles, which are cut now
 
-    FlatScene flat = flatten(scene, names, validated.instances, roots, options.air, options.max_instances);
+    const auto flattened = [&] {
+        return flatten(scene, names, validated.instances, roots, options.air, options.max_instances);
+    };
+    FlatScene flat = flattened();
     std::optional<Measured> measured(std::in_place, scene, flat);
-    while (leave_out_extremes(scene, flat, *measured, names, compiled.warnings)) {
-        flat = flatten(scene, names, validated.instances, roots, options.air, options.max_instances);
+    while (leave_out_extremes(scene, flat, *measured, names, warnings)) {
+        flat = flattened();
         measured.emplace(scene, flat);
     }
-    std::move(flat.warnings.begin(), flat.warnings.end(), std::back_inserter(compiled.warnings));
-    if (flat.regions.empty()) throw Error(Status::scene, nothing_to_render(compiled.warnings));
+    warnings.insert(warnings.end(), flat.warnings.begin(), flat.warnings.end());
+    if (flat.regions.empty()) throw Error(Status::scene, nothing_to_render(warnings));
 
-    set_surroundings(scene, compiled);
-    add_region_lights(flat, measured->brlcad_boxes, compiled);
-    const std::size_t unbounded = set_sphere(measured->boxes, compiled);
-    const std::vector<std::uint32_t> order = number_solids(measured->boxes, unbounded, compiled);
-    pack_solids(scene, flat, *measured, order, common_box(scene, flat, compiled), compiled);
-    // Read by one thread while another goes through the regions, which it mostly does alone.
-    std::future<std::uint64_t> geometry = start_async([&compiled] { return hash_of_geometry(compiled); });
-    pack_regions(flat, order, measured->brlcad_boxes, compiled);
-    // Giving much memory back takes a while, too.
-    const std::future<void> cleared = start_async([&] {
-        measured.reset();
-        flat = {};
-    });
-    list_terms(compiled);
-    join_equal(compiled.warnings);
-    compiled.hash = hash_of(compiled, geometry.get());
+    auto [space, order] = space_of(measured->boxes);
+    auto [logic, terms] = pack_regions(flat, order, measured->brlcad_boxes);
+    Looks looks = looks_of(scene, flat, measured->brlcad_boxes, options.display_shading, warnings);
+    Shapes shapes = pack_solids(scene, flat, *measured, order, space, common_box(scene, flat, space), terms, warnings);
+    join_equal(warnings);
+    CompiledScene compiled{std::move(space),   std::move(logic), std::move(shapes), std::move(looks), 0,
+                           std::move(warnings)};
+    compiled.hash = hash_of(compiled);
     return compiled;
 }
 

@@ -29,44 +29,63 @@ struct RegionWords {
     std::uint32_t first_word = 0, word_count = 0;
 };
 
-struct CompiledScene {
-    // Crosses the bus. Solids are numbered: the unbounded ones first, then in the order of the hierarchy's leaves.
+// What the steps of compilation make, each from the scene and what earlier steps have made. Solids are numbered: the
+// unbounded ones first, then in the order of the hierarchy's leaves.
+
+/// Where the solids stand.
+struct Space {
+    std::vector<kernel::BvhNode> nodes;
+    std::uint32_t unbounded_count = 0;
+    Vec3 center;  ///< of the sphere around all bounded solids
+    double radius = 0;
+};
+
+/// Which regions claim a partition.
+struct Logic {
+    std::vector<std::uint32_t> trees;  ///< words; behind them where solids stand in large terms
+    std::vector<kernel::StartRecord> starts;
+    std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
+    bool has_large_terms = false;         ///< of more than SCANNED_WORDS words
+    // The rest stays on the host.
+    std::vector<RegionWords> regions;
+    std::vector<FlatTree> flat_trees;     ///< one a region
+    std::vector<RegionInfo> region_info;  ///< one a region
+    Box bounds;                           ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
+    std::uint32_t instances = 0;          ///< leaves over all trees
+};
+
+/// What rays meet.
+struct Shapes {
     std::vector<kernel::SolidRecord> solids;
     std::vector<double> reals;
     std::vector<kernel::PlaneRecord> planes;
     std::vector<std::uint32_t> words;  ///< of solids; behind them PlaneRefs
     std::vector<kernel::BvhNode> inner_nodes;
-    std::vector<kernel::StartRecord> starts;
-    std::vector<std::uint32_t> trees;               ///< words; behind them where solids stand in large terms
+    // The rest stays on the host.
+    std::vector<SolidInfo> solid_info;  ///< one a solid
+    std::vector<Box> solid_boxes;       ///< one a solid; infinite for the unbounded
+    std::uint32_t solid_types = 0;      ///< bit SOLID_x: the scene has such solids
+    double tolerance = 0;               ///< see Scene
+};
+
+/// What shading adds.
+struct Looks {
     std::vector<kernel::MaterialRecord> materials;  ///< one a region
     std::vector<kernel::LightRecord> lights;        ///< the scene's own; none: the view supplies one
-    std::vector<kernel::BvhNode> nodes;
-    std::uint32_t unbounded_count = 0;
-    std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
-
-    // Stays on the host.
-    std::vector<RegionWords> regions;
-    std::vector<FlatTree> flat_trees;     ///< one a region
-    std::vector<RegionInfo> region_info;  ///< one a region
-    std::vector<SolidInfo> solid_info;    ///< one a solid
-    std::vector<Box> solid_boxes;         ///< one a solid; infinite for the unbounded
-    Box bounds;                           ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
-    Vec3 center;                          ///< of the sphere around all bounded solids
-    double radius = 0;
-    std::uint32_t solid_types = 0;  ///< bit SOLID_x: the scene has such solids
-    std::uint32_t instances = 0;    ///< leaves over all trees
-    bool has_large_terms = false;   ///< of more than SCANNED_WORDS words
     std::vector<double> background{0, 0, 0};
-    double ambient = 0.4, tolerance = 0;
-    bool display_shading = false;   ///< colours are those that the model gives, not decoded to linear light
-    std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
-    std::vector<Warning> warnings;  ///< see Renderer::warnings
+    double ambient = 0.4;
+    bool display_shading = false;  ///< colours are those that the model gives, not decoded to linear light
 
     /// A colour of the model in the values that are shaded.
     Vec3 shaded(const Vec3& color) const {
         if (display_shading) return color;
         return {linear_of_display(color.x), linear_of_display(color.y), linear_of_display(color.z)};
     }
+};
+
+struct CompiledScene : Space, Logic, Shapes, Looks {
+    std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
+    std::vector<Warning> warnings;  ///< see Renderer::warnings
 };
 
 struct CompileOptions {

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "compile/lights.hpp"
+#include "compile/looks.hpp"
 #include "compile/screen_bounds.hpp"
 #include "scene/range.hpp"
 

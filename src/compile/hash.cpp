@@ -4,7 +4,8 @@
 
 namespace csgrt {
 
-std::uint64_t hash_of_geometry(const CompiledScene& scene) {
+/// Of what is large.
+static std::uint64_t hash_of_geometry(const CompiledScene& scene) {
     Fnv1a hash;
     hash.add_all(scene.reals);
     hash.add_all(scene.planes);
@@ -14,9 +15,9 @@ std::uint64_t hash_of_geometry(const CompiledScene& scene) {
     return hash.state();
 }
 
-std::uint64_t hash_of(const CompiledScene& scene, std::uint64_t geometry) {
+std::uint64_t hash_of(const CompiledScene& scene) {
     Fnv1a hash;
-    hash.add(geometry);
+    hash.add(hash_of_geometry(scene));
     hash.add_all(scene.solids);
     hash.add_all(scene.starts);
     hash.add_all(scene.trees);

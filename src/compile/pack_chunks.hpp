@@ -41,9 +41,9 @@ struct PackedChunk {
     std::uint32_t solid_types = 0;
 };
 
-/// Finds the planes that several share: fills planes of `compiled`, appends references to its words, and the solids'
+/// Finds the planes that several share: fills planes of `shapes`, appends references to its words, and the solids'
 /// ranges of them. `empty`: a table without planes.
-void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common,
-                  CompiledScene& compiled);
+void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
+                  std::vector<Warning>& warnings);
 
 }  // namespace csgrt

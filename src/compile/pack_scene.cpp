@@ -42,21 +42,24 @@ namespace {
 class ScenePacker {
 public:
     ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured,
-                const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled)
+                const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
+                const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings)
         : scene_(scene),
           flat_(flat),
           measured_(measured),
           order_(order),
           common_(common),
-          compiled_(compiled),
-          planes_(compiled.center, 0.5 * diagonal(common)),
-          surfaces_(compiled.center, compiled.radius),
+          terms_(terms),
+          warnings_(warnings),
+          planes_(space.center, 0.5 * diagonal(common)),
+          surfaces_(space.center, space.radius),
           chunks_((order.size() + PackedChunk::size - 1) / PackedChunk::size) {}
 
-    void pack() {
-        resize_cleared(compiled_.solids, order_.size());
-        resize_cleared(compiled_.solid_info, order_.size());
-        resize_cleared(compiled_.solid_boxes, order_.size());
+    Shapes pack() {
+        shapes_.tolerance = scene_.tolerance;
+        resize_cleared(shapes_.solids, order_.size());
+        resize_cleared(shapes_.solid_info, order_.size());
+        resize_cleared(shapes_.solid_boxes, order_.size());
         for_each_chunk([this](std::size_t number) {
             const std::size_t first = number * PackedChunk::size;
             const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
@@ -79,11 +82,12 @@ public:
         });
         share_surfaces();
         lay_out_reals();
-        share_planes(chunks_, planes_, common_, compiled_);
+        share_planes(chunks_, planes_, common_, shapes_, warnings_);
         for (PackedChunk& chunk : chunks_) {
-            compiled_.solid_types |= chunk.solid_types;
-            std::move(chunk.warnings.begin(), chunk.warnings.end(), std::back_inserter(compiled_.warnings));
+            shapes_.solid_types |= chunk.solid_types;
+            std::move(chunk.warnings.begin(), chunk.warnings.end(), std::back_inserter(warnings_));
         }
+        return std::move(shapes_);
     }
 
 private:
@@ -98,8 +102,8 @@ private:
         const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
         const Shape& shape = shape_of(scene_, flat_, instance);
         const Box& own = measured_.boxes[order_[number]];
-        compiled_.solid_info[number] = {solid.name, type_name(solid.shape), instance.piece};
-        compiled_.solid_boxes[number] = own;
+        shapes_.solid_info[number] = {solid.name, type_name(solid.shape), instance.piece};
+        shapes_.solid_boxes[number] = own;
         if (!is_finite(own) && !std::holds_alternative<Half>(shape))
             chunk.warnings.push_back({solid.name, solid.place, "its faces do not close: it is not bounded", 1});
         if (const auto* revolve = std::get_if<Revolve>(&shape))
@@ -111,7 +115,7 @@ private:
         part.is_large = !std::visit(IsSmall{}, shape);
         if (!part.is_large) {
             const std::size_t first_real = chunk.reals.size(), first_plane = planes.size();
-            Packer packer{*instance.matrix, compiled_, shared_, chunk.reals, planes};
+            Packer packer{*instance.matrix, shapes_, shared_, chunk.reals, planes, terms_[number]};
             if (std::holds_alternative<Arb>(shape)) {
                 packer.record.type = SOLID_ARB;
                 packer.faces(measured_.faces(order_[number]));
@@ -124,7 +128,7 @@ private:
             part.is_polyhedron = packer.is_polyhedron;
             part.first_real = static_cast<std::uint32_t>(first_real);
             part.reals = static_cast<std::uint32_t>(chunk.reals.size() - first_real);
-            compiled_.solids[number] = packer.record;
+            shapes_.solids[number] = packer.record;
             chunk.solid_types |= 1u << packer.record.type;
             if (auto surface = surfaces_.surface_of(packer.record.type, chunk.reals.data() + first_real,
                                                     packer.axes_in_world, is_finite(own) ? own : common_))
@@ -143,7 +147,7 @@ private:
         const Instance& instance = flat_.instances[order_[number]];
         std::vector<double> reals;
         std::vector<Plane> planes;
-        Packer packer{*instance.matrix, compiled_, shared_, reals, planes};
+        Packer packer{*instance.matrix, shapes_, shared_, reals, planes};
         std::visit(packer, shape_of(scene_, flat_, instance));
         return packer.axes_in_world;
     }
@@ -178,12 +182,12 @@ private:
 
     /// Solids of any size are packed on the way: what they write holds positions among the scene's numbers.
     void lay_out_reals() {
-        std::vector<double>& reals = compiled_.reals;
+        std::vector<double>& reals = shapes_.reals;
         std::size_t next = 0;
         for (std::size_t i = 0; i < order_.size(); ++i) {
             PackedChunk& chunk = chunks_[i / PackedChunk::size];
             PackedChunk::Part& part = chunk.parts[i % PackedChunk::size];
-            kernel::SolidRecord& record = compiled_.solids[i];
+            kernel::SolidRecord& record = shapes_.solids[i];
             if (part.is_large) {
                 reals.resize(next);
                 pack_large(i, chunk, part);
@@ -192,9 +196,9 @@ private:
                 record.first_real = static_cast<std::uint32_t>(next);
                 next += part.reals;
             } else {
-                record.first_real = compiled_.solids[part.stands].first_real;
+                record.first_real = shapes_.solids[part.stands].first_real;
             }
-            check_numbers(std::max(next, compiled_.words.size()));
+            check_numbers(std::max(next, shapes_.words.size()));
         }
         resize_cleared(reals, next);
         for_each_chunk([&](std::size_t number) {
@@ -204,7 +208,7 @@ private:
                 const std::size_t solid = number * PackedChunk::size + i;
                 if (part.is_large || part.stands != solid) continue;
                 std::copy_n(chunk.reals.begin() + part.first_real, part.reals,
-                            reals.begin() + compiled_.solids[solid].first_real);
+                            reals.begin() + shapes_.solids[solid].first_real);
             }
         });
     }
@@ -212,10 +216,10 @@ private:
     void pack_large(std::size_t number, PackedChunk& chunk, PackedChunk::Part& part) {
         const Instance& instance = flat_.instances[order_[number]];
         std::vector<Plane> faces;
-        Packer packer{*instance.matrix, compiled_, shared_, compiled_.reals, faces};
-        packer.record.first_real = static_cast<std::uint32_t>(compiled_.reals.size());
+        Packer packer{*instance.matrix, shapes_, shared_, shapes_.reals, faces, terms_[number]};
+        packer.record.first_real = static_cast<std::uint32_t>(shapes_.reals.size());
         std::visit(packer, shape_of(scene_, flat_, instance));
-        compiled_.solids[number] = packer.record;
+        shapes_.solids[number] = packer.record;
         chunk.solid_types |= 1u << packer.record.type;
         const Solid& solid = std::get<Solid>(scene_.objects[instance.object]);
         for (const std::string& note : packer.notes) chunk.warnings.push_back({solid.name, solid.place, note, 1});
@@ -229,7 +233,9 @@ private:
     const Measured& measured_;
     const std::vector<std::uint32_t>& order_;
     const Box& common_;
-    CompiledScene& compiled_;
+    const std::vector<kernel::SolidRecord>& terms_;
+    std::vector<Warning>& warnings_;
+    Shapes shapes_;
     PlaneTable planes_;  ///< empty, as is the next: those of the shards begin as copies
     SurfaceTable surfaces_;
     SharedParts shared_;
@@ -238,9 +244,10 @@ private:
 
 }  // namespace
 
-void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
-                 const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled) {
-    ScenePacker(scene, flat, measured, order, common, compiled).pack();
+Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
+                   const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
+                   const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings) {
+    return ScenePacker(scene, flat, measured, order, space, common, terms, warnings).pack();
 }
 
 }  // namespace csgrt

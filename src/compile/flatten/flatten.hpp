@@ -20,9 +20,8 @@ struct Instance {
 };
 
 struct FlatRegion {
-    RegionInfo info;        ///< all but the bounds
-    FlatTree tree;          ///< leaves are instances
-    double brightness = 0;  ///< of one that shines; see add_region_lights
+    RegionInfo info;  ///< all but the bounds
+    FlatTree tree;    ///< leaves are instances
 };
 
 struct FlatScene {

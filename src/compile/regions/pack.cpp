@@ -10,6 +10,7 @@
 #include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "compile/regions/linearize.hpp"
+#include "compile/regions/terms.hpp"
 #include "base/parallel.hpp"
 
 namespace csgrt {
@@ -26,32 +27,11 @@ struct RegionChunk {
     Box bounds = empty_box;
 };
 
-kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, const CompiledScene& compiled) {
-    const Finish& f = info.finish;
-    const Vec3 color = compiled.shaded(info.color);
-    const double ambient = compiled.ambient;
-    const auto to_float = [](double x) { return static_cast<float>(x); };
-    kernel::MaterialRecord m{to_float(color.x),
-                             to_float(color.y),
-                             to_float(color.z),
-                             to_float(f.specular),
-                             to_float(f.diffuse),
-                             to_float(f.ambient),
-                             static_cast<std::uint32_t>(std::max(f.shine, 0)),
-                             0};
-    if (!f.light) return m;
-    // A body that shines has half of its colour everywhere, and the other half where it faces the eye, by which it
-    // looks round.
-    m.specular = m.diffuse = 0;
-    m.ambient = ambient > 0 ? to_float(0.5 * brightness / ambient) : 0;
-    m.glow = to_float((ambient > 0 ? 0.5 : 1) * brightness);
-    return m;
-}
-
 }  // namespace
 
-void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes,
-                  CompiledScene& compiled) {
+PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_t>& order,
+                           const std::vector<Box>& brlcad_boxes) {
+    Logic logic;
     const std::size_t count = flat.regions.size();
     std::vector<std::uint32_t> number(order.size());
     constexpr std::size_t many = 65'536;
@@ -59,52 +39,51 @@ void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, cons
         for (std::size_t i = first; i < last; ++i) number[order[i]] = static_cast<std::uint32_t>(i);
     });
 
-    resize_cleared(compiled.regions, count);
-    resize_cleared(compiled.region_info, count);
-    resize_cleared(compiled.flat_trees, count);
-    resize_cleared(compiled.materials, count);
+    resize_cleared(logic.regions, count);
+    resize_cleared(logic.region_info, count);
+    resize_cleared(logic.flat_trees, count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         RegionChunk& chunk = chunks[c];
         for (std::size_t i = first; i < last; ++i) {
-            FlatRegion& region = flat.regions[i];
-            region.info.bounds = tree_box(region.tree, brlcad_boxes);
-            if (is_finite(region.info.bounds) && !is_empty(region.info.bounds))
-                chunk.bounds = united(chunk.bounds, region.info.bounds);
-            for (FlatTree::Node& node : region.tree.nodes) {
+            const FlatRegion& region = flat.regions[i];
+            RegionInfo& info = logic.region_info[i] = region.info;
+            info.bounds = tree_box(region.tree, brlcad_boxes);
+            if (is_finite(info.bounds) && !is_empty(info.bounds)) chunk.bounds = united(chunk.bounds, info.bounds);
+            FlatTree& numbered = logic.flat_trees[i] = region.tree;
+            for (FlatTree::Node& node : numbered.nodes) {
                 if (node.op != Operator::leaf) continue;
                 node.solid = number[node.solid];
                 ++chunk.leaves;
             }
-            const LinearTree tree = linearize(region.tree, chunk.words);
-            compiled.regions[i] = {tree.first_word, tree.word_count};
-            compiled.materials[i] = material_of(region.info, region.brightness, compiled);
-            compiled.region_info[i] = std::move(region.info);
-            compiled.flat_trees[i] = std::move(region.tree);
+            const LinearTree tree = linearize(numbered, chunk.words);
+            logic.regions[i] = {tree.first_word, tree.word_count};
         }
     });
 
-    for (const RegionInfo& region : compiled.region_info) ++compiled.rank_ends[rank_of(region)];
-    std::partial_sum(std::begin(compiled.rank_ends), std::end(compiled.rank_ends), std::begin(compiled.rank_ends));
+    for (const RegionInfo& region : logic.region_info) ++logic.rank_ends[rank_of(region)];
+    std::partial_sum(std::begin(logic.rank_ends), std::end(logic.rank_ends), std::begin(logic.rank_ends));
 
-    compiled.bounds = empty_box;
+    logic.bounds = empty_box;
     std::uint64_t words = 0, leaves = 0;
     for (RegionChunk& chunk : chunks) {
         chunk.first_word = static_cast<std::uint32_t>(words);
         words += chunk.words.size();
         leaves += chunk.leaves;
-        compiled.bounds = united(compiled.bounds, chunk.bounds);
+        logic.bounds = united(logic.bounds, chunk.bounds);
         check_tree_words(words);
     }
-    compiled.instances = static_cast<std::uint32_t>(leaves);
-    compiled.trees.resize(words);
+    logic.instances = static_cast<std::uint32_t>(leaves);
+    logic.trees.resize(words);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         const RegionChunk& chunk = chunks[c];
-        for (std::size_t i = first; i < last; ++i) compiled.regions[i].first_word += chunk.first_word;
+        for (std::size_t i = first; i < last; ++i) logic.regions[i].first_word += chunk.first_word;
         std::transform(
-            chunk.words.begin(), chunk.words.end(), compiled.trees.begin() + chunk.first_word,
+            chunk.words.begin(), chunk.words.end(), logic.trees.begin() + chunk.first_word,
             [&](std::uint32_t word) { return word >> TREE_SHIFT == OP_LEAF ? word : word + chunk.first_word; });
     });
+    std::vector<kernel::SolidRecord> solids = list_terms(logic, order.size());
+    return {std::move(logic), std::move(solids)};
 }
 
 }  // namespace csgrt

@@ -1,4 +1,4 @@
-// Regions -> their records, words, materials and boxes.
+// Regions -> their words, terms and boxes.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,13 @@
 
 namespace csgrt {
 
-/// Takes the regions out of `flat`. `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance.
-void pack_regions(FlatScene& flat, const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes,
-                  CompiledScene& compiled);
+struct PackedRegions {
+    Logic logic;
+    std::vector<kernel::SolidRecord> solids;  ///< see list_terms
+};
+
+/// `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance.
+PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_t>& order,
+                           const std::vector<Box>& brlcad_boxes);
 
 }  // namespace csgrt

@@ -210,14 +210,14 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
 }
 
 /// Takes up what a term of that region is where the solid alone covers. Regions come in ascending order.
-void claim_alone(const CompiledScene& compiled, kernel::SolidRecord& solid, Alone alone, std::uint32_t region) {
+void claim_alone(const Logic& logic, kernel::SolidRecord& solid, Alone alone, std::uint32_t region) {
     const std::uint32_t least = solid.alone & ~OVERLAP;
     if (alone == Alone::no || solid.alone == ALONE_UNKNOWN) return;
     if (alone == Alone::unknown) {
         solid.alone = ALONE_UNKNOWN;
     } else if (least == NONE) {
         solid.alone = region;
-    } else if (least != region && kernel::same_rank(compiled.rank_ends, least, region)) {
+    } else if (least != region && kernel::same_rank(logic.rank_ends, least, region)) {
         solid.alone = least | OVERLAP;
     }
 }
@@ -234,23 +234,22 @@ std::uint32_t lay_out(std::vector<kernel::SolidRecord>& solids, std::uint32_t ke
 }
 
 /// Where the solids of large terms stand in them.
-void list_leaves(const std::vector<Term>& terms, CompiledScene& compiled) {
+void list_leaves(const std::vector<Term>& terms, Logic& logic, std::vector<kernel::SolidRecord>& solids) {
     const auto for_each = [&](const auto& call) {
         for (const Term& term : terms) {
             if (term.end - term.first <= SCANNED_WORDS) continue;
             for (std::uint32_t node = term.first; node < term.end; ++node)
-                if (compiled.trees[node] >> TREE_SHIFT == OP_LEAF)
-                    call(compiled.solids[compiled.trees[node] & TREE_MASK], node);
+                if (logic.trees[node] >> TREE_SHIFT == OP_LEAF) call(solids[logic.trees[node] & TREE_MASK], node);
         }
     };
     for_each([](kernel::SolidRecord& solid, std::uint32_t) { ++solid.leaf_count; });
-    const std::size_t first = compiled.trees.size();
+    const std::size_t first = logic.trees.size();
     std::vector<std::uint32_t> leaves(
-        lay_out(compiled.solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count));
+        lay_out(solids, &kernel::SolidRecord::first_leaf, &kernel::SolidRecord::leaf_count));
     for_each(
         [&](kernel::SolidRecord& solid, std::uint32_t node) { leaves[solid.first_leaf + solid.leaf_count++] = node; });
-    for (kernel::SolidRecord& solid : compiled.solids) solid.first_leaf += static_cast<std::uint32_t>(first);
-    compiled.trees.insert(compiled.trees.end(), leaves.begin(), leaves.end());
+    for (kernel::SolidRecord& solid : solids) solid.first_leaf += static_cast<std::uint32_t>(first);
+    logic.trees.insert(logic.trees.end(), leaves.begin(), leaves.end());
 }
 
 }  // namespace
@@ -290,11 +289,14 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
     }
 }
 
-void list_terms(CompiledScene& compiled) {
+std::vector<kernel::SolidRecord> list_terms(Logic& logic, std::size_t count) {
+    kernel::SolidRecord unclaimed{};
+    unclaimed.alone = NONE;
+    std::vector<kernel::SolidRecord> solids(count, unclaimed);
     std::vector<Term> terms;
-    terms.reserve(compiled.regions.size());
-    for (std::uint32_t region = 0; region < compiled.regions.size(); ++region)
-        add_terms(compiled.trees, compiled.regions[region], region, terms);
+    terms.reserve(logic.regions.size());
+    for (std::uint32_t region = 0; region < logic.regions.size(); ++region)
+        add_terms(logic.trees, logic.regions[region], region, terms);
 
     constexpr std::size_t chunk_size = 1024;
     std::vector<TermChunk> chunks((terms.size() + chunk_size - 1) / chunk_size);
@@ -303,34 +305,32 @@ void list_terms(CompiledScene& compiled) {
         chunk.records.reserve(last - first);
         chunk.ends.reserve(last - first);
         for (std::size_t i = first; i < last; ++i) {
-            mark_begins(compiled.trees, terms[i].first, terms[i].end, compiled.solids);
-            add_starts(compiled.trees, terms[i], chunk);
+            mark_begins(logic.trees, terms[i].first, terms[i].end, solids);
+            add_starts(logic.trees, terms[i], chunk);
         }
         for (const std::uint32_t solid : chunk.starts)
-            std::atomic_ref(compiled.solids[solid].start_count).fetch_add(1, std::memory_order_relaxed);
+            std::atomic_ref(solids[solid].start_count).fetch_add(1, std::memory_order_relaxed);
     });
 
-    const std::uint32_t count =
-        lay_out(compiled.solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count);
-    for (kernel::SolidRecord& solid : compiled.solids) solid.alone = NONE;
-    resize_cleared(compiled.starts, count);
+    resize_cleared(logic.starts, lay_out(solids, &kernel::SolidRecord::first_start, &kernel::SolidRecord::start_count));
     for (TermChunk& chunk : chunks) {
         std::uint32_t i = 0;
         for (std::size_t term = 0; term < chunk.records.size(); ++term) {
             kernel::StartRecord& record = chunk.records[term];
             const std::uint32_t words = record.end_word - record.first_word;
-            if (words > PLAIN_WORDS) record.roles = write_roles(compiled.trees, record.first_word, record.end_word);
-            compiled.has_large_terms = compiled.has_large_terms || words > SCANNED_WORDS;
+            if (words > PLAIN_WORDS) record.roles = write_roles(logic.trees, record.first_word, record.end_word);
+            logic.has_large_terms = logic.has_large_terms || words > SCANNED_WORDS;
             for (; i < chunk.ends[term]; ++i) {
                 constexpr std::size_t soon = 16;
-                if (i + soon < chunk.starts.size()) prefetch_line(&compiled.solids[chunk.starts[i + soon]]);
-                kernel::SolidRecord& solid = compiled.solids[chunk.starts[i]];
-                compiled.starts[solid.first_start + solid.start_count++] = record;
-                claim_alone(compiled, solid, chunk.alone[i], record.region);
+                if (i + soon < chunk.starts.size()) prefetch_line(&solids[chunk.starts[i + soon]]);
+                kernel::SolidRecord& solid = solids[chunk.starts[i]];
+                logic.starts[solid.first_start + solid.start_count++] = record;
+                claim_alone(logic, solid, chunk.alone[i], record.region);
             }
         }
     }
-    if (compiled.has_large_terms) list_leaves(terms, compiled);
+    if (logic.has_large_terms) list_leaves(terms, logic, solids);
+    return solids;
 }
 
 }  // namespace csgrt

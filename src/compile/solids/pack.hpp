@@ -14,15 +14,16 @@
 
 namespace csgrt {
 
-/// Where in CompiledScene::words the parts of a solid of many parts begin, by the address of its Shape (or of what it
+/// Where in Shapes::words the parts of a solid of many parts begin, by the address of its Shape (or of what it
 /// holds): its other places use the same.
 using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 
-/// Each instance of `order` becomes a solid; `common` stands for the box of those that are not bounded. The arithmetic
-/// is done by several threads.
+/// Each instance of `order` becomes a solid, whose record begins as `terms` gives it; `common` stands for the box of
+/// those that are not bounded. The arithmetic is done by several threads.
 /// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
-void pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
-                 const std::vector<std::uint32_t>& order, const Box& common, CompiledScene& compiled);
+Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
+                   const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
+                   const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings);
 
 /// What is worth telling of a revolve's turn; usually nothing.
 std::string note_on(const Revolve& s);

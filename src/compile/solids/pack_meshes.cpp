@@ -54,7 +54,7 @@ void make_room(std::vector<T>& to, std::size_t more) {
 
 /// Before the vertices stand center and scale, which only the host reads. Returns the faces in the order of the
 /// hierarchy's leaves.
-std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, CompiledScene& scene,
+std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& frame, Shapes& scene,
                                     std::uint32_t facing = 0) {
     if (mesh.faces.size() > most_triangles)
         throw Error(Status::scene, "a mesh of " + std::to_string(mesh.faces.size()) +
@@ -135,7 +135,7 @@ std::uint32_t shared_words(Packer& packer, const void* solid, const Add& add) {
 
 /// Puts a mesh whose words begin at `mesh` in its place; `own` places it in the solid.
 void place_mesh(Packer& packer, std::uint32_t mesh, const Matrix& own) {
-    CompiledScene& scene = packer.scene;
+    Shapes& scene = packer.scene;
     packer.record.first_real = static_cast<std::uint32_t>(scene.reals.size());
     const double* f = scene.reals.data() + scene.words[mesh + MESH_VERTICES] - 4;
     const long double scale = f[3];
@@ -168,7 +168,7 @@ void pack_volume(Packer& packer, const Bot& bot) {
 }
 
 void pack_plates(Packer& packer, const Bot& bot) {
-    CompiledScene& scene = packer.scene;
+    Shapes& scene = packer.scene;
     packer.record.type = SOLID_PLATE;
     packer.record.first_word = shared_words(packer, &bot, [&] {
         const std::size_t first_word = scene.words.size();

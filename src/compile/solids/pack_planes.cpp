@@ -76,9 +76,10 @@ std::optional<double> thickness_of_film(std::span<const PackedPlane> faces) {
 }
 
 /// Says of the first few what has become of them, and how many more there are.
-void note_films(const std::vector<std::vector<Film>>& films, const Box& common, CompiledScene& compiled) {
+void note_films(const std::vector<std::vector<Film>>& films, const Box& common, const Shapes& shapes,
+                std::vector<Warning>& warnings) {
     const auto warn = [&](std::string object, std::string reason) {
-        Warning& warning = compiled.warnings.emplace_back();
+        Warning& warning = warnings.emplace_back();
         warning.object = std::move(object);
         warning.reason = std::move(reason);
     };
@@ -87,9 +88,9 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
     for (const std::vector<Film>& some : films) {
         for (const auto& [solid, thickness] : some) {
             // A turn of no angle has a note of its own.
-            if (compiled.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
+            if (shapes.solids[solid].type == SOLID_REVOLVE && thickness == 0) continue;
             if (++count > shown) continue;
-            const Box& box = is_finite(compiled.solid_boxes[solid]) ? compiled.solid_boxes[solid] : common;
+            const Box& box = is_finite(shapes.solid_boxes[solid]) ? shapes.solid_boxes[solid] : common;
             const double of_size = PlaneTable::gap * diagonal(box),
                          of_place = coordinate_rounding * largest_coordinate(box);
             const char* const what =
@@ -97,7 +98,7 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
             std::string reason = "nothing is left of it: two of its faces are " + rounded_text(thickness) +
                                  " mm apart, and faces within " + rounded_text(std::max(of_size, of_place)) + " mm, " +
                                  what + ", are one surface";
-            warn(compiled.solid_info[solid].name, std::move(reason));
+            warn(shapes.solid_info[solid].name, std::move(reason));
         }
     }
     if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
@@ -105,8 +106,8 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
 
 }  // namespace
 
-void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common,
-                  CompiledScene& compiled) {
+void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
+                  std::vector<Warning>& warnings) {
     Shards shards(chunks.size());
     const auto for_each_chunk = [&](const auto& call) {
         for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
@@ -119,7 +120,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         shards.chunk(number).reserve(chunk.planes.size());
         auto plane = chunk.planes.begin();
         for (std::uint32_t i = 0; i < chunk.parts.size(); ++i) {
-            const Box& box = compiled.solid_boxes[number * PackedChunk::size + i];
+            const Box& box = shapes.solid_boxes[number * PackedChunk::size + i];
             for (const auto end = plane + chunk.parts[i].faces + chunk.parts[i].cuts; plane != end; ++plane) {
                 plane->solid = static_cast<std::uint16_t>(i);
                 empty.add_to(shards.chunk(number), plane->key, is_finite(box) ? box : common, planes);
@@ -135,7 +136,7 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
             return chunks[members[i].chunk].planes[members[i].index];
         };
         const auto box_at = [&](std::size_t i) -> const Box& {
-            return compiled.solid_boxes[members[i].chunk * PackedChunk::size + plane_at(i).solid];
+            return shapes.solid_boxes[members[i].chunk * PackedChunk::size + plane_at(i).solid];
         };
         table.reserve(members.size());
         for (std::size_t i = 0; i < members.size(); ++i) {
@@ -158,15 +159,15 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
     for_each_chunk([&](std::size_t number) {
         for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
     });
-    std::size_t records = 0, refs = compiled.words.size();  // references stand behind what solids wrote
+    std::size_t records = 0, refs = shapes.words.size();  // references stand behind what solids wrote
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
-    resize_cleared(compiled.planes, records);
+    resize_cleared(shapes.planes, records);
     for_each_chunk([&](std::size_t number) {
         std::uint32_t next = first_record[number];
         for (PackedPlane& plane : chunks[number].planes) {
             if (!plane.is_first) continue;
-            compiled.planes[next] = PlaneTable::record_of(plane.key);
+            shapes.planes[next] = PlaneTable::record_of(plane.key);
             plane.ref = next++ << 1;
         }
     });
@@ -193,28 +194,28 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
             const std::size_t first = own.size();
             // Only of a polyhedron has a wall's plane an inner side: of an outline that is not convex two walls that
             // look away from each other may lie in one plane. Its ends have one.
-            const bool is_extrude = compiled.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
+            const bool is_extrude = shapes.solids[number * PackedChunk::size + i].type == SOLID_EXTRUDE;
             if (const auto thickness = thickness_of_film({plane, plane + (is_extrude ? 2 : part.faces)}))
                 films[number].push_back({number * PackedChunk::size + i, *thickness});
             append(part.faces);
             if (part.is_polyhedron) own.resize(first + drop_repeated(own.data() + first, part.faces));
             append(part.cuts);
-            kernel::SolidRecord& record = compiled.solids[number * PackedChunk::size + i];
+            kernel::SolidRecord& record = shapes.solids[number * PackedChunk::size + i];
             record.first_plane = static_cast<std::uint32_t>(first);
             record.plane_count = static_cast<std::uint32_t>(own.size() - first);
         }
     });
-    note_films(films, common, compiled);
+    note_films(films, common, shapes, warnings);
     for (std::size_t number = 0; number < chunks.size(); ++number) {
         first_ref[number] = static_cast<std::uint32_t>(refs);
         refs += of[number].size();
     }
     check_numbers(refs);
-    compiled.words.resize(refs);
+    shapes.words.resize(refs);
     for_each_chunk([&](std::size_t number) {
-        std::copy(of[number].begin(), of[number].end(), compiled.words.begin() + first_ref[number]);
+        std::copy(of[number].begin(), of[number].end(), shapes.words.begin() + first_ref[number]);
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)
-            compiled.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
+            shapes.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
     });
 }
 

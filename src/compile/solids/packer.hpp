@@ -20,7 +20,7 @@ namespace csgrt {
 /// pack_sketches.cpp what outlines make, pack_meshes.cpp what triangles make.
 struct Packer {
     const Matrix& matrix;
-    CompiledScene& scene;  ///< solids of any size write there; others do not touch it: see is_small
+    Shapes& scene;  ///< solids of any size write there; others do not touch it: see is_small
     SharedParts& shared;
     std::vector<double>& reals;  ///< where this solid's begin at first_real: the scene's, for solids of any size
     std::vector<Plane>& planes;  ///< the faces, to be found in the table of planes

@@ -70,8 +70,7 @@ Hierarchy sort_lines(std::vector<StraightLine>& lines, const PackedSketch& sketc
     return hierarchy;
 }
 
-void write(CompiledScene& scene, const SketchParts& parts, const std::vector<kernel::BvhNode>& nodes,
-           PackedSketch& sketch) {
+void write(Shapes& scene, const SketchParts& parts, const std::vector<kernel::BvhNode>& nodes, PackedSketch& sketch) {
     const auto number = [&](long double x) { scene.reals.push_back(static_cast<double>(x)); };
     const auto point = [&](long double u, long double v) {
         number((u - sketch.u) / sketch.unit);
@@ -117,7 +116,7 @@ std::uint32_t position_of(std::size_t size) {
     return static_cast<std::uint32_t>(size);
 }
 
-PackedSketch share_sketch(CompiledScene& scene, SharedParts& shared, const void* key, SketchParts& parts,
+PackedSketch share_sketch(Shapes& scene, SharedParts& shared, const void* key, SketchParts& parts,
                           SketchCenter center) {
     PackedSketch sketch = place(parts, center);
     Hierarchy hierarchy;

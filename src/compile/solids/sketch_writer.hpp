@@ -30,8 +30,7 @@ struct PackedSketch {
 
 /// Writes the parts, unless another place of the same solid has done so. Where points are told from the middle, the
 /// lines get a hierarchy of boxes and are put in the order of its leaves.
-PackedSketch share_sketch(CompiledScene& scene, SharedParts& shared, const void* key, SketchParts& parts,
-                          SketchCenter center);
+PackedSketch share_sketch(Shapes& scene, SharedParts& shared, const void* key, SketchParts& parts, SketchCenter center);
 
 /// A size as a position in one of the tables. Throws Error (scene) beyond 32 bits.
 std::uint32_t position_of(std::size_t size);

@@ -135,7 +135,6 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
     for (int round = 0; round < 300; ++round) {
         const std::uint32_t solids = 1 + random.below(40);
         CompiledScene scene;
-        scene.solids.resize(solids);
         std::vector<FlatTree> trees(1 + random.below(8));
         for (FlatTree& tree : trees) {
             add_tree(tree, 1 + random.below(20), solids, random);
@@ -148,7 +147,7 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
         const std::uint32_t third = second + random.below(regions - second + 1);
         scene.rank_ends[RANK_SOLID] = scene.rank_ends[RANK_PLATE] = second;
         scene.rank_ends[RANK_VOLUME] = third;
-        list_terms(scene);
+        const std::vector<kernel::SolidRecord> records = list_terms(scene, solids);
         for (std::uint32_t s = 0; s < solids; ++s) {
             std::vector<bool> covered(solids);
             covered[s] = true;
@@ -162,7 +161,7 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
                     expected |= OVERLAP;
                 }
             }
-            const std::uint32_t alone = scene.solids[s].alone;
+            const std::uint32_t alone = records[s].alone;
             if (alone == ALONE_UNKNOWN) {
                 ++unknown;
                 continue;

@@ -1,4 +1,4 @@
-// Lights as the kernels read them.
+// Materials, lights and background as the kernels read them.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,9 @@ inline kernel::LightRecord light_at(const Vec3& position, const Vec3& color) {
             to_float(color.x), to_float(color.y), to_float(color.z), 0};
 }
 
-/// `light` has a colour that is shaded (CompiledScene::shaded).
-kernel::LightRecord light_record(const Light& light);
-
-/// The lights of the regions that shine, by BRL-CAD's rules, and in each such region its brightness. `boxes`:
-/// BRL-CAD's, one an instance. A region without a finite box gives none; a note says so.
-void add_region_lights(FlatScene& flat, const std::vector<Box>& boxes, CompiledScene& compiled);
+/// Of the scene and its regions, by BRL-CAD's rules for those that shine. `boxes`: BRL-CAD's, one an instance. A region
+/// that shines and has no finite box gives no light, of which `warnings` tell.
+Looks looks_of(const Scene& scene, const FlatScene& flat, const std::vector<Box>& boxes, bool display_shading,
+               std::vector<Warning>& warnings);
 
 }  // namespace csgrt

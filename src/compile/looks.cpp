@@ -1,0 +1,128 @@
+#include "compile/looks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "compile/bounds/bounds.hpp"
+#include "compile/linear.hpp"
+#include "scene/vector.hpp"
+
+namespace csgrt {
+
+namespace {
+
+constexpr double everywhere = 180;  // degrees from the beam's axis
+
+/// Intensities of 0 and less mean 1, as in BRL-CAD.
+double intensity_of(const Emission& light) { return light.intensity > 0 ? light.intensity : 1; }
+
+/// `light` has a colour that is shaded.
+kernel::LightRecord light_record(const Light& light) {
+    kernel::LightRecord record = light_at(light.position, light.intensity * light.color);
+    if (light.infinite) {
+        const Vec3 to_light = length(light.position) > 0 ? unit(light.position) : Vec3{0, 0, 1};
+        record.x = to_light.x;
+        record.y = to_light.y;
+        record.z = to_light.z;
+        record.w = 0;
+    }
+    if (light.angle < everywhere) {
+        const Vec3 axis = unit(light.direction);
+        record.bx = axis.x;
+        record.by = axis.y;
+        record.bz = axis.z;
+        record.cosine = std::cos(light.angle * std::numbers::pi / 180);
+        record.beam = 1;
+    }
+    return record;
+}
+
+kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, const Looks& looks) {
+    const Finish& f = info.finish;
+    const Vec3 color = looks.shaded(info.color);
+    const double ambient = looks.ambient;
+    const auto to_float = [](double x) { return static_cast<float>(x); };
+    kernel::MaterialRecord m{to_float(color.x),
+                             to_float(color.y),
+                             to_float(color.z),
+                             to_float(f.specular),
+                             to_float(f.diffuse),
+                             to_float(f.ambient),
+                             static_cast<std::uint32_t>(std::max(f.shine, 0)),
+                             0};
+    if (!f.light) return m;
+    // A body that shines has half of its colour everywhere, and the other half where it faces the eye, by which it
+    // looks round.
+    m.specular = m.diffuse = 0;
+    m.ambient = ambient > 0 ? to_float(0.5 * brightness / ambient) : 0;
+    m.glow = to_float((ambient > 0 ? 0.5 : 1) * brightness);
+    return m;
+}
+
+/// The lights of the regions that shine, by BRL-CAD's rules. Returns how bright each region is.
+std::vector<double> add_region_lights(const FlatScene& flat, const std::vector<Box>& boxes, Looks& looks,
+                                      std::vector<Warning>& warnings) {
+    double brightest = 0;
+    for (const FlatRegion& region : flat.regions) {
+        const auto& light = region.info.finish.light;
+        if (light && !(light->fraction > 0)) brightest = std::max(brightest, intensity_of(*light));
+    }
+    // BRL-CAD's: the brightest light and half of the ambient light together make white.
+    const double full = brightest * (1 + 0.5 * looks.ambient);
+    std::vector<double> brightness(flat.regions.size());
+    for (std::size_t i = 0; i < flat.regions.size(); ++i) {
+        const FlatRegion& region = flat.regions[i];
+        const auto& light = region.info.finish.light;
+        if (!light) continue;
+        brightness[i] = light->fraction > 0 ? light->fraction : intensity_of(*light) / full;
+        const Box box = tree_box(region.tree, boxes);
+        if (is_empty(box) || !is_finite(box)) {
+            Warning& warning = warnings.emplace_back();
+            warning.object = region.info.path;
+            warning.reason = "it gives no light: it has no end";
+            warning.appearance = true;
+            continue;
+        }
+        Light found;
+        found.position = 0.5 * (box.low + box.high);
+        found.color = looks.shaded(region.info.color);
+        found.intensity = brightness[i];
+        found.infinite = light->infinite;
+        found.angle = light->angle;
+        Vec3 axis{0, 0, -1};
+        if (light->direction) axis = *light->direction;
+        if (light->target) axis = *light->target - found.position;
+        // The first solid's, as in BRL-CAD, whatever was given.
+        found.direction =
+            narrow(transform_direction(*flat.instances[region.tree.nodes.front().solid].matrix, wide(axis)));
+        looks.lights.push_back(light_record(found));
+    }
+    return brightness;
+}
+
+}  // namespace
+
+Looks looks_of(const Scene& scene, const FlatScene& flat, const std::vector<Box>& boxes, bool display_shading,
+               std::vector<Warning>& warnings) {
+    Looks looks;
+    looks.display_shading = display_shading;
+    looks.ambient = scene.ambient;
+    const Vec3 background = looks.shaded(scene.background);
+    looks.background = {background.x, background.y, background.z};
+    for (Light light : scene.lights) {
+        light.color = looks.shaded(light.color);
+        looks.lights.push_back(light_record(light));
+    }
+    const std::vector<double> brightness = add_region_lights(flat, boxes, looks, warnings);
+    looks.materials.resize(flat.regions.size());
+    constexpr std::size_t many = 4096;
+    for_chunks(flat.regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i)
+            looks.materials[i] = material_of(flat.regions[i].info, brightness[i], looks);
+    });
+    return looks;
+}
+
+}  // namespace csgrt
