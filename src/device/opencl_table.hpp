@@ -16,7 +16,7 @@ namespace csgrt {
     F(CreateBuffer) F(ReleaseMemObject)                                                                               \
     F(CreateProgramWithSource) F(CreateProgramWithBinary) F(BuildProgram) F(ReleaseProgram) F(GetProgramInfo)         \
     F(GetProgramBuildInfo)                                                                                            \
-    F(CreateKernel) F(ReleaseKernel) F(GetKernelInfo) F(GetKernelWorkGroupInfo) F(SetKernelArg)                       \
+    F(CreateKernel) F(ReleaseKernel) F(GetKernelInfo) F(SetKernelArg)                                                 \
     F(EnqueueNDRangeKernel) F(EnqueueWriteBuffer) F(EnqueueReadBuffer) F(EnqueueReadBufferRect) F(EnqueueFillBuffer)  \
     F(EnqueueMapBuffer) F(EnqueueUnmapMemObject) F(EnqueueMarkerWithWaitList)                                         \
     F(WaitForEvents) F(ReleaseEvent) F(GetEventInfo) F(GetEventProfilingInfo)

@@ -31,14 +31,6 @@ bool rounds_single_correctly(const Device& device) {
     return config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
 }
 
-template <class T>
-T group_info(const Device& device, cl_kernel kernel, cl_kernel_work_group_info what) {
-    T value{};
-    check(device.cl().GetKernelWorkGroupInfo(kernel, device.id(), what, sizeof value, &value, nullptr),
-          "clGetKernelWorkGroupInfo");
-    return value;
-}
-
 /// All that a compiled program hangs on. Devices of one name may differ in their instructions, as processors of one
 /// maker do: how long their vectors are tells most of it, and a driver refuses what its device cannot run.
 std::string key_of(const Device& device, const std::string& source, const std::string& options) {
@@ -170,14 +162,6 @@ Event Kernel::queue(std::size_t items, std::size_t group) {
     Event queued(device_->cl(), event);
     device_->check_end();  // a native device has left items out
     return queued;
-}
-
-std::size_t Kernel::max_group() const {
-    return group_info<std::size_t>(*device_, kernel_.get(), CL_KERNEL_WORK_GROUP_SIZE);
-}
-
-std::uint64_t Kernel::private_bytes() const {
-    return group_info<cl_ulong>(*device_, kernel_.get(), CL_KERNEL_PRIVATE_MEM_SIZE);
 }
 
 }  // namespace csgrt

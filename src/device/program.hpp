@@ -35,8 +35,6 @@ public:
     }
 
     const std::string& name() const noexcept { return name_; }
-    std::size_t max_group() const;        ///< most work-items in a group
-    std::uint64_t private_bytes() const;  ///< of one work-item, as far as the device says
 
 private:
     friend class Program;

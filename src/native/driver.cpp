@@ -316,11 +316,6 @@ cl_int get_kernel_info(cl_kernel kernel, cl_kernel_info what, std::size_t room, 
     if (what != CL_KERNEL_NUM_ARGS) return CL_INVALID_VALUE;
     return answer(cl_uint{as<BuiltKernel>(kernel).compiled->argument_count}, room, out, needed);
 }
-cl_int get_group_info(cl_kernel, cl_device_id, cl_kernel_work_group_info what, std::size_t room, void* out,
-                      std::size_t* needed) {
-    if (what == CL_KERNEL_WORK_GROUP_SIZE) return answer(std::size_t{4096}, room, out, needed);
-    return what == CL_KERNEL_PRIVATE_MEM_SIZE ? answer(cl_ulong{0}, room, out, needed) : CL_INVALID_VALUE;
-}
 
 cl_int set_argument(cl_kernel kernel, cl_uint index, std::size_t bytes, const void* value) {
     BuiltKernel& k = as<BuiltKernel>(kernel);
@@ -417,7 +412,6 @@ const OpenCl& functions() {
                                .CreateKernel = create_kernel,
                                .ReleaseKernel = release_kernel,
                                .GetKernelInfo = get_kernel_info,
-                               .GetKernelWorkGroupInfo = get_group_info,
                                .SetKernelArg = set_argument,
                                .EnqueueNDRangeKernel = launch,
                                .EnqueueWriteBuffer = write,

@@ -100,9 +100,6 @@ inline std::vector<cl_int> codes_of(Call call) {
         case Call::GetKernelInfo:
             list({CL_INVALID_VALUE, CL_INVALID_KERNEL});
             break;
-        case Call::GetKernelWorkGroupInfo:
-            list({CL_INVALID_DEVICE, CL_INVALID_VALUE, CL_INVALID_KERNEL});
-            break;
         case Call::SetKernelArg:
             return {CL_INVALID_KERNEL,   CL_INVALID_ARG_INDEX, CL_INVALID_ARG_VALUE, CL_INVALID_MEM_OBJECT,
                     CL_INVALID_ARG_SIZE, CL_OUT_OF_RESOURCES,  CL_OUT_OF_HOST_MEMORY};
