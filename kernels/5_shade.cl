@@ -29,7 +29,7 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
         for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE;
              next = nodes[next].next) {
             const u32 region = nodes[next].owner;
-            tally.overlaps += region >> 31;
+            tally.overlaps += (region & OVERLAP) != 0;
             if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > t_min) seen = next;
         }
     }
