@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "base/letters.hpp"
+#include "device/choice.hpp"
+#include "device/discovery.hpp"
 
 namespace csgrt {
 
@@ -92,6 +94,12 @@ std::string assemble_program(const std::vector<std::string>& names) {
     Assembly assembly;
     for (const std::string& name : names) assembly.add(name, "the host");
     return assembly.take();
+}
+
+std::string program_source(const DeviceInfo& device, const Settings& settings, const char* native_name,
+                           const std::vector<std::string>& files) {
+    if (!is_native(device)) return assemble_program(files);
+    return kernels_for(settings) == Kernels::any ? native_name : "";
 }
 
 }  // namespace csgrt

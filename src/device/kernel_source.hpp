@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <csgrt/renderer.hpp>
+
 namespace csgrt {
 
 struct KernelFile {
@@ -19,5 +21,10 @@ const std::vector<KernelFile>& kernel_files();
 /// marks make a compiler name the true file and line. Throws std::logic_error if there is no such file: that is a fault
 /// of the library, not of its user.
 std::string assemble_program(const std::vector<std::string>& names);
+
+/// What a Program of the device is made of: the text of the named files, or for a native device, whose programs are of
+/// the default method, the name of one that was compiled ahead. That is empty for another method.
+std::string program_source(const DeviceInfo& device, const Settings& settings, const char* native_name,
+                           const std::vector<std::string>& files);
 
 }  // namespace csgrt

@@ -10,7 +10,6 @@
 #include "device/program.hpp"
 #include "kernel_host/kernels.hpp"
 #include "integration/same_answers.hpp"
-#include "pipeline/passes/program_options.hpp"
 
 using namespace csgrt;
 
@@ -75,7 +74,7 @@ TEST_CASE("the native device has the kernels of the default method and says so o
     others[2].precision = Precision::single_world;
     others[3].quartic = Quartic::ferrari;
     for (const Settings& other : others)
-        CHECK_THROWS_WITH(Program(device, program_source(device, other, "partitions", {})),
+        CHECK_THROWS_WITH(Program(device, program_source(device.info(), other, "partitions", {})),
                           ContainsSubstring("the kernels that were compiled with csgrt, no others"));
     const Program program(device, "partitions");
     CHECK_THROWS_WITH(program.kernel("list_tiles"), ContainsSubstring("clCreateKernel (list_tiles)"));

@@ -23,7 +23,7 @@ FirstHitPass::FirstHitPass(Device& device, const CompiledScene& scene, const Set
       rays_an_item_(traces_packets(device, settings) ? packet_rays : 1),
       program_(device,
                program_source(
-                   device, settings, prefetches(device, scene, settings) ? "first_hits_prefetch" : "first_hits",
+                   device.info(), settings, prefetches(device, scene, settings) ? "first_hits_prefetch" : "first_hits",
                    {CullPass::file, rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h",
                     "first_hits.cl"}),
                options_of(device, scene, settings), settings.precision != Precision::double_),

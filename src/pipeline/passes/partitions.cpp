@@ -37,7 +37,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       kernels_(kernels),
       other_evaluation_(other),
       program_(device,
-               program_source(device, settings, "partitions",
+               program_source(device.info(), settings, "partitions",
                               files_of(traces_packets(device, settings), has_flat_faced(scene))) +
                    (other ? other->source : ""),
                options_for(device, scene, settings, other != nullptr), settings.precision != Precision::double_),

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 
-#include "device/choice.hpp"
-#include "device/discovery.hpp"
-#include "device/kernel_source.hpp"
-
 namespace csgrt {
 namespace {
 
@@ -24,12 +20,6 @@ std::size_t divergent_group(const Device& device) { return device.info().type ==
 
 bool traces_packets(const Device& device, const Settings& settings) {
     return device.info().type == "cpu" && settings.precision == Precision::double_;
-}
-
-std::string program_source(const Device& device, const Settings& settings, const char* native_name,
-                           const std::vector<std::string>& files) {
-    if (!is_native(device.info())) return assemble_program(files);
-    return kernels_for(settings) == Kernels::any ? native_name : "";
 }
 
 std::vector<std::string> program_options(const Device& device, const CompiledScene& scene, const Settings& settings) {

@@ -20,10 +20,6 @@ std::size_t divergent_group(const Device& device);
 bool traces_packets(const Device& device, const Settings& settings);
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet/packet.h
 
-/// What a program is made of: the text of these files, or of a native device, whose programs are of the default method,
-/// the program's name.
-std::string program_source(const Device& device, const Settings& settings, const char* native_name,
-                           const std::vector<std::string>& files);
 /// The options (-D) that a program for this scene is compiled with.
 std::vector<std::string> program_options(const Device& device, const CompiledScene& scene, const Settings& settings);
 
