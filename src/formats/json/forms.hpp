@@ -1,32 +1,45 @@
-// Which keys the objects of a scene file may have. The reader refuses all others, and a test holds the schema
-// (scenes/csgrt.schema.json, one definition a form, under the form's name) against this table.
+// The forms that a solid may have in a scene file: its own, and the friendlier ones that become it.
 #pragma once
 
-#include <string_view>
-#include <vector>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "formats/json/friendly_solids.hpp"
+#include "scene/shape_forms.hpp"
 
 namespace csgrt {
 
-struct JsonKey {
-    std::string_view name;
-    bool required = false;
+/// The structs whose forms become a shape S, the most particular first: the writer takes the first that fits.
+template <class S>
+struct JsonFormsOf {
+    using Types = std::tuple<S>;
+};
+template <>
+struct JsonFormsOf<Ell> {
+    using Types = std::tuple<Sphere, Ell>;
+};
+template <>
+struct JsonFormsOf<Tgc> {
+    using Types = std::tuple<Cylinder, Cone, Tgc>;
+};
+template <>
+struct JsonFormsOf<Arb> {
+    using Types = std::tuple<UprightBox, Arb4, Arb5, Arb6, Arb7, Arb>;
 };
 
-/// One kind of JSON object.
-struct JsonForm {
-    std::string_view name;
-    std::vector<JsonKey> keys;
+template <class Shape>
+struct JsonFormsOfAll;
+template <class... S>
+struct JsonFormsOfAll<std::variant<S...>> {
+    using Types = decltype(std::tuple_cat(std::declval<typename JsonFormsOf<S>::Types>()...));
 };
 
-/// The form of that name; it must exist.
-const JsonForm& json_form(std::string_view name);
-
-const std::vector<JsonForm>& json_forms();
-
-/// The forms whose name is also the value of a solid's "type".
-const std::vector<std::string_view>& json_solid_types();
-
-/// What "units" may say.
-const std::vector<std::string_view>& json_units();
+/// Calls `each` with a pointer, which is null, to every struct that has a form of a solid.
+template <class Each>
+void for_json_solids(Each each) {
+    const auto call = [&]<class... S>(const std::tuple<S...>*) { (each(static_cast<const S*>(nullptr)), ...); };
+    call(static_cast<const JsonFormsOfAll<Shape::variant>::Types*>(nullptr));
+}
 
 }  // namespace csgrt

@@ -55,14 +55,33 @@ Arb arb(const std::vector<Vec3>& vertices) {
     return solid;
 }
 
-std::vector<Vec3> arb_vertices(const Arb& solid) {
-    for (std::size_t count = 4; count < 8; ++count) {
-        std::vector<Vec3> vertices(count);
-        const auto& order = arb_orders[count - 4];
-        for (std::size_t i = 8; i-- > 0;) vertices[order[i]] = solid.vertices[i];
-        if (same_bits(arb(vertices), solid)) return vertices;
-    }
-    return {solid.vertices.begin(), solid.vertices.end()};
+bool simplify(const Ell& solid, Sphere& friendly) {
+    friendly = {solid.v, solid.a.x};
+    return friendly.radius > 0 && same_bits(model_of(friendly), solid);
+}
+
+bool simplify(const Tgc& solid, Cone& friendly) {
+    friendly = {solid.v, solid.h, length(solid.a), length(solid.c)};
+    return length(solid.h) > 0 && (friendly.radius > 0 || friendly.top_radius > 0) &&
+           same_bits(model_of(friendly), solid);
+}
+
+bool simplify(const Tgc& solid, Cylinder& friendly) {
+    Cone as_cone;
+    if (!simplify(solid, as_cone)) return false;
+    friendly = {solid.v, solid.h, as_cone.radius};
+    return as_cone.radius == as_cone.top_radius;
+}
+
+bool simplify(const Arb& solid, UprightBox& friendly) {
+    friendly = {solid.vertices[4], solid.vertices[2]};
+    const auto& [low, high] = friendly;
+    return low.x < high.x && low.y < high.y && low.z < high.z && same_bits(model_of(friendly), solid);
+}
+
+bool simplify(const Arb& solid, std::span<Vec3> vertices) {
+    for (std::size_t i = 8; i-- > 0;) vertices[arb_orders[vertices.size() - 4][i]] = solid.vertices[i];
+    return same_bits(arb({vertices.begin(), vertices.end()}), solid);
 }
 
 }  // namespace csgrt

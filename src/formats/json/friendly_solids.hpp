@@ -1,11 +1,15 @@
-// Solids by the numbers that a person knows, as the model's general solids. The reader builds them, and the writer
-// uses one where it rebuilds the very bits.
+// Solids by the numbers that a person knows. JSON's reader makes the model's solids of them, and its writer uses one
+// where it rebuilds the very bits.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <csgrt/scene.hpp>
+
+#include "scene/form.hpp"
 
 namespace csgrt {
 
@@ -24,7 +28,95 @@ Arb box(const Vec3& low, const Vec3& high);
 ///   arb5: a pyramid: a face 0 1 2 3, and the apex 4;   arb4: a face 0 1 2, and the apex 3
 Arb arb(const std::vector<Vec3>& vertices);
 
-/// The vertices from which `arb` builds this one, as few as possible.
-std::vector<Vec3> arb_vertices(const Arb& solid);
+struct Sphere {
+    Vec3 center = {};
+    double radius = 0;
+};
+struct Cylinder {
+    Vec3 base = {}, height = {};
+    double radius = 0;
+};
+struct Cone {
+    Vec3 base = {}, height = {};
+    double radius = 0, top_radius = 0;
+};
+struct UprightBox {
+    Vec3 low = {}, high = {};
+};
+template <std::size_t count>
+struct ArbOf {
+    std::array<Vec3, count> vertices = {};
+};
+using Arb4 = ArbOf<4>;
+using Arb5 = ArbOf<5>;
+using Arb6 = ArbOf<6>;
+using Arb7 = ArbOf<7>;
+
+/// The model's solid.
+template <class S>
+S model_of(S solid) {
+    return solid;
+}
+inline Ell model_of(const Sphere& s) { return sphere(s.center, s.radius); }
+inline Tgc model_of(const Cylinder& s) { return cone(s.base, s.height, s.radius, s.radius); }
+inline Tgc model_of(const Cone& s) { return cone(s.base, s.height, s.radius, s.top_radius); }
+inline Arb model_of(const UprightBox& s) { return box(s.low, s.high); }
+template <std::size_t count>
+Arb model_of(const ArbOf<count>& s) {
+    return arb({s.vertices.begin(), s.vertices.end()});
+}
+
+/// Makes the friendly solid that becomes this very one. False: there is none.
+bool simplify(const Ell& solid, Sphere& friendly);
+bool simplify(const Tgc& solid, Cone& friendly);
+bool simplify(const Tgc& solid, Cylinder& friendly);
+bool simplify(const Arb& solid, UprightBox& friendly);
+bool simplify(const Arb& solid, std::span<Vec3> vertices);
+template <std::size_t count>
+bool simplify(const Arb& solid, ArbOf<count>& friendly) {
+    return simplify(solid, std::span<Vec3>(friendly.vertices));
+}
+
+namespace form {
+
+template <>
+inline constexpr auto of<Sphere> = Form{
+    friendly("sphere"),
+    required("center", &Sphere::center, lengths),
+    required("radius", &Sphere::radius, length, positive()),
+};
+template <>
+inline constexpr auto of<Cylinder> = Form{
+    friendly("cylinder"),
+    required("base", &Cylinder::base, lengths),
+    required("height", &Cylinder::height, lengths, nonzero(), "From the middle of the base to that of the top."),
+    required("radius", &Cylinder::radius, length, positive()),
+};
+template <>
+inline constexpr auto of<Cone> = Form{
+    friendly("cone"),
+    required("base", &Cone::base, lengths),
+    required("height", &Cone::height, lengths, nonzero()),
+    required("radius", &Cone::radius, length, not_negative(), "Of the base. Not both may be 0."),
+    filled("top_radius", &Cone::top_radius, length, not_negative()),
+};
+template <>
+inline constexpr auto of<UprightBox> = Form{
+    friendly("box"),
+    required("low", &UprightBox::low, lengths),
+    required("high", &UprightBox::high, lengths),
+};
+
+constexpr Head arb_heads[] = {friendly("arb4"), friendly("arb5"), friendly("arb6"), friendly("arb7")};
+constexpr const char* arb_helps[] = {"A triangle, and the apex.", "A quadrilateral, and the apex.",
+                                     "A quadrilateral 0 1 2 3, and the edge above it: 4 over 0 and 1, 5 over 2 and 3.",
+                                     "As arb8; vertex 7 is vertex 4."};
+template <std::size_t count>
+inline constexpr auto of<ArbOf<count>> = Form{
+    arb_heads[count - 4],
+    required("vertices", &ArbOf<count>::vertices, Corners{count}, arb_helps[count - 4]),
+};
+
+}  // namespace form
 
 }  // namespace csgrt

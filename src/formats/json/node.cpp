@@ -48,18 +48,6 @@ double JsonNode::number(double otherwise) const {
     return data == nullptr ? otherwise : *data;
 }
 
-double JsonNode::not_negative(double otherwise) const {
-    const double value = number(otherwise);
-    if (value < 0) fault("must be 0 or more");
-    return value;
-}
-
-double JsonNode::positive() const {
-    const double value = number(1);
-    if (!(value > 0)) fault("must be greater than 0");
-    return value;
-}
-
 int JsonNode::integer(int low, int high, int otherwise) const {
     const double value = number(otherwise);
     if (!present()) return otherwise;
@@ -171,10 +159,10 @@ std::vector<JsonNode::Member> JsonNode::members() const {
     return nodes;
 }
 
-JsonObject::JsonObject(const JsonNode& node, const JsonForm& form) : node_(node) {
+JsonObject::JsonObject(const JsonNode& node, std::span<const JsonKey> keys) : node_(node) {
     if (!node.present()) return;
     std::vector<std::string_view> known;
-    for (const JsonKey& key : form.keys) known.push_back(key.name);
+    for (const JsonKey& key : keys) known.push_back(key.name);
     std::string suggested;  // a key that is missing because it is misspelt is reported once
     for (const JsonNode::Member& member : node.members()) {
         if (std::find(known.begin(), known.end(), member.name) != known.end()) continue;
@@ -187,7 +175,7 @@ JsonObject::JsonObject(const JsonNode& node, const JsonForm& form) : node_(node)
         member.fault("unknown key '" + member.name + "'", suggestion);
     }
     if (!node.is_object()) return;
-    for (const JsonKey& key : form.keys) {
+    for (const JsonKey& key : keys) {
         const bool misspelt = suggested.find("'" + std::string(key.name) + "'") != std::string::npos;
         if (key.required && !has(key.name) && !misspelt)
             node.fault("the key '" + std::string(key.name) + "' is missing");

@@ -10,7 +10,6 @@
 
 #include <csgrt/scene.hpp>
 
-#include "formats/json/forms.hpp"
 #include "formats/json/value.hpp"
 
 namespace csgrt {
@@ -40,12 +39,11 @@ public:
     bool is_string() const { return holds<std::string>(); }
     bool is_array() const { return holds<JsonArray>(); }
     bool is_object() const { return holds<JsonMembers>(); }
+    bool is_number() const { return holds<double>(); }
     bool is_vector() const;  ///< three numbers
 
     bool boolean(bool otherwise = false) const;
     double number(double otherwise = 0) const;
-    double not_negative(double otherwise) const;
-    double positive() const;
     int integer(int low, int high, int otherwise) const;
     std::uint32_t count(std::uint32_t otherwise = 0) const;  ///< a whole number from 0 to 2^32 - 1
     std::string string() const;
@@ -56,7 +54,6 @@ public:
     Vec3 color() const;   ///< three numbers from 0 to 1
     /// The same in millimetres.
     double length() const { return file_->unit * number(); }
-    double positive_length() const { return file_->unit * positive(); }
     Vec3 lengths() const;
     /// A vector of any length but 0, made a unit vector; one that is a unit vector already keeps its bits.
     Vec3 direction() const;
@@ -90,10 +87,15 @@ struct JsonNode::Member {
     std::size_t offset = 0;
 };
 
-/// An object of a given form. Making one reports keys that the form does not have, and required ones that are missing.
+struct JsonKey {
+    std::string_view name;
+    bool required = false;
+};
+
+/// An object of given keys. Making one reports keys that are none of them, and required ones that are missing.
 class JsonObject {
 public:
-    JsonObject(const JsonNode& node, const JsonForm& form);
+    JsonObject(const JsonNode& node, std::span<const JsonKey> keys);
 
     bool has(std::string_view key) const;
     JsonNode operator[](std::string_view key) const;

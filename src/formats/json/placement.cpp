@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "formats/json/read_form.hpp"
+#include "formats/json/scene_forms.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
@@ -33,13 +35,6 @@ Matrix rotation(const Vec3& axis, double degrees) {
     const Vec3 y{both(u.x, u.y) - s * u.z, own(u.y), both(u.y, u.z) + s * u.x};
     const Vec3 z{both(u.x, u.z) + s * u.y, both(u.y, u.z) - s * u.x, own(u.z)};
     return {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0, 0, 0, 0, 1};
-}
-
-Matrix read_rotation(const JsonNode& node) {
-    const JsonObject o(node, json_form("rotation"));
-    const Vec3 axis = o["axis"].vector();
-    if (o["axis"].is_vector() && length(axis) == 0) o["axis"].fault("must not be of length 0");
-    return rotation(axis, o["angle"].number());
 }
 
 Matrix read_scale(const JsonNode& node) {
@@ -82,7 +77,10 @@ std::optional<Matrix> read_json_placement(const JsonObject& node) {
     if (!scale.present() && !rotate.present() && !translate.present()) return std::nullopt;
     Matrix m = identity;
     if (scale.present()) m = read_scale(scale);
-    if (rotate.present()) m = compose(read_rotation(rotate), m);
+    if (rotate.present()) {
+        const auto [axis, degrees] = read_form<Rotation>(rotate);
+        m = compose(rotation(axis, degrees), m);
+    }
     const Vec3 by = translate.lengths();
     if (translate.present()) {
         m[3] = by.x;

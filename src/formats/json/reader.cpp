@@ -1,13 +1,12 @@
 #include "formats/json/reader.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "formats/brlcad/values.hpp"
-#include "formats/json/names.hpp"
-#include "formats/json/node.hpp"
+#include "formats/json/read_form.hpp"
+#include "formats/json/scene_forms.hpp"
 #include "formats/json/solids.hpp"
 #include "formats/json/tree.hpp"
 #include "scene/nearest.hpp"
@@ -17,64 +16,27 @@ namespace csgrt {
 
 namespace {
 
-constexpr int int_min = std::numeric_limits<int>::min(), int_max = std::numeric_limits<int>::max();
-
 struct Material {
     std::optional<Vec3> color;
     std::optional<Finish> finish;
 };
 
-/// From 0, along the axis, to 180 degrees, everywhere.
-double read_beam(const JsonNode& node) {
-    const double angle = node.not_negative(180);
-    if (angle > 180) node.fault("must be an angle from 0 to 180 degrees, between the beam's axis and its edge");
-    return angle;
-}
-
-/// A vector of any length but 0, as it stands.
-Vec3 read_axis(const JsonNode& node) {
-    const Vec3 axis = node.vector();
-    if (node.is_vector() && axis == Vec3{}) node.fault("has no direction: all its numbers are 0");
-    return axis;
-}
-
-Emission read_emission(const JsonNode& node) {
-    Emission light;
-    if (!node.present()) return light;
-    const JsonObject o(node, json_form("emission"));
-    if (o.has("intensity")) light.intensity = o["intensity"].positive();
-    light.fraction = o["fraction"].not_negative(light.fraction);
-    light.angle = read_beam(o["angle"]);
-    if (o.has("target")) light.target = o["target"].lengths();
-    if (o.has("direction")) light.direction = read_axis(o["direction"]);
-    light.infinite = o["infinite"].boolean(light.infinite);
-    light.visible = o["visible"].boolean(light.visible);
-    light.shadows = o["shadows"].integer(0, int_max, light.shadows);
-    return light;
-}
-
 /// A finish is there as soon as one of its keys is; the others keep their defaults.
 Material read_material(const JsonNode& node) {
-    const JsonObject o(node, json_form("material"));
+    const JsonObject o = json_object(node, form::of<Finish>);
     Material material;
     if (o.has("color")) material.color = o["color"].color();
     Finish finish;
     if (o.has("light")) finish.shader = "light";
-    if (o.has("shader")) finish.shader = o["shader"].string();
+    read_members(o, form::of<Finish>, finish);
     if (finish.shader == "light") {
-        finish.light = read_emission(o["light"]);
+        finish.light = o.has("light") ? read_form<Emission>(o["light"]) : Emission();
     } else if (o.has("light")) {
         o["light"].fault("has a meaning only with the shader \"light\"");
     }
-    finish.specular = o["specular"].not_negative(finish.specular);
-    finish.diffuse = o["diffuse"].not_negative(finish.diffuse);
-    finish.ambient = o["ambient"].not_negative(finish.ambient);
-    finish.shine = o["shine"].integer(0, Limits::shine, finish.shine);
-    finish.transmit = o["transmit"].not_negative(finish.transmit);
-    finish.reflect = o["reflect"].not_negative(finish.reflect);
-    for (const char* key : {"shader", "specular", "diffuse", "ambient", "shine", "transmit", "reflect", "light"}) {
-        if (o.has(key)) material.finish = finish;
-    }
+    form::for_members(form::of<Finish>, [&](const auto& member) {
+        if (member.key != "color" && o.has(member.key)) material.finish = finish;
+    });
     return material;
 }
 
@@ -84,7 +46,7 @@ public:
 
     Scene read(const JsonValue& value) {
         const JsonNode root(file_, &value, "");
-        const JsonObject o(root, json_form("scene"));
+        const JsonObject o = json_object(root, form::of<Scene>);
         if (!root.is_object()) return {};
         if (const JsonNode version = o["csgrt"]; version.present()) {
             if (const double number = version.number(json_format_version); number != json_format_version) {
@@ -121,7 +83,7 @@ private:
     void read_units(const JsonObject& o) {
         if (const JsonNode units = o["units"]; units.present()) {
             const std::string name = units.string();
-            const auto& known = json_units();
+            const auto& known = form::units.words;
             if (std::find(known.begin(), known.end(), name) != known.end()) {
                 scene_.units = name;
                 scene_.unit_length = file_.unit = unit_in_millimetres(name);
@@ -132,46 +94,21 @@ private:
             }
         }
         if (const JsonNode model = o["model_units"]; model.present()) {
-            const JsonObject units(model, json_form("model_units"));
-            scene_.units = units["name"].string();
-            scene_.unit_length = units["millimetres"].positive();
+            read_members(json_object(model, form::model_units), form::model_units, scene_);
         }
     }
 
     void read_settings(const JsonObject& o) {
         if (o.has("title")) scene_.title = o["title"].string();
-        scene_.ambient = o["ambient"].not_negative(scene_.ambient);
-        if (o.has("background")) scene_.background = o["background"].color();
-        if (o.has("tolerance")) scene_.tolerance = file_.unit * o["tolerance"].not_negative(0);
-        for (const JsonNode& item : items_of(o["lights"])) {
-            const JsonObject light(item, json_form("light"));
-            Light& read = scene_.lights.emplace_back();
-            read.position = light["position"].present() ? light["position"].lengths() : Vec3{};
-            if (light.has("color")) read.color = light["color"].color();
-            read.intensity = light["intensity"].not_negative(read.intensity);
-            read.infinite = light["infinite"].boolean(read.infinite);
-            read.angle = read_beam(light["angle"]);
-            if (light.has("direction")) read.direction = read_axis(light["direction"]);
-        }
-        for (const JsonNode& item : items_of(o["region_colors"])) {
-            const JsonObject range(item, json_form("region_color"));
-            scene_.region_colors.push_back({range["low"].integer(int_min, int_max, 0),
-                                            range["high"].integer(int_min, int_max, 0), range["color"].color()});
-        }
-        if (o.has("camera")) read_camera(JsonObject(o["camera"], json_form("camera")));
+        read_members(o, form::of<Scene>, scene_);
+        if (!o.has("camera")) return;
+        const JsonObject camera = json_object(o["camera"], form::of<Camera>);
+        read_members(camera, form::of<Camera>, scene_.camera);
+        check_camera(camera);
     }
 
-    void read_camera(const JsonObject& o) {
-        Camera& camera = scene_.camera;
-        camera.azimuth = o["azimuth"].number(camera.azimuth);
-        camera.elevation = o["elevation"].number(camera.elevation);
-        camera.perspective = o["perspective"].not_negative(camera.perspective);
-        if (camera.perspective >= 180) o["perspective"].fault("must be 0 (parallel), or an angle below 180 degrees");
-        if (o.has("center")) camera.center = o["center"].lengths();
-        if (o.has("size")) camera.view_size = o["size"].positive_length();
-        if (o.has("eye")) camera.eye = o["eye"].lengths();
-        if (o.has("look_at")) camera.look_at = o["look_at"].lengths();
-        if (o.has("up")) camera.up = read_axis(o["up"]);
+    void check_camera(const JsonObject& o) {
+        const Camera& camera = scene_.camera;
         if (camera.eye) {
             for (const char* key : {"azimuth", "elevation"})
                 if (o.has(key)) o[key].fault("cannot stand beside \"eye\", which gives the direction");
@@ -212,18 +149,12 @@ private:
     }
 
     Combination read_combination(const JsonNode::Member& member) {
-        const JsonObject o(member.value, json_form("combination"));
+        const JsonObject o = json_object(member.value, form::of<Combination>);
         Combination c;
         c.name = member.name;
         c.place = member.place;
         c.tree = read_json_tree(o["tree"]);
-        c.region = o["region"].boolean(c.region);
-        c.region_id = o["id"].integer(int_min, int_max, c.region_id);
-        c.air = o["air"].integer(int_min, int_max, c.air);
-        constexpr Fastgen kinds[] = {Fastgen::plate, Fastgen::volume, Fastgen::none};
-        c.fastgen = kinds[o["fastgen"].choice(json_fastgen_kinds, 2)];
-        c.material_id = o["material_id"].integer(int_min, int_max, c.material_id);
-        c.los = o["los"].integer(int_min, int_max, c.los);
+        read_members(o, form::of<Combination>, c);
         if (const JsonNode material = o["material"]; material.present()) {
             Material read = find_material(material);
             c.color = read.color;

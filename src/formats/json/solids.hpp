@@ -11,4 +11,7 @@ namespace csgrt {
 /// the general ones enclose anything is for `validate` to say, since other readers and programs make them too.
 Shape read_json_solid(const JsonNode& node);
 
+/// What "type" may say.
+std::vector<std::string_view> json_solid_types();
+
 }  // namespace csgrt

@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "formats/json/placement.hpp"
+#include "formats/json/read_form.hpp"
+#include "formats/json/scene_forms.hpp"
 #include "scene/nearest.hpp"
 #include "scene/operators.hpp"
 #include "scene/vector.hpp"
@@ -52,7 +54,7 @@ public:
             node.fault("'postfix' may stand for a whole tree only");
             return;
         }
-        const JsonObject o(node, json_form(kind == "object" ? "leaf" : kind));
+        const JsonObject o = json_object(node, form::node(kind, kind, form::nothing));
         std::optional<Matrix> matrix = read_json_placement(o);
         if (matrix && outer != nullptr) matrix = compose(*outer, *matrix);
         const Matrix* placed = matrix ? &*matrix : outer;
@@ -64,7 +66,7 @@ public:
     }
 
     void read_postfix(const JsonNode& node) {
-        const JsonObject whole(node, json_form("postfix"));
+        const JsonObject whole = json_object(node, form::postfix);
         std::size_t waiting = 0;
         for (const JsonNode& item : whole["postfix"].items()) {
             if (item.is_object() && find_member(std::get<JsonMembers>(item.value()->data), "operator") != nullptr) {
@@ -127,7 +129,7 @@ private:
 
     /// Takes its operands from those that wait. False: what follows would make no sense.
     bool read_postfix_operator(const JsonNode& item, std::size_t& waiting) {
-        const JsonObject o(item, json_form("postfix_operator"));
+        const JsonObject o = json_object(item, form::postfix_operator);
         const std::string name = o["operator"].string();
         const Operator op = operator_called(name);
         const int arity = o["operands"].integer(1, std::numeric_limits<int>::max(), 1);

@@ -1,8 +1,7 @@
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
-#include "formats/json/unit.hpp"
+#include "formats/json/scene_forms.hpp"
+#include "formats/json/write_form.hpp"
 #include "formats/json/write_object.hpp"
 #include "scene/operators.hpp"
 #include "scene/vector.hpp"
@@ -11,8 +10,6 @@ namespace csgrt {
 
 namespace {
 
-// A value that becomes an object or an array by an access, as written[key] of a null does, is left broken where memory
-// ends: so they are made as what they are.
 using nlohmann::ordered_json;
 
 /// Operators inside operators up to this are written nested, each of them two brackets; the reader allows
@@ -92,38 +89,13 @@ ordered_json json_of(const Tree& tree, JsonUnit& unit, std::string& fault) {
     return *depth > deepest_nested ? json_of_postfix(tree, unit) : json_of_nested(tree, unit);
 }
 
-ordered_json json_of_emission(const Emission& light, JsonUnit& unit) {
-    ordered_json out = ordered_json::object();
-    const Emission usual;
-    if (!same_bits(light.intensity, usual.intensity)) out["intensity"] = unit.number(light.intensity);
-    if (!same_bits(light.fraction, usual.fraction)) out["fraction"] = unit.number(light.fraction);
-    if (!same_bits(light.angle, usual.angle)) out["angle"] = unit.number(light.angle);
-    if (light.target) out["target"] = unit.lengths(*light.target);
-    if (light.direction) out["direction"] = unit.vector(*light.direction);
-    if (light.infinite) out["infinite"] = true;
-    if (!light.visible) out["visible"] = false;
-    if (light.shadows != usual.shadows) out["shadows"] = light.shadows;
-    return out;
-}
-
 /// The shader is always written, so that the finish is there again when all else is at its default.
 ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
     ordered_json material = ordered_json::object();
     if (combination.color) material["color"] = unit.vector(*combination.color);
     if (combination.finish) {
-        const Finish& finish = *combination.finish;
-        const Finish usual;
-        material["shader"] = finish.shader;
-        const auto add = [&](const char* key, double value, double otherwise) {
-            if (!same_bits(value, otherwise)) material[key] = unit.number(value);
-        };
-        add("specular", finish.specular, usual.specular);
-        add("diffuse", finish.diffuse, usual.diffuse);
-        add("ambient", finish.ambient, usual.ambient);
-        if (finish.shine != usual.shine) material["shine"] = finish.shine;
-        add("transmit", finish.transmit, usual.transmit);
-        add("reflect", finish.reflect, usual.reflect);
-        if (finish.light) material["light"] = json_of_emission(*finish.light, unit);
+        write_members(material, form::of<Finish>, *combination.finish, unit);
+        if (combination.finish->light) material["light"] = write_form(*combination.finish->light, unit);
     }
     return material;
 }
@@ -131,19 +103,9 @@ ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
 }  // namespace
 
 ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault) {
-    const Combination usual;
     ordered_json out = ordered_json::object();
     out["tree"] = json_of(combination.tree, unit, fault);
-    if (combination.region) out["region"] = true;
-    const auto add = [&](const char* key, int value, int otherwise) {
-        if (value != otherwise) out[key] = value;
-    };
-    add("id", combination.region_id, usual.region_id);
-    add("air", combination.air, usual.air);
-    if (combination.fastgen != Fastgen::none)
-        out["fastgen"] = combination.fastgen == Fastgen::plate ? "plate" : "volume";
-    add("material_id", combination.material_id, usual.material_id);
-    add("los", combination.los, usual.los);
+    write_members(out, form::of<Combination>, combination, unit);
     if (combination.color || combination.finish) out["material"] = json_of_material(combination, unit);
     ordered_json inherit = ordered_json::array();
     if (combination.color_inherits) inherit.push_back("color");

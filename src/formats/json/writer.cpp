@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/brlcad/values.hpp"
-#include "formats/json/forms.hpp"
 #include "formats/json/reader.hpp"
+#include "formats/json/scene_forms.hpp"
 #include "formats/json/text.hpp"
-#include "formats/json/unit.hpp"
+#include "formats/json/write_form.hpp"
 #include "formats/json/write_object.hpp"
 #include "scene/vector.hpp"
 
@@ -64,7 +64,6 @@ private:
     }
 
     ordered_json json_of_settings() {
-        const Scene usual;
         ordered_json out = {{"csgrt", json_format_version}};
         if (!scene_.title.empty()) out["title"] = scene_.title;
         out["units"] = unit_name_;
@@ -72,43 +71,16 @@ private:
             out["model_units"] = {{"name", scene_.units}, {"millimetres", unit_.number(scene_.unit_length)}};
         }
         if (ordered_json camera = json_of_camera(); !camera.empty()) out["camera"] = std::move(camera);
-        if (!scene_.lights.empty()) out["lights"] = ordered_json::array();
-        for (const Light& light : scene_.lights) {
-            ordered_json& written =
-                out["lights"].emplace_back(ordered_json{{"position", unit_.lengths(light.position)},
-                                                        {"color", unit_.vector(light.color)},
-                                                        {"intensity", unit_.number(light.intensity)}});
-            const Light plain;
-            if (light.infinite) written["infinite"] = true;
-            if (!same_bits(light.angle, plain.angle)) written["angle"] = unit_.number(light.angle);
-            if (!same_bits(light.direction, plain.direction)) written["direction"] = unit_.vector(light.direction);
-        }
-        if (!same_bits(scene_.ambient, usual.ambient)) out["ambient"] = unit_.number(scene_.ambient);
-        if (!same_bits(scene_.background, usual.background)) out["background"] = unit_.vector(scene_.background);
-        if (!same_bits(scene_.tolerance, usual.tolerance)) out["tolerance"] = unit_.length(scene_.tolerance);
-        if (!scene_.region_colors.empty()) out["region_colors"] = ordered_json::array();
-        for (const RegionColor& range : scene_.region_colors) {
-            out["region_colors"].push_back(
-                {{"low", range.low}, {"high", range.high}, {"color", unit_.vector(range.color)}});
-        }
+        write_members(out, form::of<Scene>, scene_, unit_);
         check({}, "the scene", out);
         check({}, "the list of objects", scene_.top);
         return out;
     }
 
     ordered_json json_of_camera() {
-        const Camera &camera = scene_.camera, usual;
-        ordered_json out = ordered_json::object();
-        if (!camera.eye && !same_bits(camera.azimuth, usual.azimuth)) out["azimuth"] = unit_.number(camera.azimuth);
-        if (!camera.eye && !same_bits(camera.elevation, usual.elevation))
-            out["elevation"] = unit_.number(camera.elevation);
-        if (!same_bits(camera.perspective, usual.perspective)) out["perspective"] = unit_.number(camera.perspective);
-        if (camera.center) out["center"] = unit_.lengths(*camera.center);
-        if (camera.view_size) out["size"] = unit_.length(*camera.view_size);
-        if (camera.eye) out["eye"] = unit_.lengths(*camera.eye);
-        if (camera.look_at) out["look_at"] = unit_.lengths(*camera.look_at);
-        if (camera.up) out["up"] = unit_.vector(*camera.up);
-        return out;
+        Camera camera = scene_.camera;
+        if (camera.eye) camera.azimuth = Camera().azimuth, camera.elevation = Camera().elevation;
+        return write_form(camera, unit_);
     }
 
     template <class Kind>
@@ -172,7 +144,7 @@ private:
 }  // namespace
 
 std::string json_scene_text(const Scene& scene) {
-    const auto& units = json_units();
+    const auto& units = form::units.words;
     if (scene.units != "mm" && std::find(units.begin(), units.end(), scene.units) != units.end() &&
         scene.unit_length == unit_in_millimetres(scene.units)) {
         SceneWriter writer(scene, scene.units, scene.unit_length);

@@ -1,0 +1,235 @@
+// How the members of a struct are described: once, for all that goes over them, which are JSON's reader and writer, the
+// schema and the checks. A description, form::of<S>, has a line a member: its key in JSON, where it is in the struct,
+// its kind, what is allowed, and what it means.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <tuple>
+
+#include <csgrt/scene.hpp>
+
+namespace csgrt::form {
+
+// ---- Kinds: what a member is, and how a file writes it ----
+
+struct Number {};
+struct Length {};   ///< a number in the file's unit
+struct Lengths {};  ///< a place, or the way from one to another: a vector in the file's unit
+struct Vector {};   ///< as it stands
+struct Axis {};     ///< the same, of any length but 0
+struct Color {};
+struct Count {};  ///< from 0 to 2^32 - 1
+struct Whole {
+    int low, high;
+};
+struct Flag {};
+struct Text {};
+struct Name {};      ///< a text that is not empty
+struct Triangle {};  ///< three indices
+struct Uv {};        ///< two lengths
+/// A vector that is made a unit vector.
+struct Direction {
+    bool may_be_zero;  ///< and stays it, for the checks to find
+};
+/// The values of an enumeration from `first` on.
+template <std::size_t count>
+struct Words {
+    std::array<std::string_view, count> words;
+    std::size_t first = 0;
+};
+/// An object of the form of<S>.
+template <class S>
+struct Object {};
+template <class Item>
+struct List {
+    Item item;
+    std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();  ///< items
+};
+/// A list of one value for each of a mesh's `faces`, or one value for all.
+template <class Item>
+struct PerFace {
+    Item item;
+};
+struct Loops {};  ///< of a face: one loop of indices, or a list of loops
+struct Corners {
+    std::size_t count;
+};
+struct Ends {};    ///< `start` and `end`, two indices
+struct Curves {};  ///< of a sketch, with what says that one is reversed
+struct Turn {};    ///< an angle in radians, which a file gives in degrees
+/// Rows of numbers from 0 to `most`, as strings; with `marks`, '.' is 0 and '#' is `most`.
+struct Cells {
+    std::uint16_t most;
+    bool marks;
+};
+/// A matrix, and which of its columns are lengths. The last one, a place, always is; x, y and z are if they count cells
+/// or steps of height, and are not if they are millimetres already.
+struct Placement {
+    std::array<bool, 4> lengths;
+};
+/// What only the schema is told; its reader is written by hand.
+struct Other {
+    const char* schema;
+};
+
+inline constexpr Number number{};
+inline constexpr Length length{};
+inline constexpr Lengths lengths{};
+inline constexpr Vector vector{};
+inline constexpr Axis axis{};
+inline constexpr Color color{};
+inline constexpr Count count{};
+inline constexpr Flag flag{};
+inline constexpr Text text{};
+inline constexpr Name name{};
+inline constexpr Triangle triangle{};
+inline constexpr Direction direction{true}, normal{false};
+inline constexpr Whole byte{0, 255};
+inline constexpr Whole integer{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+template <class S>
+inline constexpr Object<S> object{};
+
+// ---- Rules: what is allowed. A fault's sentence begins with what the member is called. ----
+
+struct Any {};
+/// Of a number, or of each number of a list.
+struct Bounds {
+    double low, high;
+    bool with_low, with_high;
+    const char* called;
+    const char* sentence;
+
+    constexpr bool hold(double x) const {
+        return (with_low ? x >= low : x > low) && (with_high ? x <= high : x < high);
+    }
+};
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr Bounds positive(const char* called = "") {
+    return {0, unlimited, false, true, called, "must be greater than 0"};
+}
+constexpr Bounds not_negative(const char* called = "") {
+    return {0, unlimited, true, true, called, "must be 0 or more"};
+}
+/// Of a vector: a length other than 0.
+struct Nonzero {
+    const char* called;
+};
+constexpr Nonzero nonzero(const char* called = "") { return {called}; }
+/// The same, and perpendicular to another.
+template <class S>
+struct Across {
+    const char* called;
+    Vec3 S::*other;
+    const char* other_called;
+};
+/// Of the third of three axes: they span a volume.
+template <class S>
+struct Spanning {
+    Vec3 S::*axes[3];
+    const char* called[3];
+};
+/// Of a list of objects: what they are called, and what comes before their numbers in sentences.
+struct Items {
+    const char* called;
+    const char* before;
+};
+
+// ---- Members ----
+
+enum class Given : std::uint8_t {
+    required,
+    optional,  ///< has a default, with which it is not written
+    filled,    ///< has a default, and is written
+};
+
+/// `At`: a pointer to the member, or what is called with the struct.
+template <Given how, class At, class Kind, class Rule>
+struct Member {
+    static constexpr Given given = how;
+    std::string_view key;
+    At at;
+    Kind kind;
+    Rule rule;
+    const char* help;
+};
+
+/// No member: what goes over the members passes over it.
+struct Nothing {};
+inline constexpr Nothing nothing{};
+/// The struct.
+struct Itself {
+    constexpr auto& operator()(auto& s) const { return s; }
+};
+inline constexpr Itself itself{};
+/// A member's member.
+template <class Outer, class Inner>
+struct Inside {
+    Outer outer;
+    Inner inner;
+    constexpr auto& operator()(auto& s) const { return s.*outer.*inner; }
+};
+template <class Outer, class Inner>
+Inside(Outer, Inner) -> Inside<Outer, Inner>;
+
+template <Given given>
+struct Maker {
+    template <class At, class Kind>
+    constexpr Member<given, At, Kind, Any> operator()(std::string_view key, At at, Kind kind,
+                                                      const char* help = "") const {
+        return {key, at, kind, {}, help};
+    }
+    template <class At, class Kind, class Rule>
+    constexpr Member<given, At, Kind, Rule> operator()(std::string_view key, At at, Kind kind, Rule rule,
+                                                       const char* help = "") const {
+        return {key, at, kind, rule, help};
+    }
+};
+inline constexpr Maker<Given::required> required{};
+inline constexpr Maker<Given::optional> optional{};
+inline constexpr Maker<Given::filled> filled{};
+
+// ---- Forms ----
+
+/// The name is that of the schema's definition, and of a solid's "type".
+struct Head {
+    std::string_view name;
+    const char* about;
+    bool has_type;
+    bool is_model;  ///< checked when the scene is validated; others by their reader
+};
+constexpr Head solid(std::string_view called, const char* about = "") { return {called, about, true, true}; }
+constexpr Head part(std::string_view called, const char* about = "") { return {called, about, false, true}; }
+/// A solid by the numbers that a person knows: JSON's reader makes one of the model's of it.
+constexpr Head friendly(std::string_view called, const char* about = "") { return {called, about, true, false}; }
+/// An object of a file that is no solid.
+constexpr Head plain(std::string_view called, const char* about = "") { return {called, about, false, false}; }
+
+template <class... Members>
+struct Form {
+    Head head;
+    std::tuple<Members...> members;
+    constexpr explicit Form(Head h, Members... m) : head(h), members(m...) {}
+};
+
+struct Undescribed {};
+/// The description of S; a struct without one does not compile where it is asked for.
+template <class S>
+inline constexpr auto of = Undescribed{};
+
+template <class Each, class... Members>
+constexpr void for_members(const Form<Members...>& form, Each each) {
+    std::apply([&](const auto&... member) { (each(member), ...); }, form.members);
+}
+
+/// What a file means that does not give optional members.
+template <class S>
+S usual() {
+    return {};
+}
+
+}  // namespace csgrt::form
