@@ -133,10 +133,12 @@ struct Spanning {
     Vec3 S::*axes[3];
     const char* called[3];
 };
-/// Of a list of objects: what they are called, and what comes before their numbers in sentences.
+/// Of a list of objects: what they are called, what comes before their numbers in sentences, and the sentence about
+/// fewer than the least (null: other checks tell).
 struct Items {
     const char* called;
     const char* before;
+    const char* fewer;
 };
 
 // ---- Members ----

@@ -45,7 +45,7 @@ inline constexpr auto of<Plane> = Form{
 template <>
 inline constexpr auto of<Arbn> = Form{
     solid("arbn", "What lies below all planes; it must be bounded."),
-    required("planes", &Arbn::planes, List{object<Plane>, 4, Limits::faces}, Items{"planes", " of plane "}),
+    required("planes", &Arbn::planes, List{object<Plane>, 4, Limits::faces}, Items{"planes", " of plane ", nullptr}),
 };
 
 template <>
@@ -192,8 +192,8 @@ inline constexpr auto of<Metaball> = Form{
     filled("method", &Metaball::method, Words<3>{{"metaball", "isopotential", "blob"}},
            "How a field falls off with the distance."),
     filled("threshold", &Metaball::threshold, number, positive("the threshold")),
-    required("points", &Metaball::points, List{object<Metaball::Point>, 1, Limits::metaball_points},
-             Items{"points", " of point "}),
+    required("points", &Metaball::points, List{object<Metaball::Point>, 1},
+             Items{"points", " of point ", "it has no points"}),
 };
 
 template <>
@@ -209,7 +209,8 @@ inline constexpr auto of<Pipe::Point> = Form{
 template <>
 inline constexpr auto of<Pipe> = Form{
     solid("pipe", "A tube of changing width through its points, with round bends."),
-    required("points", &Pipe::points, List{object<Pipe::Point>, 2, Limits::pipe_points}, Items{"points", " at point "}),
+    required("points", &Pipe::points, List{object<Pipe::Point>, 2, Limits::pipe_points},
+             Items{"points", " at point ", "it has fewer than 2 points"}),
 };
 
 template <>

@@ -42,21 +42,15 @@ bool check_count(Faults& faults, const std::vector<std::uint32_t>& size, std::si
 
 }  // namespace
 
-Faults FaultsOf::operator()(const Ebm& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.height)) return faults;
-    require_positive(faults, "the height", s.height);
+void check_further(Faults& faults, const Ebm& s) {
     check_placement(faults, s.matrix);
     if (check_count(faults, {s.width, s.depth}, s.cells.size(), "cells") &&
         std::all_of(s.cells.begin(), s.cells.end(), [](std::uint8_t c) { return c == 0; })) {
         faults.push_back("none of its cells is solid");
     }
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Vol& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.cell)) return faults;
+void check_further(Faults& faults, const Vol& s) {
     for (const double side : {s.cell.x, s.cell.y, s.cell.z}) {
         if (side > 0) continue;
         faults.push_back("the sides of a cell must be greater than 0");
@@ -70,11 +64,9 @@ Faults FaultsOf::operator()(const Vol& s) const {
                             [&](std::uint8_t c) { return c >= s.low && c <= s.high; })) {
         faults.push_back("none of its cells is solid");
     }
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Dsp& s) const {
-    Faults faults;
+void check_further(Faults& faults, const Dsp& s) {
     check_placement(faults, s.matrix);
     if (s.width == 1 || s.depth == 1) {
         faults.push_back("a terrain needs two heights or more along each side");
@@ -82,7 +74,6 @@ Faults FaultsOf::operator()(const Dsp& s) const {
                std::all_of(s.heights.begin(), s.heights.end(), [](std::uint16_t height) { return height == 0; })) {
         faults.push_back("all of its heights are 0: there is no volume");
     }
-    return faults;
 }
 
 }  // namespace csgrt

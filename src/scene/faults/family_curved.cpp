@@ -27,79 +27,76 @@ double greatest_field(const Metaball& s) {
     return sum;
 }
 
+/// The end of a tgc that tapers along `end` must keep the direction of `start`.
+void require_parallel(Faults& faults, const char* names, const Vec3& start, const Vec3& end) {
+    const double squares = dot(start, start) * dot(end, end), along = dot(start, end);
+    const Vec3 across = cross(start, end);
+    // Far from a limit no root need be taken.
+    if (squares > 1e-280 && along > 0 && dot(across, across) < 0.25 * angle_slack * angle_slack * squares) return;
+    if (length(start) == 0 || length(end) == 0) return;
+    if (length(cross(unit(start), unit(end))) > angle_slack) {
+        faults.push_back(std::string("the axes ") + names + " must be parallel");
+    } else if (dot(unit(start), unit(end)) < 0) {
+        faults.push_back(std::string("the axes ") + names + " must not point in opposite directions");
+    }
+}
+
 }  // namespace
 
-Faults FaultsOf::operator()(const Tor& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.h, s.r_a, s.r_h)) return faults;
-    if (length(s.h) == 0) faults.push_back("the axis has length 0");
-    require_positive(faults, "the radius", s.r_a);
-    require_positive(faults, "the radius of the tube", s.r_h);
+void check_further(Faults& faults, const Tgc& s) {
+    if (length(s.h) == 0) faults.push_back("the height has length 0");
+    const bool a = length(s.a) > 0, b = length(s.b) > 0, c = length(s.c) > 0, d = length(s.d) > 0;
+    if (!a && !b && !c && !d) {
+        faults.push_back("base and top are both points: a radius at one end at least must be greater than 0");
+    } else if (a != b) {
+        faults.push_back(std::string("the axis ") + (a ? "b" : "a") +
+                         " of the base has length 0: the base is an ellipse or a point, only the top may be an edge");
+    } else if (!a && c != d) {
+        faults.push_back("the base is a point and the top an edge, which encloses nothing");
+    } else if (faults.empty() && dependent(a ? s.a : s.c, a ? s.b : s.d, s.h)) {
+        faults.push_back(a ? "the axes a and b and the height lie in one plane"
+                           : "the axes c and d and the height lie in one plane");
+    }
+    require_parallel(faults, "a and c", s.a, s.c);
+    require_parallel(faults, "b and d", s.b, s.d);
+}
+
+void check_further(Faults& faults, const Part& s) {
+    if (s.r_v == 0 && s.r_h == 0) faults.push_back("the radius must be greater than 0 at one end at least");
+}
+
+void check_further(Faults& faults, const Tor& s) {
     if (s.r_a > 0 && s.r_h > s.r_a) {
         faults.push_back("the radius of the tube must not be greater than that of the circle");
     }
-    return faults;
 }
 
 /// BRL-CAD's rule: each of the two semi-axes by itself, c and the one across it, reaches no farther along a radius than
 /// the axis. The ellipse may: it is drawn without what lies in it and its mirror image. Where c points down the second
 /// is not asked for.
-Faults FaultsOf::operator()(const Eto& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.n, s.c, s.r, s.r_d)) return faults;
-    const bool axis = require_length(faults, "the axis", s.n),
-               semi_axis = require_length(faults, "the semi-axis c", s.c);
-    require_positive(faults, "the radius", s.r);
-    require_positive(faults, "the semi-axis d", s.r_d);
-    if (!axis || !semi_axis || !faults.empty()) return faults;
+void check_further(Faults& faults, const Eto& s) {
+    if (!faults.empty()) return;
     const double along_axis = dot(unit(s.n), unit(s.c));
     const double most = s.r * (1 + rounding);
     if (length(cross(unit(s.n), s.c)) > most || s.r_d * along_axis > most)
         faults.push_back("neither semi-axis of the ellipse must reach across the axis");
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Superell& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.a, s.b, s.c, s.n, s.e)) return faults;
-    require_independent(faults, {"a", "b", "c"}, {s.a, s.b, s.c});
-    for (const auto& [name, exponent] : {std::pair{"n", s.n}, std::pair{"e", s.e}}) {
-        if (exponent >= Limits::least_exponent && exponent <= Limits::greatest_exponent) continue;
-        faults.push_back(std::string("the exponent ") + name + " must be from 1/" +
-                         std::to_string(std::lround(1 / Limits::least_exponent)) + " to " +
-                         std::to_string(std::lround(Limits::greatest_exponent)));
-    }
-    return faults;
-}
-
-Faults FaultsOf::operator()(const Hrt& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.x, s.y, s.z, s.d)) return faults;
-    require_independent(faults, {"x", "y", "z"}, {s.x, s.y, s.z});
-    return faults;
-}
-
-Faults FaultsOf::operator()(const Metaball& s) const {
-    Faults faults;
+void check_further(Faults& faults, const Metaball& s) {
     const bool everywhere = s.method == Metaball::Method::isopotential;
-    if (!require_at_most(faults, everywhere ? "points whose fields reach everywhere" : "points", s.points.size(),
-                         everywhere ? Limits::isopotential_points : Limits::metaball_points))
-        return faults;
-    if (s.points.empty()) return {"it has no points"};
-    if (!all_finite(faults, s.threshold)) return faults;
-    for (const Metaball::Point& p : s.points) {
-        if (!all_finite(faults, p.position, p.strength, p.softness)) return faults;
+    const std::size_t most = everywhere ? Limits::isopotential_points : Limits::metaball_points;
+    if (s.points.size() > most) {
+        faults.clear();
+        require_at_most(faults, everywhere ? "points whose fields reach everywhere" : "points", s.points.size(), most);
+        return;
     }
-    require_positive(faults, "the threshold", s.threshold);
-    for (std::size_t i = 0; i < s.points.size(); ++i) {
-        const std::string of = " of point " + std::to_string(i);
-        require_positive(faults, "the strength" + of, s.points[i].strength);
-        if (s.method == Metaball::Method::blob) require_positive(faults, "the softness" + of, s.points[i].softness);
+    for (std::size_t i = 0; i < s.points.size() && s.method == Metaball::Method::blob; ++i) {
+        if (!(s.points[i].softness > 0))
+            faults.push_back("the softness of point " + std::to_string(i) + " must be greater than 0");
     }
     if (faults.empty() && greatest_field(s) < s.threshold) {
         faults.push_back("the fields of its points nowhere add up to the threshold");
     }
-    return faults;
 }
 
 }  // namespace csgrt

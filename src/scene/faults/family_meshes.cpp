@@ -63,40 +63,37 @@ bool has_area(const Nmg::Loop& loop, const std::vector<Vec3>& vertices) {
 }  // namespace
 
 /// An open mesh is allowed: BRL-CAD's are, and rays tell.
-Faults FaultsOf::operator()(const Bot& s) const {
-    Faults faults;
-    if (!require_at_most(faults, "faces", s.faces.size(), Limits::triangles)) return faults;
-    if (!require_at_most(faults, "vertices", s.vertices.size(), Limits::triangles)) return faults;
-    if (!check_places(faults, s.vertices, "vertex ")) return faults;
-    if (s.faces.empty()) return {"it has no faces"};
+void check_further(Faults& faults, const Bot& s) {
+    if (!require_at_most(faults, "faces", s.faces.size(), Limits::triangles)) return;
+    if (!require_at_most(faults, "vertices", s.vertices.size(), Limits::triangles)) return;
+    if (!check_places(faults, s.vertices, "vertex ")) return;
+    if (s.faces.empty()) return faults.push_back("it has no faces");
     bool solid = false;
     for (std::size_t i = 0; i < s.faces.size(); ++i) {
         const std::array<std::uint32_t, 3>& face = s.faces[i];
         const std::uint32_t vertex = *std::max_element(face.begin(), face.end());
         if (vertex >= s.vertices.size()) {
-            return {"face " + std::to_string(i) + uses_missing_vertex(vertex, s.vertices.size())};
+            return faults.push_back("face " + std::to_string(i) + uses_missing_vertex(vertex, s.vertices.size()));
         }
         solid = solid || has_area(s.vertices[face[0]], s.vertices[face[1]], s.vertices[face[2]]);
     }
     if (!solid) faults.push_back("none of its faces has an area");
     if (s.mode == Bot::Mode::plate || s.mode == Bot::Mode::plate_nocos) check_plates(faults, s);
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Ars& s) const {
-    Faults faults;
-    if (s.curves.size() < 2) return {"it has fewer than 2 curves"};
+void check_further(Faults& faults, const Ars& s) {
+    if (s.curves.size() < 2) return faults.push_back("it has fewer than 2 curves");
     const std::size_t count = s.curves.front().size();
-    if (count < 3) return {"its curves have fewer than 3 points"};
-    if (!require_at_most(faults, "points", s.curves.size() * count, Limits::triangles / 2)) return faults;
+    if (count < 3) return faults.push_back("its curves have fewer than 3 points");
+    if (!require_at_most(faults, "points", s.curves.size() * count, Limits::triangles / 2)) return;
     bool solid = false;
     for (std::size_t i = 0; i < s.curves.size(); ++i) {
         const std::vector<Vec3>& curve = s.curves[i];
         if (curve.size() != count) {
-            return {"curve " + std::to_string(i) + " has " + std::to_string(curve.size()) +
-                    " points, and curve 0 has " + std::to_string(count)};
+            return faults.push_back("curve " + std::to_string(i) + " has " + std::to_string(curve.size()) +
+                                    " points, and curve 0 has " + std::to_string(count));
         }
-        if (!check_places(faults, curve, "curve " + std::to_string(i) + ": point ")) return faults;
+        if (!check_places(faults, curve, "curve " + std::to_string(i) + ": point ")) return;
         for (std::size_t k = 0; i > 0 && k < count && !solid; ++k) {
             const std::vector<Vec3>& last = s.curves[i - 1];
             const std::size_t next = (k + 1) % count;
@@ -104,26 +101,23 @@ Faults FaultsOf::operator()(const Ars& s) const {
         }
     }
     if (!solid) faults.push_back("its curves lie in one another: there is no surface");
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Nmg& s) const {
-    Faults faults;
+void check_further(Faults& faults, const Nmg& s) {
     std::size_t corners = 0;
     for (const std::vector<Nmg::Loop>& face : s.faces) {
         for (const Nmg::Loop& loop : face) corners += loop.size();
     }
-    if (!require_at_most(faults, "corners of faces", corners, Limits::triangles)) return faults;
-    if (!check_places(faults, s.vertices, "vertex ")) return faults;
-    if (s.faces.empty()) return {"it has no faces"};
+    if (!require_at_most(faults, "corners of faces", corners, Limits::triangles)) return;
+    if (!check_places(faults, s.vertices, "vertex ")) return;
+    if (s.faces.empty()) return faults.push_back("it has no faces");
     bool solid = false;
     for (std::size_t i = 0; i < s.faces.size(); ++i) {
         const std::string fault = face_fault(s.faces[i], s.vertices);
-        if (!fault.empty()) return {"face " + std::to_string(i) + fault};
+        if (!fault.empty()) return faults.push_back("face " + std::to_string(i) + fault);
         solid = solid || has_area(s.faces[i].front(), s.vertices);
     }
     if (!solid) faults.push_back("none of its faces has an area");
-    return faults;
 }
 
 }  // namespace csgrt

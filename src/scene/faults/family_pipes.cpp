@@ -13,14 +13,6 @@ constexpr double rounding = 1e-9;
 /// Directions that differ by less than this sine run straight on, or straight back.
 constexpr double straight = 1e-9;
 
-void check_widths(Faults& faults, const Pipe::Point& p, const std::string& of) {
-    require_positive(faults, "the outer diameter" + of, p.outer);
-    require_not_negative(faults, "the inner diameter" + of, p.inner);
-    if (p.outer > 0 && p.inner >= p.outer) {
-        faults.push_back("the inner diameter" + of + " must be less than the outer one");
-    }
-}
-
 /// How long the straight parts on both sides of a bend are that its arc takes away; 0 where the pipe runs straight on.
 double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
     const Pipe::Point& p = s.points[i];
@@ -39,20 +31,16 @@ double tangent_at(Faults& faults, const Pipe& s, std::size_t i) {
 
 }  // namespace
 
-Faults FaultsOf::operator()(const Pipe& s) const {
-    Faults faults;
-    if (s.points.size() < 2) return {"it has fewer than 2 points"};
-    if (!require_at_most(faults, "points", s.points.size(), Limits::pipe_points)) return faults;
-    for (const Pipe::Point& p : s.points) {
-        if (!all_finite(faults, p.position, p.outer, p.inner, p.bend)) return faults;
-    }
+void check_further(Faults& faults, const Pipe& s) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
-        check_widths(faults, s.points[i], " at point " + std::to_string(i));
-        if (i > 0 && length(s.points[i].position - s.points[i - 1].position) == 0) {
+        const Pipe::Point& p = s.points[i];
+        if (p.outer > 0 && p.inner >= p.outer)
+            faults.push_back("the inner diameter at point " + std::to_string(i) + " must be less than the outer one");
+        if (i > 0 && length(p.position - s.points[i - 1].position) == 0) {
             faults.push_back("points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are one place");
         }
     }
-    if (!faults.empty()) return faults;
+    if (!faults.empty()) return;
     double before = 0;  // what the bend at the last point takes of the part behind it
     for (std::size_t i = 1; i < s.points.size(); ++i) {
         const double tangent = i + 1 < s.points.size() ? tangent_at(faults, s, i) : 0;
@@ -63,16 +51,6 @@ Faults FaultsOf::operator()(const Pipe& s) const {
         }
         before = tangent;
     }
-    return faults;
-}
-
-Faults FaultsOf::operator()(const Cline& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.h, s.radius, s.thickness)) return faults;
-    require_length(faults, "the height", s.h);
-    require_positive(faults, "the radius", s.radius);
-    require_not_negative(faults, "the thickness", s.thickness);
-    return faults;
 }
 
 }  // namespace csgrt

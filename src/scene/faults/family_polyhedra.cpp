@@ -9,14 +9,6 @@ namespace csgrt {
 
 namespace {
 
-void check_plane(Faults& faults, const Plane& plane, const std::string& which) {
-    if (length(plane.normal) == 0) {
-        faults.push_back("the normal" + which + " has length 0");
-    } else if (!is_unit(plane.normal)) {
-        faults.push_back("the normal" + which + " is not of length 1");
-    }
-}
-
 /// Three edges that make a volume far above what is flat, as most arbs have them: for a solid of size s and thickness t
 /// it is at most 3 t s^2, and s is at most 4 times the largest coordinate.
 bool plainly_solid(const Arb& s) {
@@ -59,49 +51,28 @@ void check_volume(Faults& faults, const Arb& s) {
 
 /// Some triangle of vertices has an area, and some vertex lies off its plane; the faces do not lie on one another; no
 /// face of a surface crosses itself.
-Faults FaultsOf::operator()(const Arb& s) const {
-    Faults faults;
-    for (const Vec3& vertex : s.vertices) {
-        if (!all_finite(faults, vertex)) return faults;
-    }
+void check_further(Faults& faults, const Arb& s) {
     check_volume(faults, s);
-    if (!faults.empty()) return faults;
-    if (is_without_volume(s)) return {"its faces lie on one another: there is no volume"};
-    if (const std::optional<std::size_t> face = crossing_face(s)) {
+    if (!faults.empty()) return;
+    if (is_without_volume(s)) {
+        faults.push_back("its faces lie on one another: there is no volume");
+    } else if (const std::optional<std::size_t> face = crossing_face(s)) {
         std::string which;
         for (const std::uint32_t vertex : arb_face_vertices[*face]) which += " " + std::to_string(vertex);
         faults.push_back("its face" + which + " crosses itself: its vertices do not follow one another around it");
     }
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Arbn& s) const {
-    Faults faults;
-    if (s.planes.size() > Limits::faces) {
-        return {"it has " + std::to_string(s.planes.size()) + " planes; at most " + std::to_string(Limits::faces) +
-                " are supported"};
-    }
-    for (std::size_t i = 0; i < s.planes.size(); ++i) {
-        const Plane& plane = s.planes[i];
-        if (!all_finite(faults, plane.normal, plane.distance)) return faults;
-        check_plane(faults, plane, " of plane " + std::to_string(i));
-    }
-    if (!faults.empty()) return faults;
+void check_further(Faults& faults, const Arbn& s) {
+    if (!faults.empty()) return;
     switch (intersect_half_spaces(s.planes).kind) {
         case Polytope::Kind::empty:
-            return {"its half-spaces have no volume in common"};
+            return faults.push_back("its half-spaces have no volume in common");
         case Polytope::Kind::unbounded:
-            return {"its half-spaces do not bound it on all sides"};
+            return faults.push_back("its half-spaces do not bound it on all sides");
         case Polytope::Kind::bounded:
             break;
     }
-    return faults;
-}
-
-Faults FaultsOf::operator()(const Half& s) const {
-    Faults faults;
-    if (all_finite(faults, s.plane.normal, s.plane.distance)) check_plane(faults, s.plane, "");
-    return faults;
 }
 
 }  // namespace csgrt

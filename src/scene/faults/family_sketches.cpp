@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "scene/sketch_curves.hpp"
@@ -95,34 +94,20 @@ void add(Faults& faults, Faults more) { std::move(more.begin(), more.end(), std:
 
 }  // namespace
 
-Faults FaultsOf::operator()(const Extrude& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.h, s.a, s.b)) return faults;
-    const bool h = require_length(faults, "the height", s.h), a = require_length(faults, "the vector a", s.a),
-               b = require_length(faults, "the vector b", s.b);
-    if (h && a && b && dependent(s.a, s.b, s.h))
+void check_further(Faults& faults, const Extrude& s) {
+    if (faults.empty() && dependent(s.a, s.b, s.h))
         faults.push_back("the vectors a and b and the height lie in one plane");
     const Faults of_sketch = sketch_faults(s.sketch);
     add(faults, of_sketch);
-    if (!of_sketch.empty() || !is_open(s.sketch)) return faults;
+    if (!of_sketch.empty() || !is_open(s.sketch)) return;
     faults.push_back("its sketch is open at vertex " + std::to_string(open_ends(s.sketch).front()) +
                      ": curves must form closed loops");
-    return faults;
 }
 
-Faults FaultsOf::operator()(const Revolve& s) const {
-    Faults faults;
-    if (!all_finite(faults, s.v, s.axis, s.r, s.angle)) return faults;
-    require_length(faults, "the axis", s.axis);
-    require_length(faults, "the direction r", s.r);
-    require_perpendicular(faults, "the direction r", s.r, "the axis", s.axis);
-    if (!(s.angle > 0 && s.angle <= 2 * std::numbers::pi * (1 + rounding))) {
-        faults.push_back("the angle must be greater than 0 and at most a full turn");
-    }
+void check_further(Faults& faults, const Revolve& s) {
     const Faults of_sketch = sketch_faults(s.sketch);
     add(faults, of_sketch);
     if (of_sketch.empty()) check_profile(faults, s.sketch);
-    return faults;
 }
 
 }  // namespace csgrt
