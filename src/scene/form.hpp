@@ -1,5 +1,5 @@
 // How the members of a struct are described: once, for all that goes over them, which are JSON's reader and writer, the
-// schema and the checks. A description, form::of<S>, has a line a member: its key in JSON, where it is in the struct,
+// schema and the checks. A description, form::of<S>, has a line a member: its keys, where it is in the struct,
 // its kind, what is allowed, and what it means.
 #pragma once
 
@@ -149,11 +149,19 @@ enum class Given : std::uint8_t {
     filled,    ///< has a default, and is written
 };
 
+/// What a member is called: in JSON, and in BRL-CAD's databases, if those have a solid's numbers one after another.
+struct Key {
+    std::string_view json;
+    const char* brlcad = "";
+    constexpr Key(std::string_view in_json) : json(in_json) {}
+    constexpr Key(const char* in_json, const char* in_brlcad = "") : json(in_json), brlcad(in_brlcad) {}
+};
+
 /// `At`: a pointer to the member, or what is called with the struct.
 template <Given how, class At, class Kind, class Rule>
 struct Member {
     static constexpr Given given = how;
-    std::string_view key;
+    Key key;
     At at;
     Kind kind;
     Rule rule;
@@ -181,12 +189,11 @@ Inside(Outer, Inner) -> Inside<Outer, Inner>;
 template <Given given>
 struct Maker {
     template <class At, class Kind>
-    constexpr Member<given, At, Kind, Any> operator()(std::string_view key, At at, Kind kind,
-                                                      const char* help = "") const {
+    constexpr Member<given, At, Kind, Any> operator()(Key key, At at, Kind kind, const char* help = "") const {
         return {key, at, kind, {}, help};
     }
     template <class At, class Kind, class Rule>
-    constexpr Member<given, At, Kind, Rule> operator()(std::string_view key, At at, Kind kind, Rule rule,
+    constexpr Member<given, At, Kind, Rule> operator()(Key key, At at, Kind kind, Rule rule,
                                                        const char* help = "") const {
         return {key, at, kind, rule, help};
     }

@@ -10,22 +10,22 @@ namespace csgrt::form {
 template <>
 inline constexpr auto of<Ell> = Form{
     solid("ell", "Ellipsoid: three semi-axes."),
-    required("center", &Ell::v, lengths),
-    required("a", &Ell::a, lengths),
-    required("b", &Ell::b, lengths),
-    required("c", &Ell::c, lengths, Spanning<Ell>{{&Ell::a, &Ell::b, &Ell::c}, {"a", "b", "c"}}),
+    required({"center", "V"}, &Ell::v, lengths),
+    required({"a", "A"}, &Ell::a, lengths),
+    required({"b", "B"}, &Ell::b, lengths),
+    required({"c", "C"}, &Ell::c, lengths, Spanning<Ell>{{&Ell::a, &Ell::b, &Ell::c}, {"a", "b", "c"}}),
 };
 
 template <>
 inline constexpr auto of<Tgc> = Form{
     solid("tgc",
           "Truncated general cone: the base ellipse has the semi-axes a and b, the top c (along a) and d (along b)."),
-    required("base", &Tgc::v, lengths),
-    required("height", &Tgc::h, lengths),
-    required("a", &Tgc::a, lengths),
-    required("b", &Tgc::b, lengths),
-    required("c", &Tgc::c, lengths),
-    required("d", &Tgc::d, lengths),
+    required({"base", "V"}, &Tgc::v, lengths),
+    required({"height", "H"}, &Tgc::h, lengths),
+    required({"a", "A"}, &Tgc::a, lengths),
+    required({"b", "B"}, &Tgc::b, lengths),
+    required({"c", "C"}, &Tgc::c, lengths),
+    required({"d", "D"}, &Tgc::d, lengths),
 };
 
 template <>
@@ -59,89 +59,89 @@ inline constexpr auto of<Half> = Form{
 template <>
 inline constexpr auto of<Tor> = Form{
     solid("tor", "Torus."),
-    required("center", &Tor::v, lengths),
-    required("axis", &Tor::h, vector, nonzero("the axis")),
-    required("radius", &Tor::r_a, length, positive("the radius"), "Of the circle."),
-    required("tube", &Tor::r_h, length, positive("the radius of the tube"),
+    required({"center", "V"}, &Tor::v, lengths),
+    required({"axis", "H"}, &Tor::h, vector, nonzero("the axis")),
+    required({"radius", "r_a"}, &Tor::r_a, length, positive("the radius"), "Of the circle."),
+    required({"tube", "r_h"}, &Tor::r_h, length, positive("the radius of the tube"),
              "Radius of the tube, not greater than that of the circle."),
 };
 
 template <>
 inline constexpr auto of<Ehy> = Form{
     solid("ehy", "Elliptical hyperboloid."),
-    required("base", &Ehy::v, lengths),
-    required("height", &Ehy::h, lengths, nonzero("the height"), "From the base to the apex."),
-    required("a", &Ehy::a, direction, Across{"the direction a", &Ehy::h, "the height"},
+    required({"base", "V"}, &Ehy::v, lengths),
+    required({"height", "H"}, &Ehy::h, lengths, nonzero("the height"), "From the base to the apex."),
+    required({"a", "A"}, &Ehy::a, direction, Across{"the direction a", &Ehy::h, "the height"},
              "Direction of the semi-axis r1, perpendicular to the height."),
-    required("r1", &Ehy::r_1, length, positive("the semi-axis r1")),
-    required("r2", &Ehy::r_2, length, positive("the semi-axis r2")),
-    required("c", &Ehy::c, length, positive("c, the distance from the apex to the asymptotes,"),
+    required({"r1", "r_1"}, &Ehy::r_1, length, positive("the semi-axis r1")),
+    required({"r2", "r_2"}, &Ehy::r_2, length, positive("the semi-axis r2")),
+    required({"c", "c"}, &Ehy::c, length, positive("c, the distance from the apex to the asymptotes,"),
              "From the apex to the vertex of the asymptotic cone."),
 };
 
 template <>
 inline constexpr auto of<Part> = Form{
     solid("part", "Two balls and the cone that touches both."),
-    required("base", &Part::v, lengths, "Centre of the first ball."),
-    required("height", &Part::h, lengths, "To the centre of the second."),
-    required("radius", &Part::r_v, length, not_negative("the radius"), "Of the first ball."),
-    required("top_radius", &Part::r_h, length, not_negative("the radius at the top"), "Of the second."),
+    required({"base", "V"}, &Part::v, lengths, "Centre of the first ball."),
+    required({"height", "H"}, &Part::h, lengths, "To the centre of the second."),
+    required({"radius", "r_v"}, &Part::r_v, length, not_negative("the radius"), "Of the first ball."),
+    required({"top_radius", "r_h"}, &Part::r_h, length, not_negative("the radius at the top"), "Of the second."),
 };
 
 template <>
 inline constexpr auto of<Epa> = Form{
     solid("epa", "Elliptic paraboloid."),
-    required("base", &Epa::v, lengths),
-    required("height", &Epa::h, lengths, nonzero("the height"), "From the base to the apex."),
-    required("a", &Epa::a, direction, Across{"the direction a", &Epa::h, "the height"},
+    required({"base", "V"}, &Epa::v, lengths),
+    required({"height", "H"}, &Epa::h, lengths, nonzero("the height"), "From the base to the apex."),
+    required({"a", "A"}, &Epa::a, direction, Across{"the direction a", &Epa::h, "the height"},
              "Direction of the semi-axis r1, perpendicular to the height."),
-    required("r1", &Epa::r_1, length, positive("the semi-axis r1")),
-    required("r2", &Epa::r_2, length, positive("the semi-axis r2")),
+    required({"r1", "r_1"}, &Epa::r_1, length, positive("the semi-axis r1")),
+    required({"r2", "r_2"}, &Epa::r_2, length, positive("the semi-axis r2")),
 };
 
 template <>
 inline constexpr auto of<Rpc> = Form{
     solid("rpc", "Parabolic cylinder."),
-    required("base", &Rpc::v, lengths, "Middle of the straight edge of one end."),
-    required("height", &Rpc::h, lengths, nonzero("the height"), "Along the cylinder."),
-    required("b", &Rpc::b, lengths, Across{"the vector b", &Rpc::h, "the height"},
+    required({"base", "V"}, &Rpc::v, lengths, "Middle of the straight edge of one end."),
+    required({"height", "H"}, &Rpc::h, lengths, nonzero("the height"), "Along the cylinder."),
+    required({"b", "B"}, &Rpc::b, lengths, Across{"the vector b", &Rpc::h, "the height"},
              "From the edge to the vertex of the curve, perpendicular to the height."),
-    required("half_width", &Rpc::r, length, positive("half the width"), "Of the flat side."),
+    required({"half_width", "r"}, &Rpc::r, length, positive("half the width"), "Of the flat side."),
 };
 
 template <>
 inline constexpr auto of<Rhc> = Form{
     solid("rhc", "Hyperbolic cylinder."),
-    required("base", &Rhc::v, lengths, "Middle of the straight edge of one end."),
-    required("height", &Rhc::h, lengths, nonzero("the height"), "Along the cylinder."),
-    required("b", &Rhc::b, lengths, Across{"the vector b", &Rhc::h, "the height"},
+    required({"base", "V"}, &Rhc::v, lengths, "Middle of the straight edge of one end."),
+    required({"height", "H"}, &Rhc::h, lengths, nonzero("the height"), "Along the cylinder."),
+    required({"b", "B"}, &Rhc::b, lengths, Across{"the vector b", &Rhc::h, "the height"},
              "From the edge to the vertex of the curve, perpendicular to the height."),
-    required("half_width", &Rhc::r, length, positive("half the width"), "Of the flat side."),
-    required("c", &Rhc::c, length, positive("c, the distance from the vertex to the asymptotes,"),
+    required({"half_width", "r"}, &Rhc::r, length, positive("half the width"), "Of the flat side."),
+    required({"c", "c"}, &Rhc::c, length, positive("c, the distance from the vertex to the asymptotes,"),
              "From the vertex of the hyperbola to that of its asymptotes."),
 };
 
 template <>
 inline constexpr auto of<Eto> = Form{
     solid("eto", "An ellipse turned about an axis."),
-    required("center", &Eto::v, lengths),
-    required("axis", &Eto::n, vector, nonzero("the axis")),
-    required("radius", &Eto::r, length, positive("the radius"),
+    required({"center", "V"}, &Eto::v, lengths),
+    required({"axis", "N"}, &Eto::n, vector, nonzero("the axis")),
+    required({"radius", "r"}, &Eto::r, length, positive("the radius"),
              "Of the circle on which the ellipse's centre goes round."),
-    required("c", &Eto::c, lengths, nonzero("the semi-axis c"),
+    required({"c", "C"}, &Eto::c, lengths, nonzero("the semi-axis c"),
              "Semi-axis of the ellipse, in the plane of the axis and a radius."),
-    required("d", &Eto::r_d, length, positive("the semi-axis d"), "Length of the other semi-axis."),
+    required({"d", "r_d"}, &Eto::r_d, length, positive("the semi-axis d"), "Length of the other semi-axis."),
 };
 
 template <>
 inline constexpr auto of<Hyp> = Form{
     solid("hyp", "Hyperboloid of one sheet."),
-    required("base", &Hyp::v, lengths, "Centre of the first ellipse."),
-    required("height", &Hyp::h, lengths, nonzero("the height"), "To the centre of the other."),
-    required("a", &Hyp::a, lengths, Across{"the semi-axis a", &Hyp::h, "the height"},
+    required({"base", "V"}, &Hyp::v, lengths, "Centre of the first ellipse."),
+    required({"height", "H"}, &Hyp::h, lengths, nonzero("the height"), "To the centre of the other."),
+    required({"a", "A"}, &Hyp::a, lengths, Across{"the semi-axis a", &Hyp::h, "the height"},
              "Semi-axis at both ends, perpendicular to the height."),
-    required("b", &Hyp::b, length, positive("the semi-axis b"), "Length of the other semi-axis."),
-    required("neck", &Hyp::neck, number,
+    required({"b", "b"}, &Hyp::b, length, positive("the semi-axis b"), "Length of the other semi-axis."),
+    required({"neck", "bnr"}, &Hyp::neck, number,
              Bounds{0, 1, false, false, "the neck, a share of a and b,", "must lie between 0 and 1"},
              "Size of the waist, as a part of a and b."),
 };
@@ -154,23 +154,23 @@ constexpr Bounds exponent(const char* called) {
 template <>
 inline constexpr auto of<Superell> = Form{
     solid("superell", "Superellipsoid: an ellipsoid if n and e are 1, nearer to a box below, an octahedron at 2."),
-    required("center", &Superell::v, lengths),
-    required("a", &Superell::a, lengths),
-    required("b", &Superell::b, lengths),
-    required("c", &Superell::c, lengths,
+    required({"center", "V"}, &Superell::v, lengths),
+    required({"a", "A"}, &Superell::a, lengths),
+    required({"b", "B"}, &Superell::b, lengths),
+    required({"c", "C"}, &Superell::c, lengths,
              Spanning<Superell>{{&Superell::a, &Superell::b, &Superell::c}, {"a", "b", "c"}}),
-    filled("n", &Superell::n, number, exponent("the exponent n"), "Of the profile, towards c."),
-    filled("e", &Superell::e, number, exponent("the exponent e"), "Of the outline, in the plane of a and b."),
+    filled({"n", "n"}, &Superell::n, number, exponent("the exponent n"), "Of the profile, towards c."),
+    filled({"e", "e"}, &Superell::e, number, exponent("the exponent e"), "Of the outline, in the plane of a and b."),
 };
 
 template <>
 inline constexpr auto of<Hrt> = Form{
     solid("hrt", "Heart."),
-    required("center", &Hrt::v, lengths),
-    required("x", &Hrt::x, lengths),
-    required("y", &Hrt::y, lengths),
-    required("z", &Hrt::z, lengths, Spanning<Hrt>{{&Hrt::x, &Hrt::y, &Hrt::z}, {"x", "y", "z"}}),
-    optional("d", &Hrt::d, length, "Distance of the cusps; kept for conversion."),
+    required({"center", "V"}, &Hrt::v, lengths),
+    required({"x", "X"}, &Hrt::x, lengths),
+    required({"y", "Y"}, &Hrt::y, lengths),
+    required({"z", "Z"}, &Hrt::z, lengths, Spanning<Hrt>{{&Hrt::x, &Hrt::y, &Hrt::z}, {"x", "y", "z"}}),
+    optional({"d", "d"}, &Hrt::d, length, "Distance of the cusps; kept for conversion."),
 };
 
 template <>
@@ -216,10 +216,10 @@ inline constexpr auto of<Pipe> = Form{
 template <>
 inline constexpr auto of<Cline> = Form{
     solid("cline", "Cylinder along a line, or a tube with a wall."),
-    required("base", &Cline::v, lengths),
-    required("height", &Cline::h, lengths, nonzero("the height")),
-    required("radius", &Cline::radius, length, positive("the radius")),
-    optional("thickness", &Cline::thickness, length, not_negative("the thickness"), "Of the wall; 0: solid."),
+    required({"base", "V"}, &Cline::v, lengths),
+    required({"height", "H"}, &Cline::h, lengths, nonzero("the height")),
+    required({"radius", "R"}, &Cline::radius, length, positive("the radius")),
+    optional({"thickness", "T"}, &Cline::thickness, length, not_negative("the thickness"), "Of the wall; 0: solid."),
 };
 
 template <>

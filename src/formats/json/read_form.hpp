@@ -16,7 +16,7 @@ template <class... Members>
 constexpr auto json_keys(const form::Form<Members...>& form) {
     std::array<JsonKey, sizeof...(Members) + 1> keys{{{"type", true}}};
     std::size_t i = 1;
-    form::for_members(form, [&](const auto& m) { keys[i++] = {m.key, m.given == form::Given::required}; });
+    form::for_members(form, [&](const auto& m) { keys[i++] = {m.key.json, m.given == form::Given::required}; });
     return keys;
 }
 /// The object of that form. A solid's has the key "type" as well.
@@ -126,7 +126,7 @@ void check_value(const JsonNode& node, form::Nonzero);
 
 template <class S, class Member>
 void read_member(const JsonObject& o, const Member& member, S& s) {
-    const JsonNode node = o[member.key];
+    const JsonNode node = o[member.key.json];
     auto& value = std::invoke(member.at, s);
     if constexpr (requires { value = read_placement(node, member.kind); }) {
         value = read_placement(node, member.kind);
@@ -150,7 +150,7 @@ void read_members(const JsonObject& o, const Form& form, S& s) {
         if constexpr (requires { std::invoke(member.at, s); }) {
             read_member(o, member, s);
             if constexpr (requires { check_value(o.node(), member.rule); }) {
-                if (!form.head.is_model) check_value(o[member.key], member.rule);
+                if (!form.head.is_model) check_value(o[member.key.json], member.rule);
             }
         }
     });

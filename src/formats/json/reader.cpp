@@ -35,7 +35,7 @@ Material read_material(const JsonNode& node) {
         o["light"].fault("has a meaning only with the shader \"light\"");
     }
     form::for_members(form::of<Finish>, [&](const auto& member) {
-        if (member.key != "color" && o.has(member.key)) material.finish = finish;
+        if (member.key.json != "color" && o.has(member.key.json)) material.finish = finish;
     });
     return material;
 }

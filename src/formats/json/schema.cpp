@@ -127,14 +127,14 @@ void add_form(ordered_json& definitions, const Form& form) {
     form::for_members(form, [&]<class Member>(const Member& member) {
         ordered_json property = SchemaOf{}(member.kind, member.rule);
         if constexpr (Member::given == form::Given::required) {
-            required.push_back(member.key);
+            required.push_back(member.key.json);
         } else if constexpr (requires(const S& s) { std::invoke(member.at, s); }) {
             const S usual = form::usual<S>();
             ordered_json otherwise = default_of(member.kind, std::invoke(member.at, usual));
             if (!otherwise.is_null()) property["default"] = std::move(otherwise);
         }
         if (*member.help != '\0') property["description"] = member.help;
-        properties[std::string(member.key)] = std::move(property);
+        properties[std::string(member.key.json)] = std::move(property);
     });
     ordered_json definition = {{"type", "object"}};
     if (*form.head.about != '\0') definition["description"] = form.head.about;

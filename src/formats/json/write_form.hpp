@@ -127,7 +127,7 @@ bool is_usual(const S&, const Value& value, const At& at) {
 template <class S, class Member>
 void write_member(nlohmann::ordered_json& out, const Member& member, const S& s, JsonUnit& unit) {
     const auto& value = std::invoke(member.at, s);
-    const std::string key(member.key);
+    const std::string key(member.key.json);
     if constexpr (requires { value.has_value(); }) {
         if (value) out[key] = write_value(member.kind, *value, unit);
     } else if constexpr (requires { write_placement(out, member.kind, value, unit); }) {

@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "formats/brlcad/described.hpp"
 #include "formats/brlcad/points.hpp"
 #include "formats/brlcad/values.hpp"
 
@@ -9,13 +10,11 @@ namespace csgrt {
 
 namespace {
 
-// Braces evaluate their parts from left to right, which is the order of the file.
-
-Shape tor(ByteReader& b) { return Tor{b.vec3("V"), b.vec3("H"), b.real("r_a"), b.real("r_h")}; }
-
-Shape tgc(ByteReader& b) { return Tgc{b.vec3("V"), b.vec3("H"), b.vec3("A"), b.vec3("B"), b.vec3("C"), b.vec3("D")}; }
-
-Shape ell(ByteReader& b) { return Ell{b.vec3("V"), b.vec3("A"), b.vec3("B"), b.vec3("C")}; }
+template <class S>
+BrlcadItem described(ByteReader& b) {
+    return {Shape(read_described<S>([&](const char* what) { return b.vec3(what); },
+                                    [&](const char* what) { return b.real(what); }))};
+}
 
 Shape arb8(ByteReader& b) {
     Arb arb;
@@ -43,34 +42,16 @@ Shape arbn(ByteReader& b) {
     return solid;
 }
 
-Shape ehy(ByteReader& b) {
-    return Ehy{b.vec3("V"), b.vec3("H"), unit_vector(b.vec3("A")), b.real("r_1"), b.real("r_2"), b.real("c")};
-}
-
-Shape part(ByteReader& b) { return Part{b.vec3("V"), b.vec3("H"), b.real("r_v"), b.real("r_h")}; }
-
-Shape epa(ByteReader& b) {
-    return Epa{b.vec3("V"), b.vec3("H"), unit_vector(b.vec3("A")), b.real("r_1"), b.real("r_2")};
-}
-
-Shape rpc(ByteReader& b) { return Rpc{b.vec3("V"), b.vec3("H"), b.vec3("B"), b.real("r")}; }
-
-Shape rhc(ByteReader& b) { return Rhc{b.vec3("V"), b.vec3("H"), b.vec3("B"), b.real("r"), b.real("c")}; }
+// Braces evaluate their parts from left to right, which is the order of the file where it is not the description's.
 
 Shape eto(ByteReader& b) { return Eto{b.vec3("V"), b.vec3("N"), b.vec3("C"), b.real("r"), b.real("r_d")}; }
 
 /// Eight bytes more follow, which BRL-CAD never sets.
-Shape hyp(ByteReader& b) {
-    const Hyp solid{b.vec3("V"), b.vec3("H"), b.vec3("A"), b.real("b"), b.real("bnr")};
+BrlcadItem hyp(ByteReader& b) {
+    BrlcadItem solid = described<Hyp>(b);
     if (b.left() == real_size) b.take(real_size, "what follows a hyp");
     return solid;
 }
-
-Shape superell(ByteReader& b) {
-    return Superell{b.vec3("V"), b.vec3("A"), b.vec3("B"), b.vec3("C"), b.real("n"), b.real("e")};
-}
-
-Shape hrt(ByteReader& b) { return Hrt{b.vec3("V"), b.vec3("X"), b.vec3("Y"), b.vec3("Z"), b.real("d")}; }
 
 Shape cline(ByteReader& b) {
     const double thickness = b.real("the thickness"), radius = b.real("the radius");
@@ -90,26 +71,26 @@ struct Type {
 };
 constexpr Type types[] = {
     {},                                   // 0
-    {"tor", item<tor>},                   //
-    {"tgc", item<tgc>},                   //
-    {"ell", item<ell>},                   //
+    {"tor", described<Tor>},              //
+    {"tgc", described<Tgc>},              //
+    {"ell", described<Ell>},              //
     {"arb8", item<arb8>},                 //
     {"ars", item<read_g_ars>},            // 5
     {"half", item<half>},                 //
-    {"rec", item<tgc>},                   //
+    {"rec", described<Tgc>},              //
     {"poly"},                             //
     {"bspline"},                          //
-    {"sph", item<ell>},                   // 10
+    {"sph", described<Ell>},              // 10
     {"nmg", item<read_g_nmg>},            //
     {"ebm", read_g_ebm},                  //
     {"vol", read_g_vol},                  //
     {"arbn", item<arbn>},                 //
     {"pipe", item<read_g_pipe>},          // 15
-    {"part", item<part>},                 //
-    {"rpc", item<rpc>},                   //
-    {"rhc", item<rhc>},                   //
-    {"epa", item<epa>},                   //
-    {"ehy", item<ehy>},                   // 20
+    {"part", described<Part>},            //
+    {"rpc", described<Rpc>},              //
+    {"rhc", described<Rhc>},              //
+    {"epa", described<Epa>},              //
+    {"ehy", described<Ehy>},              // 20
     {"eto", item<eto>},                   //
     {"grip"},                             //
     {"joint"},                            //
@@ -124,15 +105,15 @@ constexpr Type types[] = {
     {},                                   //
     {"binunif"},                          //
     {},                                   //
-    {"superell", item<superell>},         // 35
+    {"superell", described<Superell>},    // 35
     {"metaball", item<read_g_metaball>},  //
     {"brep"},                             //
-    {"hyp", item<hyp>},                   //
+    {"hyp", hyp},                         //
     {"constrnt"},                         //
     {"revolve", item<read_g_revolve>},    // 40
     {"pnts", item<read_g_points>},        //
     {"annot"},                            //
-    {"hrt", item<hrt>},                   //
+    {"hrt", described<Hrt>},              //
     {"datum"},                            //
     {"script"},                           // 45
     {"material"},                         //

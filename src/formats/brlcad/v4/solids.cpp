@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 
+#include "formats/brlcad/described.hpp"
 #include "formats/brlcad/struct_text.hpp"
 
 namespace csgrt {
@@ -22,6 +24,15 @@ Vec3 vec3_at(const Parameters& p, std::size_t at) { return {p[at], p[at + 1], p[
 
 /// Rounded as where BRL-CAD turns these databases into .g files, so that both give the same scene.
 double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+/// The numbers stand in the order of the description.
+template <class S>
+Shape described(std::span<const double> numbers) {
+    std::size_t at = 0;
+    const auto number = [&](const char*) { return numbers[at++]; };
+    const auto vector = [&](const char*) { return at += 3, Vec3{numbers[at - 3], numbers[at - 2], numbers[at - 1]}; };
+    return read_described<S>(vector, number);
+}
 
 Shape torus(const Parameters& p) {
     const Vec3 h = vec3_at(p, 3);
@@ -49,27 +60,27 @@ Shape shape_of(int number, const Parameters& p, const Field& type) {
         case 16:
             return torus(p);
         case 18:
-            return Tgc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), vec3_at(p, 12), vec3_at(p, 15)};
+            return described<Tgc>(p);
         case 19:
-            return Ell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9)};
+            return described<Ell>(p);
         case 20:
             return arb8(p);
         case 24:
             return Half{unit_plane(vec3_at(p, 0), p[3])};
         case 26:
-            return Rpc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9]};
+            return described<Rpc>(p);
         case 27:
-            return Rhc{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+            return described<Rhc>(p);
         case 28:
-            return Epa{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10]};
+            return described<Epa>(p);
         case 29:
-            return Ehy{vec3_at(p, 0), vec3_at(p, 3), unit_vector(vec3_at(p, 6)), p[9], p[10], p[11]};
+            return described<Ehy>(p);
         case 30:
             return Eto{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
         case 32:
-            return Superell{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), vec3_at(p, 9), p[12], p[13]};
+            return described<Superell>(p);
         case 33:
-            return Hyp{vec3_at(p, 0), vec3_at(p, 3), vec3_at(p, 6), p[9], p[10]};
+            return described<Hyp>(p);
         default:
             throw Fault{type.offset, "no solid has type " + std::to_string(number),
                         "solids are 16 tor, 18 tgc, 19 ell, 20 arb8, 24 half and 26 to 33"};
@@ -166,16 +177,11 @@ BrlcadItem string_solid(Fields& fields, std::string& name) {
     return type == "vol" ? read_struct_vol(parameters) : read_struct_dsp(parameters);
 }
 
-Shape part(Fields& fields) {
+template <class S>
+Shape eight_numbers(Fields& fields) {
     const auto p = fields.numbers<8>("parameters");
     fields.end();
-    return Part{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6], p[7]};
-}
-
-Shape cline(Fields& fields) {
-    const auto p = fields.numbers<8>("parameters");
-    fields.end();
-    return Cline{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, p[6], p[7]};
+    return described<S>(p);
 }
 
 }  // namespace
@@ -206,9 +212,9 @@ BrlcadItem read_v4_solid(const Line& line, LineReader& lines, std::string& name)
         case 'w':
             return {read_v4_pipe(fields, lines)};
         case 'p':
-            return {part(fields)};
+            return {eight_numbers<Part>(fields)};
         case 'c':
-            return {cline(fields)};
+            return {eight_numbers<Cline>(fields)};
         case 'e':
             return {read_v4_extrude(fields)};
         case 'd':

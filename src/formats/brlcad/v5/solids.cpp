@@ -1,5 +1,6 @@
 #include "formats/brlcad/v5/solids.hpp"
 
+#include "formats/brlcad/described.hpp"
 #include "formats/brlcad/points.hpp"
 #include "formats/brlcad/values.hpp"
 
@@ -29,39 +30,11 @@ Shape half(Parameters& p) {
     return Half{unit_plane(normal, p.number("d"))};
 }
 
-// Braces evaluate their parts from left to right, so the first missing key is the one that is named.
-
-Shape ell(Parameters& p) { return Ell{p.vec3("V"), p.vec3("A"), p.vec3("B"), p.vec3("C")}; }
-
-Shape tgc(Parameters& p) { return Tgc{p.vec3("V"), p.vec3("H"), p.vec3("A"), p.vec3("B"), p.vec3("C"), p.vec3("D")}; }
-
-Shape tor(Parameters& p) { return Tor{p.vec3("V"), p.vec3("H"), p.number("r_a"), p.number("r_h")}; }
-
-Shape ehy(Parameters& p) {
-    return Ehy{p.vec3("V"), p.vec3("H"), unit_vector(p.vec3("A")), p.number("r_1"), p.number("r_2"), p.number("c")};
+template <class S>
+BrlcadItem described(Parameters& p) {
+    return {Shape(read_described<S>([&](const char* key) { return p.vec3(key); },
+                                    [&](const char* key) { return p.number(key); }))};
 }
-
-Shape part(Parameters& p) { return Part{p.vec3("V"), p.vec3("H"), p.number("r_v"), p.number("r_h")}; }
-
-Shape epa(Parameters& p) {
-    return Epa{p.vec3("V"), p.vec3("H"), unit_vector(p.vec3("A")), p.number("r_1"), p.number("r_2")};
-}
-
-Shape rpc(Parameters& p) { return Rpc{p.vec3("V"), p.vec3("H"), p.vec3("B"), p.number("r")}; }
-
-Shape rhc(Parameters& p) { return Rhc{p.vec3("V"), p.vec3("H"), p.vec3("B"), p.number("r"), p.number("c")}; }
-
-Shape eto(Parameters& p) { return Eto{p.vec3("V"), p.vec3("N"), p.vec3("C"), p.number("r"), p.number("r_d")}; }
-
-Shape hyp(Parameters& p) { return Hyp{p.vec3("V"), p.vec3("H"), p.vec3("A"), p.number("b"), p.number("bnr")}; }
-
-Shape superell(Parameters& p) {
-    return Superell{p.vec3("V"), p.vec3("A"), p.vec3("B"), p.vec3("C"), p.number("n"), p.number("e")};
-}
-
-Shape hrt(Parameters& p) { return Hrt{p.vec3("V"), p.vec3("X"), p.vec3("Y"), p.vec3("Z"), p.number("d")}; }
-
-Shape cline(Parameters& p) { return Cline{p.vec3("V"), p.vec3("H"), p.number("R"), p.number("T")}; }
 
 template <auto read>
 BrlcadItem item(Parameters& p) {
@@ -73,26 +46,26 @@ struct Reader {
     BrlcadItem (*read)(Parameters&);
 };
 constexpr Reader readers[] = {
-    {"ell", item<ell>},
-    {"sph", item<ell>},
-    {"tgc", item<tgc>},
-    {"rec", item<tgc>},
-    {"tor", item<tor>},
+    {"ell", described<Ell>},
+    {"sph", described<Ell>},
+    {"tgc", described<Tgc>},
+    {"rec", described<Tgc>},
+    {"tor", described<Tor>},
     {"arb8", item<arb8>},
     {"arbn", item<arbn>},
     {"half", item<half>},
-    {"ehy", item<ehy>},
-    {"part", item<part>},
-    {"epa", item<epa>},
-    {"rpc", item<rpc>},
-    {"rhc", item<rhc>},
-    {"eto", item<eto>},
-    {"hyp", item<hyp>},
-    {"superell", item<superell>},
-    {"hrt", item<hrt>},
+    {"ehy", described<Ehy>},
+    {"part", described<Part>},
+    {"epa", described<Epa>},
+    {"rpc", described<Rpc>},
+    {"rhc", described<Rhc>},
+    {"eto", described<Eto>},
+    {"hyp", described<Hyp>},
+    {"superell", described<Superell>},
+    {"hrt", described<Hrt>},
     {"metaball", item<read_v5_metaball>},
     {"pipe", item<read_v5_pipe>},
-    {"cline", item<cline>},
+    {"cline", described<Cline>},
     {"bot", item<read_v5_bot>},
     {"ars", item<read_v5_ars>},
     {"nmg", item<read_v5_nmg>},
