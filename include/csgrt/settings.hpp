@@ -45,7 +45,9 @@ struct Settings {
     /// throws Error (device_fault) that names the pixel and the channel, or the ray. 0: none. Batches are as large as
     /// the device's memory and kind allow, and the reference is slower by far. Not with `contraction`.
     unsigned check = 0;
-    unsigned threads = 0;  ///< of the reference and of a native device; 0: one for each processor
+    /// That work on processors at a time: for the reference, a native device, the compilation of the scene and pixels
+    /// on their way into a picture. 0: one for each processor. Renderers share them.
+    unsigned threads = 0;
     /// Called with the done fraction, by the thread whose call it is, which waits while others work: with 0 at the
     /// beginning of a call, then every 20 ms, and with 1 when all is done. If it returns false before that, the call
     /// ends and throws Error (interrupted): on a processor within 50 ms, but for a single ray that takes longer and

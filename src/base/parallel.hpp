@@ -5,49 +5,56 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "base/thread.hpp"
+#include "base/pool.hpp"
 
 namespace csgrt {
 
-/// 0 stands for all processors that this process may use.
+/// That this process may use.
+inline unsigned processor_count() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+/// 0 stands for as many as this thread is allowed.
 inline unsigned thread_count(unsigned wanted) {
-    return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+    if (wanted == 0) wanted = threads_allowed;
+    return wanted != 0 ? wanted : processor_count();
 }
 
-/// Runs work() on this thread and on threads - 1 others, and returns when all have. It must not throw.
+/// Runs work() on this thread and on up to threads - 1 others of the pool (Pool::run). It must not throw.
 template <class Work>
 void on_threads(unsigned threads, const Work& work) {
-    JoinedThreads others;
-    for (unsigned i = 1; i < threads && others.add(work);) ++i;
-    work();
+    threads > 1 ? Pool::own().run(threads, std::cref(work)) : work();
 }
 
 /// Calls work(first, last, chunk) for chunk = 0, 1, ... of `size` numbers each that make up 0 ... count - 1, in any
-/// order and several at once. If some throw, what the foremost chunk threw is thrown.
+/// order and several at once. If some throw, what the foremost chunk threw is thrown, and no more chunks begin.
 template <class Work>
 void for_chunks(std::size_t count, std::size_t size, unsigned threads, const Work& work) {
     const std::size_t chunks = (count + size - 1) / size;
-    std::vector<std::exception_ptr> thrown(chunks);
     std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::size_t foremost = chunks;
+    std::exception_ptr thrown;
     const auto run = [&] {
         for (std::size_t chunk = next++; chunk < chunks; chunk = next++) {
             try {
                 work(chunk * size, std::min(count, (chunk + 1) * size), chunk);
             } catch (...) {
-                thrown[chunk] = std::current_exception();
+                const std::lock_guard lock(mutex);
+                if (chunk < foremost) thrown = std::current_exception();
+                foremost = std::min(foremost, chunk);
+                next = chunks;  // those before it have begun
             }
         }
     };
     on_threads(static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(chunks, 1))),
                run);
-    for (const std::exception_ptr& exception : thrown)
-        if (exception) std::rethrow_exception(exception);
+    if (thrown) std::rethrow_exception(thrown);
 }
 
 /// Room for `count` in memory that the system has cleared, page by page, for all threads side by side: for one alone

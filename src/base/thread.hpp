@@ -44,10 +44,26 @@ private:
 #endif
 };
 
+/// How many threads the work of this thread may use, with itself (Settings::threads); 0: one for each processor.
+inline constinit thread_local unsigned threads_allowed = 0;
+
+/// While it lives, so many. Threads that are started meanwhile, and those of the pool that help, have the same limit.
+class AllowedThreads {
+public:
+    explicit AllowedThreads(unsigned count) noexcept : before_(std::exchange(threads_allowed, count)) {}
+    AllowedThreads(const AllowedThreads&) = delete;
+    AllowedThreads& operator=(const AllowedThreads&) = delete;
+    ~AllowedThreads() { threads_allowed = before_; }
+
+private:
+    unsigned before_;
+};
+
 template <class Work>
 auto in_own_state(Work work) {
-    return [work = std::move(work)]() mutable {
+    return [work = std::move(work), threads = threads_allowed]() mutable {
         const FloatingPoint own;
+        const AllowedThreads allowed(threads);
         return work();
     };
 }

@@ -13,15 +13,15 @@ namespace {
 // A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause
 // (docs/experiments/gpu-frames.md).
 constexpr std::size_t most_underway = 2 * CopyFeed::piece;
-constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // that a thread writes as soon as another one starts
+constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer are written sooner than a thread wakes
 
 std::size_t end_of(const CopyFeed::Copy& copy) {
     return copy.begin + (copy.channels - 1) * copy.slice + (copy.lines - 1) * copy.pitch + copy.columns;
 }
 
 /// From one channel and line right behind the other to where they belong.
-void put(const CopyFeed::Copy& copy, const float* values, unsigned threads) {
-    for_chunks(copy.channels * copy.lines, std::max<std::size_t>(1, floats_a_thread / copy.columns), threads,
+void put(const CopyFeed::Copy& copy, const float* values) {
+    for_chunks(copy.channels * copy.lines, std::max<std::size_t>(1, floats_a_thread / copy.columns), 0,
                [&](std::size_t i, std::size_t last, std::size_t) {
                    for (; i < last; ++i)
                        std::copy_n(
@@ -48,13 +48,12 @@ CopyFeed::~CopyFeed() {
     if (thread_) thread_->join();
 }
 
-std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered,
-                                       unsigned threads) {
+std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered) {
     for (const Copy& copy : copies)
         if (end_of(copy) * sizeof(float) > buffer.size() || copy.columns * copy.channels > piece)
             throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end, or of too long lines");
     if (!is_registered && !staging_) staging_.emplace(device_, "staging memory", most_underway * sizeof(float));
-    const auto job = std::make_shared<Job>(Job{&buffer, std::move(copies), is_registered, threads, {}, nullptr});
+    const auto job = std::make_shared<Job>(Job{&buffer, std::move(copies), is_registered, {}, nullptr});
     std::shared_future<void> done = job->done.get_future();
     if (!thread_) {
         give(job);
@@ -147,7 +146,7 @@ void CopyFeed::retire() {
     floats_ -= first.copy.size();
     try {
         wait_patiently(first.event);
-        if (first.staged && !job.failure) put(first.copy, first.staged, job.threads);
+        if (first.staged && !job.failure) put(first.copy, first.staged);
     } catch (...) {
         if (!job.failure) job.failure = std::current_exception();
     }

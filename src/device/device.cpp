@@ -37,12 +37,11 @@ FoundDevice chosen(const std::string& choice) {
 
 Device::Device(const std::string& choice, std::uint64_t max_memory) : Device(chosen(choice), max_memory) {}
 
-Device::Device(const FoundDevice& device, std::uint64_t max_memory, unsigned threads, double timeout)
+Device::Device(const FoundDevice& device, std::uint64_t max_memory, double timeout)
     : info_(device.info),
       cl_(std::make_shared<const Driver>(*device.cl, info_.name, patience_with(info_, timeout))),
       id_(device.id) {
-    const cl_context_properties properties[] = {native::threads_property, static_cast<cl_context_properties>(threads),
-                                                native::stop_property, reinterpret_cast<cl_context_properties>(&stop_),
+    const cl_context_properties properties[] = {native::stop_property, reinterpret_cast<cl_context_properties>(&stop_),
                                                 0};
     cl_int code = CL_SUCCESS;
     const BlockedSignals blocked;  // drivers start threads now

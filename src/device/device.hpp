@@ -27,8 +27,8 @@ public:
     /// `max_memory` bounds what all buffers together may take, in bytes; 0: what the device can give.
     /// Throws Error (no_device) that lists what there is, or names the package that brings a device.
     explicit Device(const std::string& choice = "", std::uint64_t max_memory = 0);
-    /// `threads`: of the native device; 0: one for each processor. `timeout`: as Settings::device_timeout has it.
-    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0, unsigned threads = 0, double timeout = -1);
+    /// `timeout`: as Settings::device_timeout has it.
+    explicit Device(const FoundDevice& device, std::uint64_t max_memory = 0, double timeout = -1);
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 

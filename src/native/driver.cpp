@@ -14,7 +14,6 @@
 
 #include "device/host_memory.hpp"
 #include "native/kernels.hpp"
-#include "native/pool.hpp"
 #include "base/parallel.hpp"
 
 namespace csgrt::native {
@@ -40,10 +39,8 @@ namespace {
 // ---- What OpenCL's handles point to ----
 
 struct Context {
-    unsigned threads_wanted = 0;
     const std::atomic<bool>* const* stop = nullptr;
-    std::mutex kernels;        ///< one runs at a time
-    std::optional<Pool> pool;  ///< from the first kernel on
+    std::mutex kernels;  ///< one runs at a time
 };
 struct Queue {
     explicit Queue(Context& c) : context(c) {}
@@ -150,7 +147,7 @@ cl_int get_device_info(cl_device_id device, cl_device_info what, std::size_t roo
         case CL_DEVICE_MAX_MEM_ALLOC_SIZE:
             return answer(cl_ulong{host_memory()}, room, out, needed);
         case CL_DEVICE_MAX_COMPUTE_UNITS:
-            return answer(cl_uint{thread_count(0)}, room, out, needed);
+            return answer(cl_uint{processor_count()}, room, out, needed);
         case CL_DEVICE_AVAILABLE:
         case CL_DEVICE_HOST_UNIFIED_MEMORY:
             return answer(cl_bool{CL_TRUE}, room, out, needed);
@@ -165,7 +162,6 @@ cl_context create_context(const cl_context_properties* properties, cl_uint, cons
                           void (*)(const char*, const void*, std::size_t, void*), void*, cl_int* code) {
     auto* const context = new Context;
     for (; properties && properties[0] != 0; properties += 2) {
-        if (properties[0] == threads_property) context->threads_wanted = static_cast<unsigned>(properties[1]);
         if (properties[0] == stop_property)
             context->stop = reinterpret_cast<const std::atomic<bool>* const*>(properties[1]);
     }
@@ -340,9 +336,9 @@ cl_int set_argument(cl_kernel kernel, cl_uint index, std::size_t bytes, const vo
 void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* arguments, std::size_t items,
          std::size_t group) {
     constexpr std::size_t parts_a_thread = 64, most_items = 4096, few_items = 64;
-    if (!context.pool) context.pool.emplace(context.threads_wanted);
     const std::size_t groups = items / group;
-    const std::size_t each = std::min(groups / (context.pool->threads() * parts_a_thread), most_items / group) + 1;
+    const unsigned threads = items < few_items || groups == 1 ? 1 : thread_count(0);
+    const std::size_t each = std::min(groups / (threads * parts_a_thread), most_items / group) + 1;
     std::atomic<std::size_t> next{0};
     const std::atomic<bool>* const stop = context.stop && *context.stop ? *context.stop : &never;
     const auto work = [&] {
@@ -351,11 +347,7 @@ void run(Context& context, const CompiledKernel& kernel, const std::uint64_t* ar
         for (std::size_t first; (first = next.fetch_add(each, std::memory_order_relaxed)) < groups;)
             kernel.run(first * group, std::min(groups, first + each) * group, arguments);
     };
-    if (items < few_items || groups == 1) {
-        work();
-    } else {
-        context.pool->run(work);
-    }
+    on_threads(threads, work);
 }
 
 cl_int launch(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const std::size_t*,

@@ -14,8 +14,6 @@ namespace csgrt::native {
 
 inline constexpr const char* platform_name = "csgrt";
 
-/// The property of a context that says with how many threads kernels run (0: one for each processor).
-inline constexpr cl_context_properties threads_property = 0x63736774;
 /// The property of a context that says where the pointer to a std::atomic<bool> is, which may be null. As long as that
 /// is true, kernels leave out the work-items that have not begun.
 inline constexpr cl_context_properties stop_property = 0x63736773;

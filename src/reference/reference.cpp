@@ -44,8 +44,8 @@ Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, st
     return {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
 }
 
-Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads)
-    : scene_(scene), kernels_(kernels), near_(scene), threads_(thread_count(threads)) {
+Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels)
+    : scene_(scene), kernels_(kernels), near_(scene) {
     regions_of_.resize(scene.solids.size());
     for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
         for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
@@ -161,31 +161,16 @@ void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& cla
     }
 }
 
-// Work is handed out in pieces of 64; which thread does a piece changes nothing in its result.
+// Which thread does a piece changes nothing in its result.
 template <class Work>
 void Reference::parallel(std::size_t count, Watch* watch, const Work& work) const {
-    constexpr std::size_t piece = 64;
-    if (watch) watch->begin(count);
-    std::atomic<std::size_t> next{0};
-    std::atomic<bool> stop{false};
-    std::exception_ptr failure;
     std::mutex mutex;
-    on_threads(threads_, [&] {
-        try {
-            Claims claims;
-            for (;;) {
-                const std::size_t begin = next.fetch_add(piece), end = std::min(begin + piece, count);
-                if (begin >= count || stop) return;
-                work(begin, end, claims, mutex);
-                if (watch) watch->add(end - begin);
-            }
-        } catch (...) {
-            stop = true;
-            const std::lock_guard lock(mutex);
-            if (!failure) failure = std::current_exception();
-        }
+    if (watch) watch->begin(count);
+    for_chunks(count, 64, 0, [&](std::size_t begin, std::size_t end, std::size_t) {
+        Claims claims;
+        work(begin, end, claims, mutex);
+        if (watch) watch->add(end - begin);
     });
-    if (failure) std::rethrow_exception(failure);
 }
 
 std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,

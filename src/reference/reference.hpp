@@ -19,7 +19,7 @@ struct ReferenceCounts {
 class Reference {
 public:
     /// Both must outlive it.
-    Reference(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads);
+    Reference(const CompiledScene& scene, const ReferenceKernels& kernels);
 
     /// Pixels by row from the top left, or those with the numbers `some`. Throws Error (interrupted) if `watch`, which
     /// may be null, says so.
@@ -45,7 +45,6 @@ private:
     const CompiledScene& scene_;
     const ReferenceKernels& kernels_;
     NearSolids near_;
-    unsigned threads_;
     std::vector<std::vector<std::uint32_t>> regions_of_;  ///< by solid, found from the trees here
 };
 

@@ -12,7 +12,7 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
     memory.registered = nullptr;
     counts_ = {};
     const std::vector<kernel::Pixel> seen = reference_.render(frame, &watch, counts_);
-    for_chunks(seen.size(), 16'384, threads_, [&](std::size_t first, std::size_t last, std::size_t) {
+    for_chunks(seen.size(), 16'384, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t c = 0; c < memory.sources.size(); ++c)
             for (std::size_t i = first; i < last; ++i) memory.channels[c].pixels[i] = memory.sources[c]->value(seen[i]);
     });

@@ -8,9 +8,8 @@ namespace csgrt {
 
 class ReferenceBackend final : public Backend {
 public:
-    /// Both must outlive it. `threads`: 0: all.
-    ReferenceBackend(const CompiledScene& scene, const ReferenceKernels& kernels, unsigned threads)
-        : reference_(scene, kernels, threads), threads_(threads) {}
+    /// Both must outlive it.
+    ReferenceBackend(const CompiledScene& scene, const ReferenceKernels& kernels) : reference_(scene, kernels) {}
 
     void prepare(bool) override {}
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
@@ -21,7 +20,6 @@ public:
 
 private:
     Reference reference_;
-    unsigned threads_;
     ReferenceCounts counts_;
 };
 

@@ -82,6 +82,7 @@ struct Renderer::Impl {
 Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
     : impl_(new Impl) {
     const FloatingPoint own;
+    const AllowedThreads allowed(settings.threads);
     if (settings.precision == Precision::quad && !settings.reference)
         throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
     if (settings.contraction && settings.reference)
@@ -115,7 +116,7 @@ Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, 
 
 void Renderer::Impl::use_reference() {
     kernels = make_kernels_to_run(scene, settings.precision, settings.quartic);
-    backend = std::make_unique<ReferenceBackend>(scene, *kernels, settings.threads);
+    backend = std::make_unique<ReferenceBackend>(scene, *kernels);
 }
 
 // Without devices, and where nobody named one, the reference draws, with a warning.
@@ -195,6 +196,7 @@ Image Renderer::render(const View& view) {
 void Renderer::render(const View& view, Framebuffer& framebuffer) {
     const FloatingPoint own;
     Impl& impl = this->impl();
+    const AllowedThreads allowed(impl.settings.threads);
     Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) { impl.render(view, framebuffer, watch); });
 }
 
@@ -251,6 +253,7 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     const FloatingPoint own;
     Impl& impl = this->impl();
+    const AllowedThreads allowed(impl.settings.threads);
     std::vector<RayPartitions> answers;
     Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) { answers = impl.shoot(rays, watch); });
     return answers;

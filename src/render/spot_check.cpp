@@ -28,7 +28,7 @@ SpotCheck::SpotCheck(const CompiledScene& scene, const Settings& settings) : sce
 const Reference& SpotCheck::reference() {
     if (!reference_) {
         kernels_ = make_kernels_to_run(scene_, settings_.precision, settings_.quartic);
-        reference_.emplace(scene_, *kernels_, settings_.threads);
+        reference_.emplace(scene_, *kernels_);
     }
     return *reference_;
 }

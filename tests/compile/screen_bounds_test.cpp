@@ -29,7 +29,7 @@ Outcome look(const CompiledScene& compiled, const ReferenceKernels& kernels, con
     CHECK(w.right <= prepared.frame.width);
     CHECK(w.bottom <= prepared.frame.height);
     ReferenceCounts counts;
-    const std::vector<kernel::Pixel> pixels = Reference(compiled, kernels, 0).render(prepared, nullptr, counts);
+    const std::vector<kernel::Pixel> pixels = Reference(compiled, kernels).render(prepared, nullptr, counts);
     Outcome outcome;
     for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
         for (std::uint32_t x = 0; x < prepared.frame.width; ++x) {

@@ -38,7 +38,7 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
             return copies;
         };
         const auto add = [&](std::vector<CopyFeed::Copy> copies) {
-            done.push_back(feed.add(buffer, copies_of(std::move(copies)), is_registered, 2));
+            done.push_back(feed.add(buffer, copies_of(std::move(copies)), is_registered));
         };
         const auto copy = [](std::size_t columns, std::size_t lines, std::size_t channels, std::size_t begin,
                              std::size_t pitch, std::size_t slice) {
@@ -60,7 +60,7 @@ TEST_CASE("a feed makes all copies, in pieces, beside other commands of the devi
              copy(32'768, 3, 64, 3, 32'768, 98'304)});
         for (const CopyFeed::Copy& wrong : {copy(5, 1, 1, 10'000'003, 5, 0), copy(2, 2, 2, 0, 2, 10'000'004),
                                             copy(CopyFeed::piece / 2 + 1, 1, 2, 0, 2'000'000, 2'000'000)})
-            CHECK_THROWS_AS(feed.add(buffer, {wrong}, is_registered, 2), std::logic_error);
+            CHECK_THROWS_AS(feed.add(buffer, {wrong}, is_registered), std::logic_error);
     }
     for (const std::shared_future<void>& all : done) {
         REQUIRE(all.wait_for(std::chrono::seconds(0)) == std::future_status::ready);  // its end comes after all copies
@@ -81,8 +81,8 @@ TEST_CASE("copies that a device refuses are told by their future, and those behi
     const CopyFeed::Copy copy{.columns = 100, .pitch = 100, .target_pitch = 100};
     CopyFeed::Copy somewhere = copy;
     somewhere.target = host.data();
-    const auto refused = feed.add(buffer, {copy}, true, 1);  // to nowhere
-    const auto made = feed.add(buffer, {somewhere}, true, 1);
+    const auto refused = feed.add(buffer, {copy}, true);  // to nowhere
+    const auto made = feed.add(buffer, {somewhere}, true);
     CHECK_THROWS_AS(refused.get(), Error);
     CHECK_NOTHROW(made.get());
     CHECK(host == values);

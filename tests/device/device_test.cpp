@@ -316,7 +316,7 @@ TEST_CASE("registered host memory keeps what it holds, takes copies by lines, an
                    .pitch = 30,
                    .target = host.data() + 5 * 100 + 11,
                    .target_pitch = 100}},
-                 true, 1)
+                 true)
             .get();
     }
     std::vector<float> expected(host.size(), 7);

@@ -118,6 +118,20 @@ TEST_CASE("csgrt's threads leave all signals to the host's, and so do a driver's
     });
 }
 
+TEST_CASE("a Renderer that may use one thread starts none", "[device]") {
+    for (const std::string who : {"native", "reference"})
+        require_good(who, [&] {
+            Settings settings = on(who);
+            settings.threads = 1;
+            Renderer renderer = renderer_on(small_scene(), settings);
+            renderer.render({.width = 256, .height = 256});
+            REQUIRE(require_silent_threads() == 0);
+            settings.threads = 2;
+            renderer_on(small_scene(), settings).render({.width = 256, .height = 256});
+            REQUIRE(require_silent_threads() == 1);
+        });
+}
+
 TEST_CASE("csgrt changes no handler of a signal, and no thread's signals", "[device]") {
     for (const std::string who : {"native", "reference"})
         require_good(who, [&] {

@@ -28,8 +28,7 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
             const PreparedFrame prepared = prepare_frame(compiled, view);
             const test::HostRun run = test::run_kernels(compiled, prepared);
             ReferenceCounts counts;
-            const std::vector<kernel::Pixel> expected =
-                Reference(compiled, *kernels, 1).render(prepared, nullptr, counts);
+            const std::vector<kernel::Pixel> expected = Reference(compiled, *kernels).render(prepared, nullptr, counts);
             CHECK(2 * run.offsets.back().segments == counts.hits);
             const auto differing = [&](const std::vector<float>& picture, bool counted) {
                 std::size_t different = 0;

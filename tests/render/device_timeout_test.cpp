@@ -75,8 +75,8 @@ TEST_CASE("how long a device may take: a GPU a minute, a processor any time, and
     if (find_native_devices().empty()) return;
     FoundDevice device = find_native_devices().front();
     CHECK(Device(device).cl().patience == 0);
-    CHECK(Device(device, 0, 0, 3).cl().patience == 3);
+    CHECK(Device(device, 0, 3).cl().patience == 3);
     device.info.type = "gpu";
     CHECK(Device(device).cl().patience == 60);
-    CHECK(Device(device, 0, 0, 0).cl().patience == 0);
+    CHECK(Device(device, 0, 0.0).cl().patience == 0);
 }

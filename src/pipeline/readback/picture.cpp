@@ -83,7 +83,7 @@ void put_tiles(const kernel::Frame& frame, std::uint32_t first, std::uint32_t en
     std::vector<std::uint32_t> places(end - first, not_drawn);
     for (std::size_t i = 0; i < drawn.size(); ++i) places[drawn[i] - first] = static_cast<std::uint32_t>(i);
     const std::size_t chunk = std::max<std::size_t>(1, pixels_a_thread / (tiles.columns * TILE * TILE));
-    for_chunks(tiles.rows, chunk, target.threads, [&](std::size_t row, std::size_t last, std::size_t) {
+    for_chunks(tiles.rows, chunk, 0, [&](std::size_t row, std::size_t last, std::size_t) {
         for (; row < last; ++row) {
             const std::span<std::uint8_t> covered = tiles.covered(row, target);
             const std::uint32_t* const of_row = places.data() + row * tiles.columns;
@@ -143,15 +143,14 @@ void clear_around(const kernel::Frame& frame, const RenderTarget& target) {
         find(row, 0, is_within ? screen.left / TILE : all.columns);
         if (is_within) find(row, (screen.right + TILE - 1) / TILE, all.columns);
     }
-    for_chunks(covered.size(), pixels_a_thread / (TILE * TILE), target.threads,
-               [&](std::size_t i, std::size_t last, std::size_t) {
-                   for (; i < last; ++i) {
-                       const std::size_t column = covered[i] % all.columns;
-                       for (const ChannelMemory& channel : target.channels)
-                           fill(channel, frame.width, all.pixels(covered[i] / all.columns, column, column + 1));
-                       target.covered[covered[i]] = 0;
-                   }
-               });
+    for_chunks(covered.size(), pixels_a_thread / (TILE * TILE), 0, [&](std::size_t i, std::size_t last, std::size_t) {
+        for (; i < last; ++i) {
+            const std::size_t column = covered[i] % all.columns;
+            for (const ChannelMemory& channel : target.channels)
+                fill(channel, frame.width, all.pixels(covered[i] / all.columns, column, column + 1));
+            target.covered[covered[i]] = 0;
+        }
+    });
 }
 
 void put_rays(const kernel::Frame& frame, std::span<const std::uint32_t> numbers, const float* values,

@@ -21,7 +21,6 @@ struct ChannelMemory {
 struct RenderTarget {
     std::span<const ChannelMemory> channels;
     std::span<std::uint8_t> covered;  ///< of each tile of the picture: 0 if it holds nothing but background, else 1
-    unsigned threads = 0;             ///< that write pixels; 0: all
     const RegisteredMemory* registered = nullptr;  ///< the channels' memory, as far as devices copy into it
 };
 

@@ -55,7 +55,7 @@ void ReadbackRing::collect(const kernel::Frame& frame, const RayBatch& batch, st
                           .target_slice = std::size_t{frame.width} * frame.height});
     if (copies.empty()) return;
     const bool is_registered = target.registered && target.registered->has(device_);
-    picture.copied = copies_.add(picture.buffer, std::move(copies), is_registered, target.threads);
+    picture.copied = copies_.add(picture.buffer, std::move(copies), is_registered);
 }
 
 void ReadbackRing::finish() {

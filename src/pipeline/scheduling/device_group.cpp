@@ -24,8 +24,7 @@ DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const Compiled
     : number_(next_number++) {
     const auto start = Clock::now();
     for (const FoundDevice& device : devices) {
-        devices_.push_back(
-            std::make_unique<Device>(device, settings.max_memory, settings.threads, settings.device_timeout));
+        devices_.push_back(std::make_unique<Device>(device, settings.max_memory, settings.device_timeout));
         pipelines_.push_back(std::make_unique<Pipeline>(*devices_.back(), scene, kernels, settings, readback));
     }
     setup_ms_ = milliseconds_since(start);
@@ -68,7 +67,7 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         DeviceGroup& group;
     } following(*this, watch ? watch->stop() : nullptr);
     std::atomic<std::size_t> joined{0};
-    on_threads(static_cast<unsigned>(devices), [&] {
+    const auto draw = [&] {
         const std::size_t own_number = joined++;
         PipelineCounts own;
         try {
@@ -81,7 +80,13 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         own.kernels = covered_time(std::move(own.spans));
         const std::lock_guard lock(mutex);
         counts += own;
-    });
+    };
+    {
+        JoinedThreads others;  // which wait for devices: none of the pool's
+        while (others.size() + 1 < devices && others.add(draw)) {
+        }
+        draw();
+    }
     for (const std::exception_ptr& error : thrown)
         if (error) std::rethrow_exception(error);
 }
@@ -127,8 +132,6 @@ std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const C
 void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch,
                          PipelineCounts& counts) {
     start_call();
-    RenderTarget shared = target;  // until nothing more comes into it
-    shared.threads = std::max(1u, thread_count(0) / static_cast<unsigned>(pipelines_.size()));
     struct Abandon {
         std::vector<std::unique_ptr<Pipeline>>& pipelines;
         bool is_finished = false;
@@ -140,7 +143,7 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
     const std::uint64_t row = std::max(1u, kernel::tiles_across(prepared.frame.screen)) * std::uint64_t{tile_rays};
     share(prepared.rays, row, prepared.frame.every_partition, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
-              pipeline.render(prepared, take, shared, told, own);
+              pipeline.render(prepared, take, target, told, own);
           });
     clear_around(prepared.frame, target);  // while the last batches' pixels are on their way
     for (const auto& pipeline : pipelines_) pipeline->finish();

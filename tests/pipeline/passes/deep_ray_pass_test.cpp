@@ -34,7 +34,7 @@ struct Shot {
     std::vector<RayPartitions> expected() {
         const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
         ReferenceCounts counts;
-        return Reference(on.compiled, *to_run, 0).shoot(prepared, rays, nullptr, counts);
+        return Reference(on.compiled, *to_run).shoot(prepared, rays, nullptr, counts);
     }
 
     test::OnDevice on;

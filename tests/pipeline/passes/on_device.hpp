@@ -32,7 +32,7 @@ struct OnDevice {
     std::vector<kernel::Pixel> expected() const {
         const auto to_run = make_kernels_to_run(compiled, settings.precision, settings.quartic);
         ReferenceCounts counts;
-        return Reference(compiled, *to_run, 0).render(prepared, nullptr, counts);
+        return Reference(compiled, *to_run).render(prepared, nullptr, counts);
     }
     /// The place in that list of a picture's ray; none: it goes through no pixel.
     std::optional<std::size_t> pixel_of(std::uint32_t ray) const {

@@ -59,7 +59,7 @@ TEST_CASE("the partition pass answers rays as they come") {
             to_partitions(*on.kernels, prepared.frame, rays[i], claimed_partitions(on.compiled, traced, i)));
     const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
     ReferenceCounts counts;
-    test::require_same(answers, Reference(on.compiled, *to_run, 0).shoot(prepared, rays, nullptr, counts));
+    test::require_same(answers, Reference(on.compiled, *to_run).shoot(prepared, rays, nullptr, counts));
     CHECK(counts.partitions > 100);
 }
 

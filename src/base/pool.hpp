@@ -1,0 +1,93 @@
+// The process's threads that compute: they are started when several have work, and wait between works for the next one,
+// whoever calls. All in the header, as process.hpp is.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "base/process.hpp"
+#include "base/thread.hpp"
+
+namespace csgrt {
+
+class Pool {
+public:
+    /// This process's. It is never destroyed: a program may end, or fork, while threads work.
+    static Pool& own() {
+        static std::atomic<Pool*> last{nullptr};
+        Pool* found = last.load();
+        if (found && found->process_ == process_number()) return *found;
+        auto* const fresh = new Pool;
+        if (last.compare_exchange_strong(found, fresh)) return *fresh;
+        delete fresh;  // another thread was sooner
+        return *found;
+    }
+
+    Pool() = default;
+    Pool(const Pool&) = delete;
+    Pool& operator=(const Pool&) = delete;
+    ~Pool() {
+        {
+            const std::lock_guard lock(mutex_);
+            stop_ = true;
+        }
+        begun_.notify_all();
+    }
+
+    /// Calls work() on this thread, and on as many as `threads` - 1 others as are free before it returns here. Returns
+    /// when all have returned. It must not throw. Where the system gives fewer threads, those do. Several calls at a
+    /// time, also within a work, share the threads.
+    void run(unsigned threads, const std::function<void()>& work) {
+        if (threads <= 1) return work();
+        Call call{work, threads - 1};
+        {
+            const std::lock_guard lock(mutex_);
+            calls_.push_back(&call);
+            while (threads_.size() < threads - 1 && threads_.add([this] { wait_for_work(); })) {
+            }
+        }
+        begun_.notify_all();
+        work();
+        std::unique_lock lock(mutex_);
+        std::erase(calls_, &call);
+        call.ended.wait(lock, [&] { return call.running == 0; });
+    }
+
+private:
+    struct Call {
+        const std::function<void()>& work;
+        unsigned wanted;  ///< threads yet
+        unsigned threads_allowed = csgrt::threads_allowed;
+        unsigned running = 0;
+        std::condition_variable ended = {};
+    };
+
+    void wait_for_work() {
+        std::unique_lock lock(mutex_);
+        for (;;) {
+            begun_.wait(lock, [this] { return stop_ || !calls_.empty(); });
+            if (stop_) return;
+            Call& call = *calls_.back();  // the innermost one, perhaps
+            ++call.running;
+            if (--call.wanted == 0) calls_.pop_back();
+            lock.unlock();
+            threads_allowed = call.threads_allowed;
+            call.work();
+            lock.lock();
+            if (--call.running == 0) call.ended.notify_one();
+        }
+    }
+
+    const unsigned process_ = process_number();
+    std::mutex mutex_;
+    std::condition_variable begun_;
+    std::vector<Call*> calls_;  ///< that want threads
+    bool stop_ = false;
+    JoinedThreads threads_;  // joined before the rest goes
+};
+
+}  // namespace csgrt
