@@ -16,10 +16,14 @@ struct Stage {
     double Times::*time;
 };
 /// Of the device.
-inline constexpr Stage stages[] = {{"count_hits", &Times::count_hits}, {"scan", &Times::scan},
-                                   {"store", &Times::store_segments},  {"weave", &Times::weave},
-                                   {"evaluate", &Times::evaluate},     {"shade", &Times::shade},
-                                   {"cull", &Times::cull_tiles},       {"first_hits", &Times::first_hits}};
+inline constexpr Stage stages[] = {{"count_segments", &Times::count_segments},
+                                   {"scan", &Times::scan},
+                                   {"store", &Times::store_segments},
+                                   {"weave", &Times::weave},
+                                   {"evaluate", &Times::evaluate},
+                                   {"shade", &Times::shade},
+                                   {"cull", &Times::cull_tiles},
+                                   {"first_hits", &Times::first_hits}};
 
 struct Figures {
     std::string workload, device, mode;  ///< mode: "first hits" or "every partition"

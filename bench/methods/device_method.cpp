@@ -166,7 +166,7 @@ private:
         return true;
     }
 
-    double before_ms() const { return counts_.count_hits + counts_.scan + counts_.store_segments + counts_.weave; }
+    double before_ms() const { return counts_.count_segments + counts_.scan + counts_.store_segments + counts_.weave; }
 
     const CompiledScene& scene_;
     DeviceMethod method_;

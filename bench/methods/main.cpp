@@ -235,7 +235,7 @@ void print_own_times(const Job& job, const TraceOptions& options) {
     repeat([&] {
         renderer.shoot(job.rays);
         const auto& ms = renderer.statistics().ms;
-        before = std::min(before, ms.count_hits + ms.scan + ms.store_segments + ms.weave);
+        before = std::min(before, ms.count_segments + ms.scan + ms.store_segments + ms.weave);
         evaluate = std::min(evaluate, ms.evaluate);
     });
     std::printf("csgrt on %s: kernel 4 %.4g ms, kernels 1 to 3 %.4g ms\n", renderer.statistics().device.c_str(),

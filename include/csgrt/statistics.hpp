@@ -20,7 +20,7 @@ struct Statistics {
     bool contraction = false;
     int width = 0, height = 0;  ///< of the picture, pixels; 0 for rays
     std::uint64_t rays = 0;
-    std::uint64_t hits = 0;      ///< ends of segments along all rays
+    std::uint64_t ends = 0;      ///< of segments along all rays
     std::uint64_t segments = 0;  ///< intervals of rays inside single solids
     /// Intervals between neighbouring ends of segments that are inside any solid, and for how many there was memory.
     std::uint64_t partitions_used = 0, partitions_allocated = 0;
@@ -36,8 +36,8 @@ struct Statistics {
         double compile = 0;  ///< compiling the scene
         /// Finding devices and compiling all kernels so far. A call that waits for that does not count it as `frame`.
         double build = 0;
-        double count_hits = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;  ///< kernels
-        double cull_tiles = 0, first_hits = 0;                                                    ///< kernels
+        double count_segments = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;  ///< kernels
+        double cull_tiles = 0, first_hits = 0;                                                        ///< kernels
         double kernels = 0;  ///< in which kernels ran on a device, whether one or several at once
         double frame = 0;    ///< the whole call, on the host's clock
         double write = 0;    ///< writing the picture's file; the command line sets it

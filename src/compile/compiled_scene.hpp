@@ -51,7 +51,6 @@ struct Logic {
     std::vector<FlatTree> flat_trees;     ///< one a region
     std::vector<RegionInfo> region_info;  ///< one a region
     Box bounds;                           ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
-    std::uint32_t instances = 0;          ///< leaves over all trees
 };
 
 /// What rays meet.

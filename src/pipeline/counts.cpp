@@ -5,7 +5,7 @@
 namespace csgrt {
 
 PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
-    hits += other.hits;
+    ends += other.ends;
     segments += other.segments;
     partitions_used += other.partitions_used;
     partitions_allocated += other.partitions_allocated;
@@ -15,7 +15,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     batches += other.batches;
     done.insert(done.end(), other.done.begin(), other.done.end());
     retried += other.retried;
-    count_hits += other.count_hits;
+    count_segments += other.count_segments;
     scan += other.scan;
     store_segments += other.store_segments;
     weave += other.weave;

@@ -197,13 +197,13 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
             pixel.partitions = static_cast<std::uint32_t>(claims.woven);
             pixel.overlap = static_cast<std::uint32_t>(claims.overlaps);
             pixels[i] = pixel;
-            sum.hits += claims.ends.size();
+            sum.ends += claims.ends.size();
             sum.segments += claims.ends.size() / 2;
             sum.partitions += claims.woven;
             sum.overlaps += claims.overlaps;
         }
         const std::lock_guard lock(mutex);
-        counts.hits += sum.hits;
+        counts.ends += sum.ends;
         counts.segments += sum.segments;
         counts.partitions += sum.partitions;
         counts.overlaps += sum.overlaps;
@@ -220,13 +220,13 @@ std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const
             if (watch) watch->check();
             evaluate(prepared.frame, rays[i], claims);
             results[i] = to_partitions(kernels_, prepared.frame, rays[i], claims.partitions);
-            sum.hits += claims.ends.size();
+            sum.ends += claims.ends.size();
             sum.segments += claims.ends.size() / 2;
             sum.partitions += claims.woven;
             sum.overlaps += claims.overlaps;
         }
         const std::lock_guard lock(mutex);
-        counts.hits += sum.hits;
+        counts.ends += sum.ends;
         counts.segments += sum.segments;
         counts.partitions += sum.partitions;
         counts.overlaps += sum.overlaps;

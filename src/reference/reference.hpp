@@ -13,7 +13,7 @@
 namespace csgrt {
 
 struct ReferenceCounts {
-    std::uint64_t hits = 0, segments = 0, partitions = 0, overlaps = 0;
+    std::uint64_t ends = 0, segments = 0, partitions = 0, overlaps = 0;
 };
 
 class Reference {

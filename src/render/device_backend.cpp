@@ -66,7 +66,7 @@ void DeviceBackend::report(Statistics& statistics) const {
     statistics.ms.build = search_ms_ + group().build_ms();
     if (!drawer_) return;
     statistics.device_bytes = group().device_bytes();
-    statistics.hits = c.hits;
+    statistics.ends = c.ends;
     statistics.segments = c.segments;
     statistics.partitions_used = c.partitions_used;
     statistics.partitions_allocated = c.partitions_allocated;
@@ -74,7 +74,7 @@ void DeviceBackend::report(Statistics& statistics) const {
     statistics.segment_bytes = c.segment_bytes;
     statistics.partition_bytes = c.partition_bytes;
     statistics.batches = c.batches;
-    statistics.ms.count_hits = c.count_hits;
+    statistics.ms.count_segments = c.count_segments;
     statistics.ms.scan = c.scan;
     statistics.ms.store_segments = c.store_segments;
     statistics.ms.weave = c.weave;

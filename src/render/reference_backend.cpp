@@ -25,7 +25,7 @@ std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, c
 }
 
 void ReferenceBackend::report(Statistics& statistics) const {
-    statistics.hits = counts_.hits;
+    statistics.ends = counts_.ends;
     statistics.segments = counts_.segments;
     statistics.partitions_used = statistics.partitions_allocated = counts_.partitions;
     statistics.overlaps = counts_.overlaps;

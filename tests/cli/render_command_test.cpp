@@ -42,14 +42,14 @@ TEST_CASE("--stats holds the promised keys in their order") {
                                                "precision",     "method",
                                                "quartic",       "tolerance",
                                                "contraction",   "size",
-                                               "rays",          "hits",
+                                               "rays",          "ends",
                                                "segments",      "partitions",
                                                "used",          "allocated",
                                                "overlaps",      "device_bytes",
                                                "segment_bytes", "partition_bytes",
                                                "batches",       "ms",
                                                "load",          "compile",
-                                               "build",         "count_hits",
+                                               "build",         "count_segments",
                                                "scan",          "store_segments",
                                                "weave",         "evaluate",
                                                "shade",         "cull_tiles",
@@ -61,7 +61,7 @@ TEST_CASE("--stats holds the promised keys in their order") {
     CHECK(keys(once.out) == expected);
     CHECK(contains(once.out, "\"size\": [40, 30]"));
     CHECK(value(once.out, "rays") == 1200);
-    CHECK(value(once.out, "hits") > 0);
+    CHECK(value(once.out, "ends") > 0);
     CHECK(value(once.out, "overlaps") > 0);
     CHECK(value(once.out, "load") > 0);
     CHECK(value(once.out, "frame") > 0);

@@ -10,7 +10,7 @@ TEST_CASE("medians leave out the first of several frames, and counts are the las
         Statistics& frame = frames.emplace_back();
         frame.ms.frame = time;
         frame.ms.weave = 10 * time;
-        frame.hits = static_cast<std::uint64_t>(time);
+        frame.ends = static_cast<std::uint64_t>(time);
     }
     CHECK(csgrt::cli::median_of({frames[0]}).ms.frame == 100);
     CHECK(csgrt::cli::median_of({frames[0], frames[1]}).ms.frame == 3);
@@ -19,7 +19,7 @@ TEST_CASE("medians leave out the first of several frames, and counts are the las
     CHECK(median.ms.frame == 2);
     CHECK(median.ms.weave == 20);
     CHECK(median.ms.shade == 0);
-    CHECK(median.hits == 2);
+    CHECK(median.ends == 2);
 }
 
 TEST_CASE("figures are JSON whatever the device is called") {

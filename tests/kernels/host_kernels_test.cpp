@@ -29,7 +29,7 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
             const test::HostRun run = test::run_kernels(compiled, prepared);
             ReferenceCounts counts;
             const std::vector<kernel::Pixel> expected = Reference(compiled, *kernels).render(prepared, nullptr, counts);
-            CHECK(2 * run.offsets.back().segments == counts.hits);
+            CHECK(2 * run.offsets.back().segments == counts.ends);
             const auto differing = [&](const std::vector<float>& picture, bool counted) {
                 std::size_t different = 0;
                 const std::size_t size = expected.size();

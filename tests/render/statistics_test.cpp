@@ -41,7 +41,7 @@ TEST_CASE(
     for (const float count : image.channel("partitions")) partitions += static_cast<std::uint64_t>(count);
     for (const float count : image.channel("overlap")) overlaps += static_cast<std::uint64_t>(count);
     CHECK(every.segments == segments);
-    CHECK(every.hits == 2 * every.segments);
+    CHECK(every.ends == 2 * every.segments);
     CHECK(every.partitions_used == partitions);
     CHECK(every.overlaps == overlaps);
     CHECK(every.partitions_allocated >= every.partitions_used);

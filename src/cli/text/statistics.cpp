@@ -18,7 +18,7 @@ constexpr std::pair<const char*, double Times::*> times[] = {
     {"load", &Times::load},
     {"compile", &Times::compile},
     {"build", &Times::build},
-    {"count_hits", &Times::count_hits},
+    {"count_segments", &Times::count_segments},
     {"scan", &Times::scan},
     {"store_segments", &Times::store_segments},
     {"weave", &Times::weave},
@@ -74,7 +74,7 @@ std::string to_json(const Statistics& s) {
                       "  \"tolerance\": " + shortest(s.tolerance) +
                       ",\n  \"contraction\": " + (s.contraction ? "true" : "false") + ",\n";
     out += "  \"size\": [" + std::to_string(s.width) + ", " + std::to_string(s.height) + "],\n";
-    out += count("rays", s.rays) + count("hits", s.hits) + count("segments", s.segments);
+    out += count("rays", s.rays) + count("ends", s.ends) + count("segments", s.segments);
     out += "  \"partitions\": {\"used\": " + std::to_string(s.partitions_used) +
            ", \"allocated\": " + std::to_string(s.partitions_allocated) + "},\n";
     out += count("overlaps", s.overlaps) + count("device_bytes", s.device_bytes) +

@@ -23,7 +23,6 @@ constexpr std::size_t chunk_size = 512;
 struct RegionChunk {
     std::vector<std::uint32_t> words;
     std::uint32_t first_word = 0;
-    std::uint64_t leaves = 0;
     Box bounds = empty_box;
 };
 
@@ -52,9 +51,7 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
             if (is_finite(info.bounds) && !is_empty(info.bounds)) chunk.bounds = united(chunk.bounds, info.bounds);
             FlatTree& numbered = logic.flat_trees[i] = region.tree;
             for (FlatTree::Node& node : numbered.nodes) {
-                if (node.op != Operator::leaf) continue;
-                node.solid = number[node.solid];
-                ++chunk.leaves;
+                if (node.op == Operator::leaf) node.solid = number[node.solid];
             }
             const LinearTree tree = linearize(numbered, chunk.words);
             logic.regions[i] = {tree.first_word, tree.word_count};
@@ -65,15 +62,13 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
     std::partial_sum(std::begin(logic.rank_ends), std::end(logic.rank_ends), std::begin(logic.rank_ends));
 
     logic.bounds = empty_box;
-    std::uint64_t words = 0, leaves = 0;
+    std::uint64_t words = 0;
     for (RegionChunk& chunk : chunks) {
         chunk.first_word = static_cast<std::uint32_t>(words);
         words += chunk.words.size();
-        leaves += chunk.leaves;
         logic.bounds = united(logic.bounds, chunk.bounds);
         check_tree_words(words);
     }
-    logic.instances = static_cast<std::uint32_t>(leaves);
     logic.trees.resize(words);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         const RegionChunk& chunk = chunks[c];

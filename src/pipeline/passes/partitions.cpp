@@ -154,7 +154,7 @@ void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
     const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
     Buffer& places = memory_.candidate_places();
     timed.emplace_back(
-        &PipelineCounts::count_hits,
+        &PipelineCounts::count_segments,
         in_packets(input)
             ? packet_candidates_->count.launch(input.rays / packet_rays, work_group, batch.frame, input.scene.nodes(),
                                                tile_nodes, batch.tiles, places)
@@ -169,7 +169,7 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
     const Buffer& tile_nodes = input.work == Work::tiles ? batch.tile_nodes : no_buffer_;
     const Buffer& numbers = batch.numbers(input.work);
     const std::size_t listing_rays = candidates ? input.rays : 0;
-    const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::count_hits, std::move(event)); };
+    const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::count_segments, std::move(event)); };
     add(in_packets(input)
             ? packet_candidates_->list.launch(listing_rays / packet_rays, work_group, batch.frame,
                                               input.scene.geometry(), input.scene.nodes(), tile_nodes, batch.tiles,
@@ -187,7 +187,7 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
 
 void PartitionPass::sum_segments(const Input& input, std::uint32_t deep_words, TimedKernels& timed) {
     timed.emplace_back(
-        &PipelineCounts::count_hits,
+        &PipelineCounts::count_segments,
         sum_segments_.launch(input.rays, work_group, input.batch.frame, memory_.candidate_places(),
                              memory_.candidates(), cl_uint{deep_words}, memory_.offsets(), input.batch.report));
     scan(memory_.offsets(), input.rays, timed);
@@ -254,7 +254,7 @@ void PartitionPass::add_tallies(PipelineCounts& counts) {
 void PartitionPass::add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts) {
     const std::uint64_t nodes = 2 * std::uint64_t{needed.total.segments};
     counts.segments += needed.total.segments;
-    counts.hits += nodes;
+    counts.ends += nodes;
     counts.partitions_allocated += nodes;
     counts.segment_bytes += nodes * kernels_.end_bytes() +
                             needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
