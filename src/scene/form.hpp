@@ -206,17 +206,17 @@ inline constexpr Maker<Given::filled> filled{};
 
 /// The name is that of the schema's definition, and of a solid's "type".
 struct Head {
-    std::string_view name;
+    const char* name;
     const char* about;
     bool has_type;
     bool is_model;  ///< checked when the scene is validated; others by their reader
 };
-constexpr Head solid(std::string_view called, const char* about = "") { return {called, about, true, true}; }
-constexpr Head part(std::string_view called, const char* about = "") { return {called, about, false, true}; }
+constexpr Head solid(const char* called, const char* about = "") { return {called, about, true, true}; }
+constexpr Head part(const char* called, const char* about = "") { return {called, about, false, true}; }
 /// A solid by the numbers that a person knows: JSON's reader makes one of the model's of it.
-constexpr Head friendly(std::string_view called, const char* about = "") { return {called, about, true, false}; }
+constexpr Head friendly(const char* called, const char* about = "") { return {called, about, true, false}; }
 /// An object of a file that is no solid.
-constexpr Head plain(std::string_view called, const char* about = "") { return {called, about, false, false}; }
+constexpr Head plain(const char* called, const char* about = "") { return {called, about, false, false}; }
 
 template <class... Members>
 struct Form {

@@ -4,40 +4,14 @@
 
 #include "base/floating_point.hpp"
 #include "scene/names.hpp"
+#include "scene/shape_forms.hpp"
 
 namespace csgrt {
 
 const char* type_name(const Shape& shape) {
-    struct Name {
-        const char* operator()(const Ell&) const { return "ell"; }
-        const char* operator()(const Tgc&) const { return "tgc"; }
-        const char* operator()(const Arb&) const { return "arb8"; }
-        const char* operator()(const Arbn&) const { return "arbn"; }
-        const char* operator()(const Half&) const { return "half"; }
-        const char* operator()(const Tor&) const { return "tor"; }
-        const char* operator()(const Ehy&) const { return "ehy"; }
-        const char* operator()(const Part&) const { return "part"; }
-        const char* operator()(const Epa&) const { return "epa"; }
-        const char* operator()(const Rpc&) const { return "rpc"; }
-        const char* operator()(const Rhc&) const { return "rhc"; }
-        const char* operator()(const Eto&) const { return "eto"; }
-        const char* operator()(const Hyp&) const { return "hyp"; }
-        const char* operator()(const Superell&) const { return "superell"; }
-        const char* operator()(const Hrt&) const { return "hrt"; }
-        const char* operator()(const Metaball&) const { return "metaball"; }
-        const char* operator()(const Pipe&) const { return "pipe"; }
-        const char* operator()(const Cline&) const { return "cline"; }
-        const char* operator()(const Bot&) const { return "bot"; }
-        const char* operator()(const Ars&) const { return "ars"; }
-        const char* operator()(const Nmg&) const { return "nmg"; }
-        const char* operator()(const Ebm&) const { return "ebm"; }
-        const char* operator()(const Vol&) const { return "vol"; }
-        const char* operator()(const Dsp&) const { return "dsp"; }
-        const char* operator()(const Extrude&) const { return "extrude"; }
-        const char* operator()(const Revolve&) const { return "revolve"; }
-        const char* operator()(const Unsupported& solid) const { return solid.type.c_str(); }
-    };
-    return std::visit(Name{}, shape);
+    const auto* unsupported = std::get_if<Unsupported>(&shape);
+    if (unsupported != nullptr) return unsupported->type.c_str();
+    return std::visit([]<class S>(const S&) { return form::of<S>.head.name; }, shape);
 }
 
 const Object* Scene::find(const std::string& name) const {

@@ -153,7 +153,7 @@ inline constexpr auto of<Rotation> = Form{
 };
 
 /// A node of a tree: what it is, and what places it.
-constexpr auto node(std::string_view called, std::string_view key, auto kind, const char* about = "") {
+constexpr auto node(const char* called, std::string_view key, auto kind, const char* about = "") {
     return Form{
         plain(called, about),
         required(key, nothing, kind),

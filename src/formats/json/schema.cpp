@@ -141,7 +141,7 @@ void add_form(ordered_json& definitions, const Form& form) {
     definition["properties"] = std::move(properties);
     if (!required.empty()) definition["required"] = std::move(required);
     definition["additionalProperties"] = false;
-    definitions[std::string(form.head.name)] = std::move(definition);
+    definitions[form.head.name] = std::move(definition);
 }
 template <class... S>
 void add_forms(ordered_json& definitions) {

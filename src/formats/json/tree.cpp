@@ -54,7 +54,7 @@ public:
             node.fault("'postfix' may stand for a whole tree only");
             return;
         }
-        const JsonObject o = json_object(node, form::node(kind, kind, form::nothing));
+        const JsonObject o = json_object(node, form::node("", kind, form::nothing));
         std::optional<Matrix> matrix = read_json_placement(o);
         if (matrix && outer != nullptr) matrix = compose(*outer, *matrix);
         const Matrix* placed = matrix ? &*matrix : outer;
