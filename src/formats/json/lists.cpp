@@ -6,27 +6,6 @@ namespace csgrt {
 
 namespace {
 
-/// Reads each item by `fast`, which gives nothing if the item is not as it should be, and then by `slow`, which says
-/// why.
-template <class T, class Fast, class Slow>
-std::vector<T> read_list(const JsonNode& list, Fast fast, Slow slow) {
-    std::vector<T> values;
-    if (!list.is_array()) {
-        list.items();  // says that it is none, if it is there at all
-        return values;
-    }
-    const JsonArray& array = std::get<JsonArray>(list.value()->data);
-    values.reserve(array.size());
-    for (const JsonValue& item : array) {
-        T value{};
-        if (!fast(item, value)) {
-            value = slow(JsonNode(list.file(), &item, list.pointer() + '/' + std::to_string(values.size())));
-        }
-        values.push_back(value);
-    }
-    return values;
-}
-
 bool is_count(const JsonValue& value, double most, std::uint32_t& count) {
     const double* number = std::get_if<double>(&value.data);
     if (number == nullptr || !(*number >= 0 && *number <= most) || *number != std::trunc(*number)) return false;
@@ -74,73 +53,33 @@ private:
 
 }  // namespace
 
-std::vector<double> read_json_numbers(const JsonNode& list) {
-    return read_list<double>(
-        list,
-        [](const JsonValue& item, double& value) {
-            const double* number = std::get_if<double>(&item.data);
-            if (number != nullptr) value = *number;
-            return number != nullptr;
-        },
-        [](const JsonNode& item) { return item.number(); });
+bool read_plain(const JsonValue& item, double scale, double& value) {
+    const double* number = std::get_if<double>(&item.data);
+    if (number != nullptr) value = scale * *number;
+    return number != nullptr;
 }
 
-std::vector<std::uint32_t> read_json_counts(const JsonNode& list) {
-    return read_list<std::uint32_t>(
-        list, [](const JsonValue& item, std::uint32_t& value) { return is_count(item, UINT32_MAX, value); },
-        [](const JsonNode& item) { return item.count(); });
+bool read_plain(const JsonValue& item, double scale, Vec3& value) {
+    const JsonArray* array = std::get_if<JsonArray>(&item.data);
+    return array != nullptr && array->size() == 3 && read_plain((*array)[0], scale, value.x) &&
+           read_plain((*array)[1], scale, value.y) && read_plain((*array)[2], scale, value.z);
 }
 
-std::vector<std::uint8_t> read_json_bytes(const JsonNode& list) {
-    return read_list<std::uint8_t>(
-        list,
-        [](const JsonValue& item, std::uint8_t& value) {
-            std::uint32_t count = 0;
-            const bool is_byte = is_count(item, 255, count);
-            value = static_cast<std::uint8_t>(count);
-            return is_byte;
-        },
-        [](const JsonNode& item) { return static_cast<std::uint8_t>(item.integer(0, 255, 0)); });
+bool read_plain(const JsonValue& item, double, std::uint32_t& value) { return is_count(item, UINT32_MAX, value); }
+
+bool read_plain(const JsonValue& item, double, std::uint8_t& value) {
+    std::uint32_t count = 0;
+    const bool is_byte = is_count(item, 255, count);
+    value = static_cast<std::uint8_t>(count);
+    return is_byte;
 }
 
-std::vector<Vec3> read_json_vectors(const JsonNode& list, double scale) {
-    return read_list<Vec3>(
-        list,
-        [scale](const JsonValue& item, Vec3& value) {
-            const JsonArray* array = std::get_if<JsonArray>(&item.data);
-            if (array == nullptr || array->size() != 3) return false;
-            double numbers[3];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double* number = std::get_if<double>(&(*array)[k].data);
-                if (number == nullptr) return false;
-                numbers[k] = scale * *number;
-            }
-            value = {numbers[0], numbers[1], numbers[2]};
-            return true;
-        },
-        [](const JsonNode& item) { return item.vector(); });
-}
-
-std::vector<std::array<std::uint32_t, 3>> read_json_triangles(const JsonNode& list) {
-    using Triangle = std::array<std::uint32_t, 3>;
-    return read_list<Triangle>(
-        list,
-        [](const JsonValue& item, Triangle& value) {
-            const JsonArray* array = std::get_if<JsonArray>(&item.data);
-            if (array == nullptr || array->size() != 3) return false;
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!is_count((*array)[k], UINT32_MAX, value[k])) return false;
-            }
-            return true;
-        },
-        [](const JsonNode& item) {
-            const std::vector<JsonNode> corners = item.items();
-            if (item.is_array() && corners.size() != 3) {
-                item.fault("expected 3 indices, found " + std::to_string(corners.size()));
-            }
-            for (const JsonNode& corner : corners) corner.count();
-            return Triangle{};
-        });
+bool read_plain(const JsonValue& item, double, std::array<std::uint32_t, 3>& value) {
+    const JsonArray* array = std::get_if<JsonArray>(&item.data);
+    if (array == nullptr || array->size() != 3) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!is_count((*array)[k], UINT32_MAX, value[k])) return false;
+    return true;
 }
 
 std::vector<std::uint16_t> read_json_cells(const JsonNode& list, std::uint16_t most, bool marks) {

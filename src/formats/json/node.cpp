@@ -134,14 +134,16 @@ Vec3 JsonNode::direction() const {
     return is_unit(v) ? v : unit(v);
 }
 
+const JsonArray* JsonNode::array() const { return expect<JsonArray>("an array"); }
+
+JsonNode JsonNode::item(std::size_t i) const {
+    return {*file_, &std::get<JsonArray>(value_->data)[i], pointer_ + '/' + std::to_string(i)};
+}
+
 std::vector<JsonNode> JsonNode::items() const {
     std::vector<JsonNode> nodes;
-    const JsonArray* array = expect<JsonArray>("an array");
-    if (array == nullptr) return nodes;
-    nodes.reserve(array->size());
-    for (const JsonValue& item : *array) {
-        nodes.emplace_back(*file_, &item, pointer_ + '/' + std::to_string(nodes.size()));
-    }
+    const JsonArray* items = array();
+    for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) nodes.push_back(item(i));
     return nodes;
 }
 

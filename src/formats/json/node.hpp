@@ -60,6 +60,8 @@ public:
     /// `count` numbers.
     std::vector<double> numbers(std::size_t count) const;
 
+    const JsonArray* array() const;  ///< null, and a finding: it is none
+    JsonNode item(std::size_t i) const;
     /// The items of an array, the members of an object (each name once), or nothing but a finding.
     std::vector<JsonNode> items() const;
     struct Member;

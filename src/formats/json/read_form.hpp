@@ -43,6 +43,7 @@ inline void read_value(const JsonNode& node, form::Name, std::string& value) { v
 void read_value(const JsonNode& node, form::Axis, Vec3& value);
 void read_value(const JsonNode& node, form::Direction direction, Vec3& value);
 void read_value(const JsonNode& node, form::Uv, Sketch::Point& value);
+void read_value(const JsonNode& node, form::Triangle, std::array<std::uint32_t, 3>& value);
 void read_value(const JsonNode& node, form::Corners corners, std::span<Vec3> value);
 void read_value(const JsonNode& node, form::Loops, std::vector<Nmg::Loop>& value);
 void read_value(const JsonNode& node, form::Curves, Sketch& value);
@@ -57,48 +58,34 @@ void read_value(const JsonNode& node, const form::Words<count>& kind, Value& val
     const std::size_t otherwise = static_cast<std::size_t>(value) - kind.first;
     value = static_cast<Value>(node.choice(kind.words, otherwise) + kind.first);
 }
+template <class S>
+void read_value(const JsonNode& node, form::Object<S>, S& value) {
+    value = read_form<S>(node);
+}
+template <class Item, class Value>
+void read_value(const JsonNode& node, const form::List<Item>& list, std::vector<Value>& values) {
+    constexpr bool is_length = std::is_same_v<Item, form::Length> || std::is_same_v<Item, form::Lengths>;
+    const JsonArray* items = node.array();
+    if (items != nullptr) values.reserve(items->size());
+    for (std::size_t i = 0; items != nullptr && i < items->size(); ++i) {
+        Value& value = values.emplace_back();
+        if constexpr (requires { read_plain((*items)[i], 1, value); }) {
+            if (read_plain((*items)[i], is_length ? node.file().unit : 1, value)) continue;
+        }
+        read_value(node.item(i), list.item, value);
+    }
+}
 /// Two indices of vertices.
 template <class Curve>
 void read_value(const JsonNode& node, form::Ends, Curve& value) {
-    const std::vector<std::uint32_t> ends = read_json_counts(node);
+    std::vector<std::uint32_t> ends;
+    read_value(node, form::List{form::count}, ends);
     if (ends.size() == 2) {
         value.start = ends[0];
         value.end = ends[1];
     } else if (node.is_array()) {
         node.fault("expected 2 indices of vertices, found " + std::to_string(ends.size()));
     }
-}
-template <class S>
-void read_value(const JsonNode& node, form::Object<S>, S& value) {
-    value = read_form<S>(node);
-}
-
-inline void read_value(const JsonNode& node, form::List<form::Number>, std::vector<double>& value) {
-    value = read_json_numbers(node);
-}
-inline void read_value(const JsonNode& node, form::List<form::Length>, std::vector<double>& value) {
-    value = read_json_numbers(node);
-    for (double& each : value) each *= node.file().unit;
-}
-inline void read_value(const JsonNode& node, form::List<form::Lengths>, std::vector<Vec3>& value) {
-    value = read_json_vectors(node, node.file().unit);
-}
-inline void read_value(const JsonNode& node, form::List<form::Vector>, std::vector<Vec3>& value) {
-    value = read_json_vectors(node, 1);
-}
-inline void read_value(const JsonNode& node, form::List<form::Count>, std::vector<std::uint32_t>& value) {
-    value = read_json_counts(node);
-}
-inline void read_value(const JsonNode& node, form::List<form::Whole>, std::vector<std::uint8_t>& value) {
-    value = read_json_bytes(node);
-}
-inline void read_value(const JsonNode& node, form::List<form::Triangle>,
-                       std::vector<std::array<std::uint32_t, 3>>& value) {
-    value = read_json_triangles(node);
-}
-template <class Item, class Value>
-void read_value(const JsonNode& node, const form::List<Item>& list, std::vector<Value>& value) {
-    for (const JsonNode& item : node.items()) read_value(item, list.item, value.emplace_back());
 }
 
 /// A list, or one value for each face.

@@ -23,6 +23,13 @@ void read_value(const JsonNode& node, form::Uv, Sketch::Point& value) {
     value = {unit * uv[0], unit * uv[1]};
 }
 
+void read_value(const JsonNode& node, form::Triangle, std::array<std::uint32_t, 3>&) {
+    const std::vector<JsonNode> corners = node.items();
+    if (node.is_array() && corners.size() != 3)
+        node.fault("expected 3 indices, found " + std::to_string(corners.size()));
+    for (const JsonNode& corner : corners) corner.count();
+}
+
 void read_value(const JsonNode& node, form::Corners corners, std::span<Vec3> value) {
     const std::vector<JsonNode> items = node.items();
     if (node.is_array() && items.size() != corners.count) {
@@ -39,11 +46,12 @@ void read_value(const JsonNode& node, form::Corners corners, std::span<Vec3> val
 
 /// A list of loops, or a list of vertices, which is a face of one loop.
 void read_value(const JsonNode& node, form::Loops, std::vector<Nmg::Loop>& value) {
-    const std::vector<JsonNode> items = node.items();
-    if (!items.empty() && !items.front().is_array()) {
-        value.push_back(read_json_counts(node));
+    const form::List loop{form::count};
+    const JsonArray* items = node.array();
+    if (items != nullptr && !items->empty() && !node.item(0).is_array()) {
+        read_value(node, loop, value.emplace_back());
     } else {
-        for (const JsonNode& loop : items) value.push_back(read_json_counts(loop));
+        read_value(node, form::List{loop, 0}, value);  // List{loop} would be a copy of it
     }
 }
 
