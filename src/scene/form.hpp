@@ -50,11 +50,15 @@ struct List {
     Item item;
     std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();  ///< items
 };
+template <class Item, class... Counts>  // clang 14 deduces no aggregates
+List(Item, Counts...)->List<Item>;
 /// A list of one value for each of a mesh's `faces`, or one value for all.
 template <class Item>
 struct PerFace {
     Item item;
 };
+template <class Item>
+PerFace(Item) -> PerFace<Item>;
 struct Loops {};  ///< of a face: one loop of indices, or a list of loops
 struct Corners {
     std::size_t count;
@@ -127,6 +131,8 @@ struct Across {
     Vec3 S::*other;
     const char* other_called;
 };
+template <class S>
+Across(const char*, Vec3 S::*, const char*) -> Across<S>;
 /// Of the third of three axes: they span a volume.
 template <class S>
 struct Spanning {
