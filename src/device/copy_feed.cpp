@@ -53,7 +53,7 @@ std::shared_future<void> CopyFeed::add(const Buffer& buffer, std::vector<Copy> c
         if (end_of(copy) * sizeof(float) > buffer.size() || copy.columns * copy.channels > piece)
             throw std::logic_error("buffer " + buffer.name() + ": a transfer past its end, or of too long lines");
     if (!is_registered && !staging_) staging_.emplace(device_, "staging memory", most_underway * sizeof(float));
-    const auto job = std::make_shared<Job>(Job{&buffer, std::move(copies), is_registered, {}, nullptr});
+    const auto job = std::make_shared<Job>(buffer, std::move(copies), is_registered);
     std::shared_future<void> done = job->done.get_future();
     if (!thread_) {
         give(job);
@@ -102,7 +102,6 @@ void CopyFeed::give(const std::shared_ptr<Job>& job) {
     } catch (...) {
         job->failure = std::current_exception();
     }
-    underway_.push_back({job, {}, nullptr, true, {}});
 }
 
 void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
@@ -121,15 +120,15 @@ void CopyFeed::give_piece(const std::shared_ptr<Job>& job, const Copy& copy) {
     while (!has_place()) retire();
     const std::size_t from[3] = {first.begin % first.pitch * sizeof(float), first.begin / first.pitch, 0},
                       to[3] = {0, 0, 0}, region[3] = {first.columns * sizeof(float), first.lines, first.channels};
-    underway_.push_back({job, copy, staged, false, {}});
+    underway_.push_back({job, copy, staged, {}});
     floats_ += copy.size();
     device_.cl().check_lost();
     cl_event event = nullptr;
-    check(device_.cl().EnqueueReadBufferRect(device_.copy_queue(), job->buffer->get(), CL_FALSE, from, to, region,
+    check(device_.cl().EnqueueReadBufferRect(device_.copy_queue(), job->buffer.get(), CL_FALSE, from, to, region,
                                              first.pitch * sizeof(float), first.slice * sizeof(float),
                                              first.target_pitch * sizeof(float), first.target_slice * sizeof(float),
                                              first.target, 0, nullptr, &event),
-          "clEnqueueReadBufferRect (" + job->buffer->name() + ")");
+          "clEnqueueReadBufferRect (" + job->buffer.name() + ")");
     underway_.back().event = Event(device_.cl(), event);
     device_.flush_copies();
 }
@@ -139,10 +138,6 @@ void CopyFeed::retire() {
     const Underway first = std::move(underway_.front());
     underway_.pop_front();
     Job& job = *first.job;
-    if (first.is_end) {
-        job.failure ? job.done.set_exception(job.failure) : job.done.set_value();
-        return;
-    }
     floats_ -= first.copy.size();
     try {
         wait_patiently(first.event);

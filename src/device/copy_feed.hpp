@@ -48,7 +48,11 @@ public:
 
 private:
     struct Job {
-        const Buffer* buffer;
+        Job(const Buffer& from, std::vector<Copy> all, bool registered)
+            : buffer(from), copies(std::move(all)), is_registered(registered) {}
+        ~Job() { failure ? done.set_exception(failure) : done.set_value(); }  // when its last piece is made
+
+        const Buffer& buffer;
         std::vector<Copy> copies;
         bool is_registered;
         std::promise<void> done;
@@ -59,7 +63,6 @@ private:
         std::shared_ptr<Job> job;
         Copy copy;
         const float* staged;  ///< where it comes first; null: nowhere
-        bool is_end;          ///< of a job, no piece
         Event event;
     };
     void work();
