@@ -41,9 +41,8 @@ public:
     ~CopyFeed();
 
     /// Makes the copies when those given before are made. Does not wait: until the future is ready the buffer must stay
-    /// as it is, and what wrote it must be done already. `is_registered`: the target is memory that the device knows;
-    /// The future throws Error (device_fault, out_of_memory) if a copy
-    /// failed.
+    /// as it is, and what wrote it must be done already. `is_registered`: the target is memory that the device knows.
+    /// The future throws Error (device_fault, out_of_memory) if a copy failed.
     std::shared_future<void> add(const Buffer& buffer, std::vector<Copy> copies, bool is_registered);
 
 private:
