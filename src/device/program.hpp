@@ -66,10 +66,9 @@ private:
     Handle<cl_kernel, &OpenCl::ReleaseKernel> kernel_;
 };
 
-/// OpenCL C source, compiled for one device. `source` is what assemble_program gives, or for a native device the name
-/// of a program that was compiled ahead; each of `defines` becomes a -D
-/// ("COUNT=3", "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly
-/// where the device can do it, as every result in double is.
+/// OpenCL C source, compiled for one device. `source`: see program_source. Each of `defines` becomes a -D ("COUNT=3",
+/// "HAS_TORUS"). `real` is double or, if asked for, float; then division and root are rounded correctly where the
+/// device can do it, as every result in double is.
 class Program {
 public:
     /// Takes what was compiled before, in this process or another, where the driver does not do so itself

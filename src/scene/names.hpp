@@ -22,8 +22,12 @@ public:
     std::uint32_t find(std::string_view name) const { return find(name, hash_of(name)); }
     /// The object that a leaf names: node `node` of the tree of combination `object`.
     std::uint32_t child(std::uint32_t object, std::size_t node) const { return children_[first_child_[object] + node]; }
-    /// That of each node of a combination's tree, which are walked several times and take far less memory than the
-    /// objects; `operation` for what is no leaf, `left_out` for a leaf that is the empty set. None for a solid.
+    /// Node `node` of that tree.
+    const TreeNode& node(std::uint32_t object, std::size_t node) const {
+        return std::get<Combination>(scene_.objects[object]).tree.nodes[node];
+    }
+    /// The children of all nodes of a combination's tree, which are walked several times and take far less memory than
+    /// the objects: `operation` for what is no leaf, `left_out` for a leaf that is the empty set. None for a solid.
     std::span<const std::uint32_t> children(std::uint32_t object) const {
         return std::span(children_).subspan(first_child_[object], first_child_[object + 1] - first_child_[object]);
     }

@@ -70,20 +70,16 @@ std::optional<Flattener::Level> Flattener::enter(std::uint32_t object, const Mat
 }
 
 std::optional<Flattener::Level> Flattener::follow(const Open& parent, std::uint32_t node, std::uint32_t child) {
-    return enter(child, compose(parent.level.matrix, node_of(parent, node).matrix));
+    return enter(child, compose(parent.level.matrix, source_.names.node(parent.object, node).matrix));
 }
 
 void Flattener::operate(const Open& parent, std::uint32_t node) {
-    const TreeNode& operation = node_of(parent, node);
+    const TreeNode& operation = source_.names.node(parent.object, node);
     operate(operation.op, operation.arity);
 }
 
 void Flattener::leave(const Open& done) {
     if (leaves_ == done.level.first_leaf) hollow_.emplace(done.object, values_.back());
-}
-
-const TreeNode& Flattener::node_of(const Open& parent, std::uint32_t node) const {
-    return std::get<Combination>(source_.scene.objects[parent.object]).tree.nodes[node];
 }
 
 void Flattener::push(Value value, Value outside) {

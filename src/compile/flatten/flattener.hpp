@@ -54,7 +54,6 @@ private:
     void nothing() { push(Value::nothing, Value::nothing); }
     void leave(const Open& done);
 
-    const TreeNode& node_of(const Open& parent, std::uint32_t node) const;
     void push(Value value, Value outside);
     void operate(Operator op, std::size_t arity);
     std::uint32_t instance_of(std::uint32_t object, std::uint32_t piece, const Matrix& matrix);

@@ -46,8 +46,7 @@ RegionStart RegionForest::start_of(const ObjectPath& path) {
 Matrix RegionForest::matrix_of(const RegionStart& start) const {
     if (start.above == none) return identity;
     const Above& above = above_[start.above];
-    return compose(above.matrix,
-                   std::get<Combination>(source_.scene.objects[above.object]).tree.nodes[start.node].matrix);
+    return compose(above.matrix, source_.names.node(above.object, start.node).matrix);
 }
 
 Attributes RegionForest::attributes_of(const RegionStart& start) const {
@@ -96,7 +95,7 @@ void RegionForest::leave(const Open& done) {
 }
 
 void RegionForest::operate(const Open& parent, std::uint32_t node) {
-    const TreeNode& operation = std::get<Combination>(source_.scene.objects[parent.object]).tree.nodes[node];
+    const TreeNode& operation = source_.names.node(parent.object, node);
     const auto first = operands_.end() - operation.arity;
     std::vector<Value> values;
     for (auto operand = first; operand != operands_.end(); ++operand) values.push_back(operand->value);

@@ -109,10 +109,8 @@ private:
                 continue;
             }
             roots.push_back(path.object());
-            for (std::size_t i = 1; i < path.steps.size(); ++i) {
-                const Object& above = scene_.objects[path.steps[i - 1].object];
-                check_matrix(std::get<Combination>(above).tree.nodes[path.steps[i].node], report_);
-            }
+            for (std::size_t i = 1; i < path.steps.size(); ++i)
+                check_matrix(names_.node(path.steps[i - 1].object, path.steps[i].node), report_);
         }
         if (roots.empty() && named.empty() && scene_.top.empty()) {
             // Every object is used by another: they form a cycle, which a walk from anywhere finds.
@@ -228,12 +226,8 @@ private:
         if (!walk_.open().empty()) add_below(walk_.open().back().object, objects_[done.object]);
     }
 
-    const TreeNode& leg(std::uint32_t parent, std::size_t node) const {
-        return std::get<Combination>(scene_.objects[parent]).tree.nodes[node];
-    }
-
     void follow_missing(std::uint32_t parent, std::size_t node) {
-        const TreeNode& missing = leg(parent, node);
+        const TreeNode& missing = names_.node(parent, node);
         if (scene_.lenient) return leave_out_missing(parent, node, missing);
         add(missing.place,
             "'" + name_of(scene_.objects[parent]) + "' uses '" + missing.object + "', which does not exist",
@@ -271,7 +265,7 @@ private:
     /// Of a long cycle the end is told: a scene may have as many of them as objects.
     void report_cycle(std::uint32_t parent, std::size_t node, std::uint32_t object) {
         if (!scene_.lenient && found_.full()) return found_.leave_out();
-        const TreeNode& back = leg(parent, node);
+        const TreeNode& back = names_.node(parent, node);
         const std::vector<Open>& path = walk_.open();
         constexpr std::size_t most = 20;
         std::size_t first = path.size(), shown = 0;
