@@ -28,8 +28,10 @@ public:
     Scene make() {
         size_ = random_.power_of_ten(-2, 5);
         std::vector<std::string> names;
-        for (std::uint32_t i = 0, count = 1 + random_.below(5); i < count; ++i)
-            names.push_back(add(leaf_of_solid(), random_.below(4) == 0));
+        for (std::uint32_t i = 0, count = 1 + random_.below(5); i < count; ++i) {
+            const bool region = random_.below(4) == 0;  // first: compilers differ in which argument they take first
+            names.push_back(add(leaf_of_solid(), region));
+        }
         for (std::uint32_t i = 0, count = 1 + random_.below(4); i < count; ++i) {
             std::vector<std::string> legs;  // one may come twice, from other places
             for (std::uint32_t k = 0, legs_here = 1 + random_.below(4); k < legs_here; ++k)
@@ -44,9 +46,13 @@ public:
 
 private:
     Matrix placed() {
-        const Vec3 at = (random_.coin() ? 0.5 : 2) * size_ * random_.in_cube();
+        const Vec3 way = random_.in_cube();
+        const Vec3 at = (random_.coin() ? 0.5 : 2) * size_ * way;
         Matrix stretch = identity;
-        for (const int axis : {0, 5, 10}) stretch[axis] = random_.sign() * random_.between(0.5, 2);
+        for (const int axis : {0, 5, 10}) {
+            stretch[axis] = random_.sign();
+            stretch[axis] *= random_.between(0.5, 2);
+        }
         const Matrix turn = random_.coin() ? rotation(random_) : identity;
         return random_.below(4) == 0 ? translation(at) * turn * stretch : translation(at) * turn;
     }
