@@ -173,7 +173,7 @@ public:
         source_.references.check(references_ += part.flat.references);
     }
 
-    const std::vector<NoRegion>& no_regions() const { return no_regions_; }
+    std::vector<NoRegion> take_no_regions() { return std::move(no_regions_); }
     bool has_unused() const { return has_unused_; }
 
 private:
@@ -188,52 +188,52 @@ private:
     bool has_unused_ = false;
 };
 
-}  // namespace
+/// An object that is asked for.
+struct Asked {
+    const std::string& name;
+    std::uint32_t object;
+    std::unique_ptr<RegionForest> forest;  ///< none: it was named before
+    std::size_t end;                       ///< of its terms
+};
 
-FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
-                  const std::vector<std::string>& objects, bool air, std::uint64_t max_instances) {
-    FlatScene result;
-    const Source source{scene, names, instances, ReferenceLimit(scene, max_instances)};
-
-    // Which regions there are.
-    struct Named {
-        const std::string& name;
-        std::uint32_t object;
-        std::unique_ptr<RegionForest> forest;  ///< none: it was named before
-        std::size_t end;                       ///< of its terms
-        bool has_air;
-    };
-    std::vector<Named> all;
+/// Which regions there are.
+struct Found {
+    std::vector<Asked> objects;  ///< in their order
     std::vector<Term> terms;
-    std::vector<std::string> air_regions;
-    double solids = 0;
-    InstanceLimit limit(scene, max_instances);
+    double solids = 0;  ///< in all terms
+};
+
+Found find_regions(const Source& source, const std::vector<std::string>& objects, bool air,
+                   std::uint64_t max_instances) {
+    Found found;
+    InstanceLimit limit(source.scene, max_instances);
     const auto check = [&](const std::string& object, double count) {
         if (!limit.allows(count))
             throw Error(Status::scene, std::vector{limit.fault({}, "with object " + object + ", the scene", count)});
     };
     std::unordered_set<std::string> seen;
     for (const std::string& object : objects) {
-        const ObjectPath path = find_path(scene, names, object);
+        const ObjectPath path = find_path(source.scene, source.names, object);
         if (path.steps.empty()) throw Error(Status::scene, path.fault);
         std::string way;
         for (const ObjectPath::Step& step : path.steps) way += std::to_string(step.object) + "/";
-        if (!seen.insert(std::move(way)).second) {
-            all.push_back({object, path.object(), nullptr, terms.size(), false});
-            continue;
-        }
-        const std::size_t air_before = air_regions.size();
-        check(object, solids + static_cast<double>(instances[path.object()]));
-        auto forest = std::make_unique<RegionForest>(source, path, air, air_regions);
-        solids += forest->solids_in_terms();
-        check(object, solids);
-        forest->for_each_term([&](std::uint32_t term) { terms.push_back({forest.get(), term}); });
-        all.push_back({object, path.object(), std::move(forest), terms.size(), air_regions.size() > air_before});
+        Asked& asked = found.objects.emplace_back(Asked{object, path.object(), nullptr, found.terms.size()});
+        if (!seen.insert(std::move(way)).second) continue;
+        check(object, found.solids + static_cast<double>(source.instances[path.object()]));
+        asked.forest = std::make_unique<RegionForest>(source, path, air);
+        found.solids += asked.forest->solids_in_terms();
+        check(object, found.solids);
+        asked.forest->for_each_term([&](std::uint32_t term) { found.terms.push_back({asked.forest.get(), term}); });
+        asked.end = found.terms.size();
     }
+    return found;
+}
 
-    // Their trees.
-    reserve_cleared(result.instances,
-                    std::min(scene.objects.size(), static_cast<std::size_t>(solids)));  // no more, nearly always
+/// Their trees. Returns the terms that are no regions.
+std::vector<NoRegion> add_trees(const Source& source, const Found& found, FlatScene& result) {
+    const std::vector<Term>& terms = found.terms;
+    reserve_cleared(result.instances, std::min(source.scene.objects.size(),
+                                               static_cast<std::size_t>(found.solids)));  // no more, nearly always
     result.regions.reserve(terms.size());
     Joiner joiner(source, terms, result);
     constexpr std::size_t part_size = 512;
@@ -248,9 +248,14 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
     const auto before = [](const FlatRegion& a, const FlatRegion& b) { return rank_of(a.info) < rank_of(b.info); };
     if (!std::is_sorted(result.regions.begin(), result.regions.end(), before))
         std::stable_sort(result.regions.begin(), result.regions.end(), before);
+    return joiner.take_no_regions();
+}
 
-    // What there is to tell.
-    std::vector<std::string> empty_regions;
+/// What there is to tell. Throws Error (scene): see flatten.
+void add_warnings(const Source& source, const Found& found, const std::vector<NoRegion>& no_regions,
+                  FlatScene& result) {
+    const Scene& scene = source.scene;
+    std::vector<std::string> empty_regions, air_regions;
     FindingList findings;
     const auto warn = [&](std::string object, const Place& place, std::string reason) {
         result.warnings.push_back({std::move(object), place, std::move(reason), 1});
@@ -265,22 +270,24 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
                       {}});
     };
     std::size_t term = 0;
-    auto next = joiner.no_regions().begin();
-    for (const auto& [name, object, forest, end, has_air] : all) {
+    auto next = no_regions.begin();
+    for (const auto& [name, object, forest, end] : found.objects) {
         if (forest == nullptr) {
             warn(name, {}, "named twice; it is rendered once");
             continue;
         }
+        const std::vector<std::string>& air = forest->air_regions();
+        air_regions.insert(air_regions.end(), air.begin(), air.end());
         if (forest->is_everything()) contains_space("object", name, place_of(scene.objects[object]));
-        for (; next != joiner.no_regions().end() && next->term < end; ++next) {
+        for (; next != no_regions.end() && next->term < end; ++next) {
             if (next->contains_space) {
                 contains_space("region", next->path, next->place);
             } else {
                 empty_regions.push_back(next->path);
             }
         }
-        if (term == end && !has_air && findings.empty() && !forest->is_everything() &&
-            names.kind(object) != Names::Kind::left_out)
+        if (term == end && air.empty() && findings.empty() && !forest->is_everything() &&
+            source.names.kind(object) != Names::Kind::left_out)
             warn(name, {}, "the object holds no solid");
         term = end;
     }
@@ -296,6 +303,17 @@ FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std:
         warn({}, {},
              counted(empty_regions.size(), "region without solids", "regions without solids") +
                  " left out: " + some(empty_regions));
+}
+
+}  // namespace
+
+FlatScene flatten(const Scene& scene, const Names& names, const std::vector<std::uint64_t>& instances,
+                  const std::vector<std::string>& objects, bool air, std::uint64_t max_instances) {
+    FlatScene result;
+    const Source source{scene, names, instances, ReferenceLimit(scene, max_instances)};
+    const Found found = find_regions(source, objects, air, max_instances);
+    const std::vector<NoRegion> no_regions = add_trees(source, found, result);
+    add_warnings(source, found, no_regions, result);
     return result;
 }
 

@@ -22,10 +22,9 @@ void check_path_bytes(std::uint64_t bytes) {
                                        " bytes together");
 }
 
-RegionForest::RegionForest(const Source& source, const ObjectPath& object, bool air, std::vector<std::string>& dropped)
-    : source_(source), air_(air), dropped_(dropped) {
+RegionForest::RegionForest(const Source& source, const ObjectPath& object, bool air) : source_(source), air_(air) {
     if (const std::optional<Level> level = visit(start_of(object)))
-        walk_.below(source.names, object.object(), *level, *this);
+        Walk<Level>().below(source.names, object.object(), *level, *this);
     root_ = operands_.back();
 }
 
@@ -76,8 +75,8 @@ std::optional<RegionForest::Level> RegionForest::visit(RegionStart start) {
     if (kind == Names::Kind::left_out) {
         nothing();
     } else if (kind == Names::Kind::air_region && !air_) {
-        dropped_.push_back(this->path(path));
-        check_path_bytes(dropped_bytes_ += dropped_.back().size());
+        air_regions_.push_back(this->path(path));
+        check_path_bytes(air_path_bytes_ += air_regions_.back().size());
         nothing();
     } else {
         starts_.push_back(start);

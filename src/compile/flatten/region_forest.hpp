@@ -60,9 +60,8 @@ struct RegionStart {
 /// The expression over region starts that stands above the regions of one named object.
 class RegionForest {
 public:
-    /// Walks down from where a path leads. The paths of air regions that are left out are appended to `dropped`.
-    /// Throws Error (scene) if there are more references than any model has.
-    RegionForest(const Source& source, const ObjectPath& object, bool air, std::vector<std::string>& dropped);
+    /// Walks down from where a path leads. Throws Error (scene) if there are more references than any model has.
+    RegionForest(const Source& source, const ObjectPath& object, bool air);
 
     /// How many solids the trees of all terms hold together. Pulling unions up may multiply them.
     double solids_in_terms() const;
@@ -76,6 +75,9 @@ public:
     void for_each_term(const std::function<void(std::uint32_t)>& call);
     /// The expression is true even where no solid is.
     bool is_everything() const { return root_.value == Value::everything; }
+
+    /// The paths of air regions that are left out.
+    const std::vector<std::string>& air_regions() const { return air_regions_; }
 
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
@@ -128,9 +130,7 @@ private:
 
     const Source& source_;
     bool air_;
-    std::vector<std::string>& dropped_;
     std::unordered_map<std::uint32_t, Value> hollow_;  ///< combinations without starts, and the constant they are
-    Walk<Level> walk_;
     std::vector<Above> above_;
     std::vector<Operand> operands_;
     Operand root_ = {Value::nothing, none};
@@ -138,7 +138,8 @@ private:
     std::vector<Node> nodes_;
     std::vector<RegionStart> starts_;
     std::vector<PathStep> paths_;
-    std::uint64_t dropped_bytes_ = 0;  ///< of paths
+    std::vector<std::string> air_regions_;
+    std::uint64_t air_path_bytes_ = 0;
 };
 
 }  // namespace csgrt

@@ -104,18 +104,17 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
     if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
-}  // namespace
+template <class Call>
+void for_each_chunk(std::size_t count, Call call) {
+    for_chunks(count, 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
+}
 
-void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
-                  std::vector<Warning>& warnings) {
+/// Puts each plane into its shard.
+Shards shards_of(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, const Shapes& shapes) {
     Shards shards(chunks.size());
-    const auto for_each_chunk = [&](const auto& call) {
-        for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
-    };
-    for_each_chunk([&](std::size_t number) { insert_large(chunks[number]); });
     std::size_t planes = 0;
     for (const PackedChunk& chunk : chunks) planes += chunk.planes.size();
-    for_each_chunk([&](std::size_t number) {
+    for_each_chunk(chunks.size(), [&](std::size_t number) {
         PackedChunk& chunk = chunks[number];
         shards.chunk(number).reserve(chunk.planes.size());
         auto plane = chunk.planes.begin();
@@ -128,9 +127,16 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         }
     });
     shards.sort();
+    return shards;
+}
 
-    std::vector<std::vector<Shards::Member>> firsts(
-        Shards::count);  // where the records of each shard's table came from
+/// The planes of each shard that are the first of their table's records.
+using Firsts = std::vector<std::vector<Shards::Member>>;
+
+/// Finds the planes that are one. Their `ref` is that of the shard's own table.
+Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const PlaneTable& empty, const Box& common,
+                   const Shapes& shapes) {
+    Firsts firsts(Shards::count);
     shards.for_each(empty, [&](PlaneTable& table, std::span<const Shards::Member> members, std::size_t shard) {
         const auto plane_at = [&](std::size_t i) -> PackedPlane& {
             return chunks[members[i].chunk].planes[members[i].index];
@@ -154,16 +160,20 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
             if (plane.is_first) firsts[shard].push_back(members[i]);
         }
     });
+    return firsts;
+}
 
-    std::vector<std::uint32_t> first_record(chunks.size()), first_ref(chunks.size());
-    for_each_chunk([&](std::size_t number) {
+/// Writes the scene's records, in the order of the solids, and makes each `ref` the scene's.
+void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, Shapes& shapes) {
+    std::vector<std::uint32_t> first_record(chunks.size());
+    for_each_chunk(chunks.size(), [&](std::size_t number) {
         for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
     });
-    std::size_t records = 0, refs = shapes.words.size();  // references stand behind what solids wrote
+    std::size_t records = 0;
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
     resize_cleared(shapes.planes, records);
-    for_each_chunk([&](std::size_t number) {
+    for_each_chunk(chunks.size(), [&](std::size_t number) {
         std::uint32_t next = first_record[number];
         for (PackedPlane& plane : chunks[number].planes) {
             if (!plane.is_first) continue;
@@ -179,10 +189,14 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
             plane.ref = chunks[first.chunk].planes[first.index].ref | (plane.ref & 1);
         }
     });
+}
 
+/// Writes each solid's references behind what solids wrote.
+void write_references(const std::vector<PackedChunk>& chunks, const Box& common, Shapes& shapes,
+                      std::vector<Warning>& warnings) {
     std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
     std::vector<std::vector<Film>> films(chunks.size());
-    for_each_chunk([&](std::size_t number) {
+    for_each_chunk(chunks.size(), [&](std::size_t number) {
         std::vector<kernel::PlaneRef>& own = of[number];
         own.reserve(chunks[number].planes.size());
         auto plane = chunks[number].planes.begin();
@@ -206,17 +220,30 @@ void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, con
         }
     });
     note_films(films, common, shapes, warnings);
+    std::vector<std::uint32_t> first_ref(chunks.size());
+    std::size_t refs = shapes.words.size();
     for (std::size_t number = 0; number < chunks.size(); ++number) {
         first_ref[number] = static_cast<std::uint32_t>(refs);
         refs += of[number].size();
     }
     check_numbers(refs);
     shapes.words.resize(refs);
-    for_each_chunk([&](std::size_t number) {
+    for_each_chunk(chunks.size(), [&](std::size_t number) {
         std::copy(of[number].begin(), of[number].end(), shapes.words.begin() + first_ref[number]);
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)
             shapes.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
     });
+}
+
+}  // namespace
+
+void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
+                  std::vector<Warning>& warnings) {
+    for_each_chunk(chunks.size(), [&](std::size_t number) { insert_large(chunks[number]); });
+    const Shards shards = shards_of(chunks, empty, common, shapes);
+    const Firsts firsts = find_shared(chunks, shards, empty, common, shapes);
+    number_planes(chunks, shards, firsts, shapes);
+    write_references(chunks, common, shapes, warnings);
 }
 
 }  // namespace csgrt
