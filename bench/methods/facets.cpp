@@ -12,7 +12,7 @@
 
 #include "compile/linear.hpp"
 #include "compile/solids/curved_frames.hpp"
-#include "compile/solids/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_faults.hpp"
 #include "compile/solids/polyhedron.hpp"
 #include "loft.hpp"
 #include "scene/vector.hpp"

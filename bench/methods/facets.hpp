@@ -6,7 +6,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "compile/solids/triangles.hpp"
+#include "compile/solids/meshes/triangles.hpp"
 
 namespace csgrt::bench {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "compile/solids/near_lookup.hpp"
+#include "compile/solids/meshes/near_lookup.hpp"
 #include "base/parallel.hpp"
 
 namespace csgrt {

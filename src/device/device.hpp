@@ -11,7 +11,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "device/opencl.hpp"
+#include "device/opencl/opencl.hpp"
 
 namespace csgrt {
 

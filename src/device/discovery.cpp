@@ -8,8 +8,8 @@
 #include "base/process.hpp"
 #include "base/thread.hpp"
 #include "native/driver.hpp"
-#include "device/opencl.hpp"
-#include "device/opencl_loader.hpp"
+#include "device/opencl/opencl.hpp"
+#include "device/opencl/opencl_loader.hpp"
 
 namespace csgrt {
 

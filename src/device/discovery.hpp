@@ -6,7 +6,7 @@
 
 #include <csgrt/renderer.hpp>
 
-#include "device/opencl_table.hpp"
+#include "device/opencl/opencl_table.hpp"
 
 namespace csgrt {
 

@@ -11,7 +11,7 @@
 #include "formats/brlcad/g/reader.hpp"
 #include "formats/brlcad/g/bytes.hpp"
 #include "formats/json/reader.hpp"
-#include "formats/json/writer.hpp"
+#include "formats/json/write/writer.hpp"
 #include "formats/mended.hpp"
 #include "formats/brlcad/view_script.hpp"
 #include "formats/text_source.hpp"

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "device/opencl_table.hpp"
+#include "device/opencl/opencl_table.hpp"
 
 namespace csgrt::native {
 

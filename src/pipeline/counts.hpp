@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/opencl.hpp"
+#include "device/opencl/opencl.hpp"
 #include "pipeline/batch.hpp"
 
 namespace csgrt {

@@ -6,7 +6,7 @@
 
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
-#include "scene/arb_form.hpp"
+#include "scene/solids/arb_form.hpp"
 
 namespace csgrt {
 

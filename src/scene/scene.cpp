@@ -4,7 +4,7 @@
 
 #include "base/floating_point.hpp"
 #include "scene/names.hpp"
-#include "scene/shape_forms.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 namespace csgrt {
 

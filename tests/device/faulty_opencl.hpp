@@ -16,7 +16,7 @@
 #include <csgrt/error.hpp>
 
 #include "catch.hpp"
-#include "device/opencl_table.hpp"
+#include "device/opencl/opencl_table.hpp"
 
 namespace csgrt::test {
 

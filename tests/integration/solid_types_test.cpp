@@ -14,7 +14,7 @@
 #include "integration/samples.hpp"
 #include "oracle/random.hpp"
 #include "oracle/scene_judge.hpp"
-#include "scene/shape_forms.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 using namespace csgrt;
 

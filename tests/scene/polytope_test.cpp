@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "scene/polytope.hpp"
+#include "scene/solids/polytope.hpp"
 #include "scene/vector.hpp"
 
 using namespace csgrt;

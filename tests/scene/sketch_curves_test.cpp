@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/sketch_curves.hpp"
+#include "scene/solids/sketch_curves.hpp"
 #include "scene/faults/solids.hpp"
 
 using namespace csgrt;

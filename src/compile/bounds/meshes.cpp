@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "compile/bounds/tight_box.hpp"
-#include "compile/solids/triangles.hpp"
+#include "compile/solids/meshes/triangles.hpp"
 
 namespace csgrt {
 

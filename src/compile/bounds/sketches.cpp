@@ -6,7 +6,7 @@
 #include "compile/solids/axis_frame.hpp"
 #include "compile/solids/cell_outline.hpp"
 #include "compile/bounds/tight_box.hpp"
-#include "scene/sketch_reach.hpp"
+#include "scene/solids/sketch_reach.hpp"
 
 namespace csgrt {
 

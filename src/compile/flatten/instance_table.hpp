@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "compile/solids/near_lookup.hpp"
+#include "compile/solids/meshes/near_lookup.hpp"
 #include "compile/flatten/flatten.hpp"
 
 namespace csgrt {

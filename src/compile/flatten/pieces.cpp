@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/arb_form.hpp"
+#include "scene/solids/arb_form.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "compile/bvh/build.hpp"
-#include "compile/solids/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_faults.hpp"
 #include "compile/solids/packer.hpp"
-#include "compile/solids/triangles.hpp"
+#include "compile/solids/meshes/triangles.hpp"
 #include "kernel_host/geometry.hpp"
 
 namespace csgrt {

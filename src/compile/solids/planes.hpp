@@ -7,7 +7,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "compile/solids/near_lookup.hpp"
+#include "compile/solids/meshes/near_lookup.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/linear.hpp"
 #include "compile/shards.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compile/solids/packer.hpp"
-#include "scene/sketch_curves.hpp"
+#include "scene/solids/sketch_curves.hpp"
 
 namespace csgrt {
 

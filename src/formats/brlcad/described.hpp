@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "formats/brlcad/values.hpp"
-#include "scene/shape_forms.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 namespace csgrt {
 

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "formats/json/friendly_solids.hpp"
-#include "scene/shape_forms.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 namespace csgrt {
 

@@ -9,7 +9,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "scene/form.hpp"
+#include "scene/solids/form.hpp"
 
 namespace csgrt {
 

@@ -6,7 +6,7 @@
 #include <csgrt/scene.hpp>
 
 #include "formats/json/node.hpp"
-#include "scene/form.hpp"
+#include "scene/solids/form.hpp"
 
 namespace csgrt {
 

@@ -3,7 +3,7 @@
 #include "formats/json/angle.hpp"
 #include "formats/json/placement.hpp"
 #include "formats/json/read_form.hpp"
-#include "scene/shape_forms.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 namespace csgrt {
 

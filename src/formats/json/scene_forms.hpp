@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "scene/form.hpp"
+#include "scene/solids/form.hpp"
 
 namespace csgrt {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "scene/arb_form.hpp"
-#include "scene/polytope.hpp"
+#include "scene/solids/arb_form.hpp"
+#include "scene/solids/polytope.hpp"
 #include "scene/faults/families.hpp"
 
 namespace csgrt {

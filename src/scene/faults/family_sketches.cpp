@@ -3,9 +3,9 @@
 #include <cmath>
 #include <span>
 
-#include "scene/sketch_curves.hpp"
+#include "scene/solids/sketch_curves.hpp"
 #include "scene/faults/sketches.hpp"
-#include "scene/sketch_reach.hpp"
+#include "scene/solids/sketch_reach.hpp"
 #include "scene/faults/families.hpp"
 
 namespace csgrt {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "scene/faults/families.hpp"
-#include "scene/shape_forms.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 namespace csgrt {
 

@@ -8,7 +8,7 @@
 #include "compile/solids/axis_frame.hpp"
 #include "oracle/profiles.hpp"
 #include "oracle/revolved.hpp"
-#include "scene/sketch_reach.hpp"
+#include "scene/solids/sketch_reach.hpp"
 
 using namespace csgrt;
 

@@ -4,6 +4,7 @@
 #include "catch.hpp"
 #include "compile/flatten/flatten.hpp"
 #include "compile/model.hpp"
+#include "scene/faults/validate.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
@@ -318,4 +319,21 @@ TEST_CASE("scenes that expand without end are refused before they are followed")
     }
     const Scene terms = alphabet({group("top", product)});
     CHECK(says(error_of([&] { flatten(terms, {"top"}, false); }), "300000"));
+}
+
+TEST_CASE("the limit counts the solids of every term") {
+    // (A u B u C) - (d u ... u d): three terms of 25 solids.
+    std::vector<TreeNode> nodes{leg("A"), leg("B"), either, leg("C"), either};
+    nodes.insert(nodes.end(), {leg("ground"), op(Operator::difference, 2)});
+    std::vector<TreeNode> ground{leg("d")};
+    for (int i = 1; i < 24; ++i) ground.insert(ground.end(), {leg("d"), either});
+    const Scene scene = alphabet({group("ground", std::move(ground)), group("top", std::move(nodes))});
+    const auto regions = [&](std::uint64_t max_instances) {
+        Names names(scene);
+        std::vector<Warning> warnings;
+        const Validated validated = validate(scene, names, {"top"}, true, warnings);
+        return flatten(scene, names, validated.instances, {"top"}, false, max_instances).regions.size();
+    };
+    CHECK(regions(75) == 3);
+    CHECK(says(error_of([&] { regions(74); }), "with object top, the scene expands to 75 instances"));
 }

@@ -6,7 +6,7 @@
 #include "compile/compiled_scene.hpp"
 #include "compile/model.hpp"
 #include "kernel_host/geometry.hpp"
-#include "scene/arb_form.hpp"
+#include "scene/solids/arb_form.hpp"
 #include "scene/faults/solids.hpp"
 
 using namespace csgrt;

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "compile/compiled_scene.hpp"
-#include "compile/solids/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_faults.hpp"
 #include "compile/model.hpp"
 #include "scene/warning_texts.hpp"
 

@@ -1,5 +1,5 @@
 // Faces with holes: the triangles cover them once, and have their edges.
-#include "compile/solids/triangulate.hpp"
+#include "compile/solids/meshes/triangulate.hpp"
 
 #include <cmath>
 #include <map>

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "formats/json/parse_text.hpp"
-#include "formats/json/writer.hpp"
+#include "formats/json/write/writer.hpp"
 #include "formats/read_seed.hpp"
 #include "formats/same_scene.hpp"
 #include "sanitized.hpp"

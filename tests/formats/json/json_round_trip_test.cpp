@@ -11,7 +11,7 @@
 
 #include "formats/json/friendly_solids.hpp"
 #include "formats/json/parse_text.hpp"
-#include "formats/json/writer.hpp"
+#include "formats/json/write/writer.hpp"
 #include "formats/json/random_shape.hpp"
 #include "formats/same_scene.hpp"
 #include "scene/make_scene.hpp"

@@ -10,7 +10,7 @@
 
 #include "formats/json/parse_text.hpp"
 #include "formats/json/scene_forms.hpp"
-#include "formats/json/schema.hpp"
+#include "formats/json/write/schema.hpp"
 #include "formats/json/solids.hpp"
 
 using namespace csgrt;

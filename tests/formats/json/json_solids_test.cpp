@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "formats/json/writer.hpp"
+#include "formats/json/write/writer.hpp"
 #include "formats/json/parse_text.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/vector.hpp"

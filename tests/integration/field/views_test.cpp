@@ -15,7 +15,7 @@
 
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/json/reader.hpp"
-#include "formats/json/writer.hpp"
+#include "formats/json/write/writer.hpp"
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "bench/stress/build.hpp"

@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/solids/triangles.hpp"
+#include "compile/solids/meshes/triangles.hpp"
 
 namespace csgrt {
 

@@ -1,4 +1,4 @@
-#include "device/opencl_loader.hpp"
+#include "device/opencl/opencl_loader.hpp"
 
 #include <type_traits>
 

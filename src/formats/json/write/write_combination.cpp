@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "formats/json/scene_forms.hpp"
-#include "formats/json/write_form.hpp"
-#include "formats/json/write_object.hpp"
+#include "formats/json/write/write_form.hpp"
+#include "formats/json/write/write_object.hpp"
 #include "scene/operators.hpp"
 #include "scene/vector.hpp"
 

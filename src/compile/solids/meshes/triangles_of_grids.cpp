@@ -1,7 +1,7 @@
 // Terrain and volumes: grids of cells.
 #include <cmath>
 
-#include "compile/solids/triangles.hpp"
+#include "compile/solids/meshes/triangles.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {

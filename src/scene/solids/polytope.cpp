@@ -1,4 +1,4 @@
-#include "scene/polytope.hpp"
+#include "scene/solids/polytope.hpp"
 
 #include <algorithm>
 #include <limits>

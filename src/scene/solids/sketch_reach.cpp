@@ -1,4 +1,4 @@
-#include "scene/sketch_reach.hpp"
+#include "scene/solids/sketch_reach.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/sketch_curves.hpp"
+#include "scene/solids/sketch_curves.hpp"
 
 namespace csgrt {
 

@@ -1,8 +1,8 @@
 #include "formats/json/angle.hpp"
 #include "formats/json/forms.hpp"
 #include "formats/json/placement.hpp"
-#include "formats/json/write_form.hpp"
-#include "formats/json/write_object.hpp"
+#include "formats/json/write/write_form.hpp"
+#include "formats/json/write/write_object.hpp"
 
 namespace csgrt {
 

@@ -1,6 +1,6 @@
-#include "compile/solids/triangles.hpp"
+#include "compile/solids/meshes/triangles.hpp"
 
-#include "compile/solids/triangulate.hpp"
+#include "compile/solids/meshes/triangulate.hpp"
 
 namespace csgrt {
 

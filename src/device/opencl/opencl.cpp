@@ -1,4 +1,4 @@
-#include "device/opencl.hpp"
+#include "device/opencl/opencl.hpp"
 
 #include <algorithm>
 #include <charconv>

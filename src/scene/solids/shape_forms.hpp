@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "scene/form.hpp"
+#include "scene/solids/form.hpp"
 
 namespace csgrt::form {
 

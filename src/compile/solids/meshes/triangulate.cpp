@@ -1,4 +1,4 @@
-#include "compile/solids/triangulate.hpp"
+#include "compile/solids/meshes/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>

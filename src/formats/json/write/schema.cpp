@@ -1,4 +1,4 @@
-#include "formats/json/schema.hpp"
+#include "formats/json/write/schema.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "device/opencl_table.hpp"
+#include "device/opencl/opencl_table.hpp"
 
 namespace csgrt {
 

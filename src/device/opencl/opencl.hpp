@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "device/opencl_table.hpp"
+#include "device/opencl/opencl_table.hpp"
 
 namespace csgrt {
 

@@ -1,4 +1,4 @@
-#include "scene/arb_form.hpp"
+#include "scene/solids/arb_form.hpp"
 
 #include <algorithm>
 #include <cmath>

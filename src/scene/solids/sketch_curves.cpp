@@ -1,4 +1,4 @@
-#include "scene/sketch_curves.hpp"
+#include "scene/solids/sketch_curves.hpp"
 
 #include <algorithm>
 #include <cmath>

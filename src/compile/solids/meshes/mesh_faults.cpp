@@ -1,4 +1,4 @@
-#include "compile/solids/mesh_faults.hpp"
+#include "compile/solids/meshes/mesh_faults.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "compile/solids/near_lookup.hpp"
+#include "compile/solids/meshes/near_lookup.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {

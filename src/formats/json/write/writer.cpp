@@ -1,4 +1,4 @@
-#include "formats/json/writer.hpp"
+#include "formats/json/write/writer.hpp"
 
 #include <algorithm>
 #include <unordered_set>
@@ -9,8 +9,8 @@
 #include "formats/json/reader.hpp"
 #include "formats/json/scene_forms.hpp"
 #include "formats/json/text.hpp"
-#include "formats/json/write_form.hpp"
-#include "formats/json/write_object.hpp"
+#include "formats/json/write/write_form.hpp"
+#include "formats/json/write/write_object.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {

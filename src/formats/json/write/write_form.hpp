@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/json/unit.hpp"
-#include "scene/form.hpp"
+#include "formats/json/write/unit.hpp"
+#include "scene/solids/form.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
