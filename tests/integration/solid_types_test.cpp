@@ -59,9 +59,9 @@ TEST_CASE("solid types: each has a sample, and a test of its geometry or of the 
 }
 
 TEST_CASE("solid types: an oracle knows each and agrees with what is packed and traced") {
-    oracle::Random random(1);
     for (const test::Sample& sample : test::samples) {
         INFO(sample.name);
+        oracle::Random random(1);
         const Scene scene = scene_of(R"({"csgrt": 1, "solids": {"s": )" + std::string(sample.solid) + "}}");
         const oracle::SceneOracle oracle(scene);
         Renderer renderer(scene, {}, {.reference = true, .threads = 1});

@@ -346,9 +346,10 @@ Case make_case(Kind kind, std::size_t index, Random& random) {
             return build(detail::superell_form, detail::superell_forms);
         case Kind::hrt:
             return build(detail::hrt_form, detail::hrt_forms);
-        default:
+        case Kind::metaball:
             return build(detail::metaball_form, detail::metaball_forms);
     }
+    throw std::logic_error("no such kind of solid");
 }
 
 }  // namespace csgrt::oracle

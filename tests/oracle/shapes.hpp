@@ -13,6 +13,7 @@
 namespace csgrt::oracle {
 
 enum class Kind { ell, tgc, arb, arbn, half, tor, ehy, part, epa, rpc, rhc, eto, hyp, superell, hrt, metaball };
+constexpr int kind_count = static_cast<int>(Kind::metaball) + 1;
 
 struct Case {
     std::string name;  ///< form, placement

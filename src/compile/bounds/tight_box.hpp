@@ -1,4 +1,4 @@
-// What all bounds_*.cpp share: the box around everything that a ray can hit of one solid.
+// What the files of this folder share: the box around everything that a ray can hit of one solid.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ inline Box parallelogram_box(const Matrix& m, const Wide& center, const Wide& a,
 }
 
 /// The box of a solid that `m` places, before it is rounded outward (see solid_box). bounds.cpp has the solids of
-/// planes and quadrics, the other bounds_*.cpp what pack_*.cpp of that name have.
+/// planes and quadrics; a box by what supports it: support_box.hpp.
 struct Tight {
     const Matrix& m;
 

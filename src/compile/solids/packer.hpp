@@ -16,7 +16,7 @@
 
 namespace csgrt {
 
-/// Writes one solid. pack_solids.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
+/// Writes one solid. pack.cpp has the solids of planes and quadrics, pack_curved.cpp other closed forms,
 /// pack_sketches.cpp what outlines make, pack_meshes.cpp what triangles make.
 struct Packer {
     const Matrix& matrix;

@@ -151,7 +151,8 @@ TEST_CASE("what is empty vanishes from trees, and empty regions are left out wit
          region("flip", {leg("none"), leg("a"), one_of}), region("inside", {leg("a"), leg("none"), not_, both}),
          region("outside", {leg("a"), leg("none"), not_, less}),
          region("but", {leg("none"), not_, leg("b"), less, leg("a"), both}),
-         region("odd", {leg("none"), not_, leg("b"), one_of, leg("a"), both})});
+         region("odd", {leg("none"), not_, leg("b"), one_of, leg("a"), both}),
+         region("late", {leg("a"), leg("none"), both, leg("b"), either})});
     CHECK(regions_of(s, {"hollow", "less", "both", "outside"}).empty());
     CHECK(regions_of(s, {"same", "sum", "flip", "inside"}) ==
           Lines{"/same: a", "/sum: a b u", "/flip: a", "/inside: a"});
@@ -161,6 +162,9 @@ TEST_CASE("what is empty vanishes from trees, and empty regions are left out wit
     CHECK(format(flat.warnings[0]) == "none: the object holds no solid");
     CHECK(format(flat.warnings[1]) == "2 regions without solids left out: /hollow, /both");
     CHECK(flat.instances.size() == 1);  // a of "both" is not needed
+    const FlatScene late = flatten(s, {"late", "A"}, false);
+    REQUIRE(late.instances.size() == 2);  // a of "late" is not needed, and comes after b
+    CHECK(name_of(s.objects[late.instances[0].object]) == "b");
 }
 
 TEST_CASE("an object that is named twice is rendered once") {

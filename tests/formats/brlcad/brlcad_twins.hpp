@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -12,6 +13,7 @@
 #include <csgrt/scene.hpp>
 
 #include "catch.hpp"
+#include "scene/solids/shape_forms.hpp"
 
 namespace csgrt::brlcad_test {
 
@@ -62,11 +64,7 @@ inline std::vector<double> numbers_of(const Shape& any) {
     std::visit(
         [&](const auto& s) {
             using T = std::decay_t<decltype(s)>;
-            if constexpr (std::is_same_v<T, Ell>) {
-                for (const Vec3& v : {s.v, s.a, s.b, s.c}) put(v);
-            } else if constexpr (std::is_same_v<T, Tgc>) {
-                for (const Vec3& v : {s.v, s.h, s.a, s.b, s.c, s.d}) put(v);
-            } else if constexpr (std::is_same_v<T, Arb>) {
+            if constexpr (std::is_same_v<T, Arb>) {
                 for (const Vec3& v : s.vertices) put(v);
             } else if constexpr (std::is_same_v<T, Arbn>) {
                 for (const Plane& p : s.planes) {
@@ -82,33 +80,6 @@ inline std::vector<double> numbers_of(const Shape& any) {
                 put(s.v);
                 put({s.h.x / length, s.h.y / length, s.h.z / length});
                 out.insert(out.end(), {s.r_a, s.r_h});
-            } else if constexpr (std::is_same_v<T, Ehy>) {
-                for (const Vec3& v : {s.v, s.h, s.a}) put(v);
-                out.insert(out.end(), {s.r_1, s.r_2, s.c});
-            } else if constexpr (std::is_same_v<T, Part>) {
-                for (const Vec3& v : {s.v, s.h}) put(v);
-                out.insert(out.end(), {s.r_v, s.r_h});
-            } else if constexpr (std::is_same_v<T, Epa>) {
-                for (const Vec3& v : {s.v, s.h, s.a}) put(v);
-                out.insert(out.end(), {s.r_1, s.r_2});
-            } else if constexpr (std::is_same_v<T, Rpc>) {
-                for (const Vec3& v : {s.v, s.h, s.b}) put(v);
-                out.push_back(s.r);
-            } else if constexpr (std::is_same_v<T, Rhc>) {
-                for (const Vec3& v : {s.v, s.h, s.b}) put(v);
-                out.insert(out.end(), {s.r, s.c});
-            } else if constexpr (std::is_same_v<T, Eto>) {
-                for (const Vec3& v : {s.v, s.n, s.c}) put(v);
-                out.insert(out.end(), {s.r, s.r_d});
-            } else if constexpr (std::is_same_v<T, Hyp>) {
-                for (const Vec3& v : {s.v, s.h, s.a}) put(v);
-                out.insert(out.end(), {s.b, s.neck});
-            } else if constexpr (std::is_same_v<T, Superell>) {
-                for (const Vec3& v : {s.v, s.a, s.b, s.c}) put(v);
-                out.insert(out.end(), {s.n, s.e});
-            } else if constexpr (std::is_same_v<T, Hrt>) {
-                for (const Vec3& v : {s.v, s.x, s.y, s.z}) put(v);
-                out.push_back(s.d);
             } else if constexpr (std::is_same_v<T, Metaball>) {
                 out.insert(out.end(), {static_cast<double>(s.method), s.threshold});
                 for (const Metaball::Point& p : s.points) {
@@ -120,9 +91,6 @@ inline std::vector<double> numbers_of(const Shape& any) {
                     put(p.position);
                     out.insert(out.end(), {p.outer, p.inner, p.bend});
                 }
-            } else if constexpr (std::is_same_v<T, Cline>) {
-                for (const Vec3& v : {s.v, s.h}) put(v);
-                out.insert(out.end(), {s.radius, s.thickness});
             } else if constexpr (std::is_same_v<T, Bot>) {
                 out.insert(out.end(), {static_cast<double>(s.mode), static_cast<double>(s.orientation)});
                 for (const Vec3& v : s.vertices) put(v);
@@ -162,8 +130,15 @@ inline std::vector<double> numbers_of(const Shape& any) {
                 for (const Vec3& v : {s.v, s.axis, s.r}) put(v);
                 out.push_back(s.angle);
                 put_sketch(s.sketch, out);
-            } else {
-                static_assert(std::is_same_v<T, Unsupported>);
+            } else if constexpr (!std::is_same_v<T, Unsupported>) {  // vectors and numbers alone
+                form::for_members(form::of<T>, [&](const auto& member) {
+                    const auto& value = std::invoke(member.at, s);
+                    if constexpr (std::is_same_v<decltype(value), const Vec3&>) {
+                        put(value);
+                    } else {
+                        out.push_back(value);
+                    }
+                });
             }
         },
         any);

@@ -100,16 +100,19 @@ void add_region(Scene& scene, const std::string& solid, const Matrix& matrix, bo
     scene.objects.push_back(std::move(region));
 }
 
-// All samples in a square across an axis, from -24 to 16.
-constexpr double pitch = 8;
-double at_row(std::size_t row) { return pitch * (static_cast<double>(row) - 3); }
+// All samples in a square across an axis, around the origin.
+constexpr int pitch = 8, side = [] {
+    int rows = 1;
+    while (rows * rows < static_cast<int>(std::size(samples))) ++rows;
+    return rows;
+}();
+double at_row(std::size_t row) { return pitch * (static_cast<int>(row) - side / 2); }
 Vec3 place_in_square(std::size_t sample, std::size_t axis) {
     double at[3] = {0, 0, 0};
-    at[(axis + 1) % 3] = at_row(sample / 6), at[(axis + 2) % 3] = at_row(sample % 6);
+    at[(axis + 1) % 3] = at_row(sample / side), at[(axis + 2) % 3] = at_row(sample % side);
     return {at[0], at[1], at[2]};
 }
 Scene square_of_samples(std::size_t axis, stress::Random& random) {
-    static_assert(std::size(samples) <= 36);
     Scene scene = scene_of_samples();
     for (std::size_t i = 0; i < std::size(samples); ++i) {
         Matrix m = quarter_turn(random);
@@ -234,8 +237,8 @@ TEST_CASE("pictures along the axes: the same zeros", "[agreement][field]") {
         const Scene scene = square_of_samples(axis, random);
         Renderer reference(scene, {}, on_reference()), device(scene, {}, test::on_device());
         View view;
-        view.width = view.height = 97;  // a pixel is half a millimetre: `pitch` is a whole number of them
-        view.camera.view_size = 48.5;
+        view.width = view.height = 2 * pitch * side + 1;
+        view.camera.view_size = 0.5 * view.width;  // a pixel is half a millimetre: `pitch` is a whole number of them
         view.camera.center = Vec3{0, 0, 0};
         for (const bool from_behind : {false, true}) {
             view.camera.azimuth = axis == 0 ? (from_behind ? 180 : 0) : axis == 1 ? (from_behind ? 270 : 90) : 0;
