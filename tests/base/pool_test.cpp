@@ -82,6 +82,18 @@ TEST_CASE("chunks are all numbers, each once, and those that other threads begin
         CHECK(is_limited);
     }
     CHECK(threads_allowed == 0);
+    // A thread that has worked for one caller has the next one's limit.
+    Pool pool;
+    for (const unsigned threads : {3u, 5u}) {
+        const AllowedThreads allowed(threads);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        std::atomic<int> begun{0}, limited{0};
+        pool.run(2, [&] {
+            limited += threads_allowed == threads;
+            for (++begun; begun < 2 && std::chrono::steady_clock::now() < end;) std::this_thread::yield();
+        });
+        CHECK(limited == 2);
+    }
 }
 
 TEST_CASE("what the foremost chunk throws is thrown when all that have begun have ended, and few begin after it") {
