@@ -208,6 +208,27 @@ TEST_CASE("materials have linear light, or with display shading what the model s
     CHECK(display.hash != linear.hash);
 }
 
+TEST_CASE("regions that shine: the brightest and half of the ambient light make white") {
+    Scene s = plate_with_hole();
+    s.ambient = 0.4;
+    const auto shine = [&](std::size_t region, const Emission& emission) {
+        std::get<Combination>(s.objects[region]).finish = Finish{.light = emission};
+    };
+    shine(4, {.intensity = 1});
+    shine(5, {.intensity = 2});
+    shine(6, {.intensity = 9, .fraction = 0.3});  // the ground: no light comes from what has no end
+    const CompiledScene c = compile(s);
+    REQUIRE(c.lights.size() == 2);
+    CHECK(c.lights[0].r == Approx(c.materials[0].r * 0.5 / 1.2));
+    CHECK(c.lights[1].r == Approx(1 / 1.2));
+    for (const auto& [region, brightness] : {std::pair(0, 0.5 / 1.2), std::pair(1, 1 / 1.2), std::pair(2, 0.3)}) {
+        const kernel::MaterialRecord& m = c.materials[region];
+        CHECK(m.diffuse == 0);
+        CHECK(m.glow == Approx(0.5 * brightness));
+        CHECK(m.ambient * s.ambient == Approx(0.5 * brightness));
+    }
+}
+
 TEST_CASE("the hash is the scene's: the same for the same, another for any change") {
     const Scene original = plate_with_hole();
     const std::uint64_t hash = compile(original).hash;
