@@ -8,6 +8,7 @@
 
 #include <csgrt/scene.hpp>
 
+#include "base/parallel.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/solids/planes.hpp"
 #include "compile/solids/surfaces.hpp"
@@ -40,6 +41,12 @@ struct PackedChunk {
     std::vector<Warning> warnings;
     std::uint32_t solid_types = 0;
 };
+
+/// Calls with the number of each chunk, several at once.
+template <class Call>
+void for_each_chunk(const std::vector<PackedChunk>& chunks, const Call& call) {
+    for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
+}
 
 /// Finds the planes that several share: fills planes of `shapes`, appends references to its words, and the solids'
 /// ranges of them. `empty`: a table without planes.

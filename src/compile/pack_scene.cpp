@@ -7,7 +7,6 @@
 #include "compile/solids/pack.hpp"
 #include "compile/solids/packer.hpp"
 #include "base/prefetch.hpp"
-#include "base/parallel.hpp"
 
 namespace csgrt {
 
@@ -60,7 +59,7 @@ public:
         resize_cleared(shapes_.solids, order_.size());
         resize_cleared(shapes_.solid_info, order_.size());
         resize_cleared(shapes_.solid_boxes, order_.size());
-        for_each_chunk([this](std::size_t number) {
+        for_each_chunk(chunks_, [this](std::size_t number) {
             const std::size_t first = number * PackedChunk::size;
             const std::size_t last = std::min(order_.size(), first + PackedChunk::size);
             chunks_[number].parts.reserve(last - first);
@@ -91,11 +90,6 @@ public:
     }
 
 private:
-    template <class Call>
-    void for_each_chunk(const Call& call) {
-        for_chunks(chunks_.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
-    }
-
     /// All that a solid needs no other for.
     void prepare(std::size_t number, PackedChunk& chunk, std::vector<Plane>& planes) {
         const Instance& instance = flat_.instances[order_[number]];
@@ -154,7 +148,7 @@ private:
 
     void share_surfaces() {
         Shards shards(chunks_.size());
-        for_each_chunk([&](std::size_t number) {
+        for_each_chunk(chunks_, [&](std::size_t number) {
             for (const auto& [part, surface] : chunks_[number].surfaces)
                 shards.chunk(number).add(surfaces_.coarse_cells(surface));
         });
@@ -201,7 +195,7 @@ private:
             check_numbers(std::max(next, shapes_.words.size()));
         }
         resize_cleared(reals, next);
-        for_each_chunk([&](std::size_t number) {
+        for_each_chunk(chunks_, [&](std::size_t number) {
             const PackedChunk& chunk = chunks_[number];
             for (std::size_t i = 0; i < chunk.parts.size(); ++i) {
                 const PackedChunk::Part& part = chunk.parts[i];

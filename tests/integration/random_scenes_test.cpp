@@ -105,43 +105,47 @@ struct Tally {
     std::uint64_t judged = 0, decided = 0;
 };
 
+/// The device gives the reference's bits; `judged`: and the oracle finds nothing wrong in them.
+void require_scene(const Scene& scene, bool every_partition, bool judged, Tally& tally) {
+    Settings settings = test::on_native_device(), by_reference = settings;
+    by_reference.reference = true;
+    by_reference.device.clear();
+    std::optional<Renderer> reference;
+    try {
+        reference.emplace(scene, std::vector<std::string>(), by_reference);
+    } catch (const Error& error) {  // coordinates that are too large, or a region without end
+        INFO(error.what());
+        REQUIRE(error.status() == Status::scene);
+        REQUIRE_THROWS_AS(Renderer(scene, {}, settings), Error);
+        ++tally.refused;
+        return;
+    }
+    ++tally.scenes;
+    Renderer device(scene, {}, settings);
+    const Box& bounds = reference->bounds();
+    const Box box = bounds.low.x > bounds.high.x ? Box{{-9, -9, -9}, {9, 9, 9}} : bounds;  // half-spaces alone
+    const std::vector<Ray> rays = test::random_rays(box, 16);
+    const std::vector<RayPartitions> answers = reference->shoot(rays);
+    test::require_same(device.shoot(rays), answers);
+    for (const RayPartitions& answer : answers) tally.hits += !answer.partitions.empty();
+    View view{.width = 17, .height = 13, .camera = {}, .every_partition = every_partition};
+    test::require_same(device.render(view), reference->render(view));
+    if (!judged) return;
+    Verifier verifier(scene, {}, settings);
+    verifier.shoot(rays);
+    const Verification& result = verifier.result();
+    tally.judged += rays.size();
+    tally.decided += result.decided;
+    REQUIRE(result.wrong == 0);
+    REQUIRE(result.bit_differences == 0);
+}
+
 /// `each`: so many scenes for one that is judged.
 Tally require_scenes(std::uint64_t first, std::uint64_t count, std::uint64_t each) {
     Tally tally;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         INFO("seed " << seed);
-        const Scene scene = SceneMaker(seed).make();
-        Settings settings = test::on_native_device(), by_reference = settings;
-        by_reference.reference = true;
-        by_reference.device.clear();
-        std::optional<Renderer> reference;
-        try {
-            reference.emplace(scene, std::vector<std::string>(), by_reference);
-        } catch (const Error& error) {  // coordinates that are too large, or a region without end
-            INFO(error.what());
-            REQUIRE(error.status() == Status::scene);
-            REQUIRE_THROWS_AS(Renderer(scene, {}, settings), Error);
-            ++tally.refused;
-            continue;
-        }
-        ++tally.scenes;
-        Renderer device(scene, {}, settings);
-        const Box& bounds = reference->bounds();
-        const Box box = bounds.low.x > bounds.high.x ? Box{{-9, -9, -9}, {9, 9, 9}} : bounds;  // half-spaces alone
-        const std::vector<Ray> rays = test::random_rays(box, 16);
-        const std::vector<RayPartitions> answers = reference->shoot(rays);
-        test::require_same(device.shoot(rays), answers);
-        for (const RayPartitions& answer : answers) tally.hits += !answer.partitions.empty();
-        View view{.width = 17, .height = 13, .camera = {}, .every_partition = seed % 2 == 0};
-        test::require_same(device.render(view), reference->render(view));
-        if (seed % each != 0) continue;
-        Verifier verifier(scene, {}, settings);
-        verifier.shoot(rays);
-        const Verification& result = verifier.result();
-        tally.judged += rays.size();
-        tally.decided += result.decided;
-        REQUIRE(result.wrong == 0);
-        REQUIRE(result.bit_differences == 0);
+        require_scene(SceneMaker(seed).make(), seed % 2 == 0, seed % each == 0, tally);
     }
     return tally;
 }
@@ -164,13 +168,11 @@ TEST_CASE("random scenes: a plate that a ray grazes begins far before its box", 
     const std::string scenes = test::folder("CSGRT_SCENES");
     if (scenes.empty()) return;
     const Scene scene = load_scene(scenes + "/../tests/integration/grazed_plate.json");
-    Renderer device(scene, {}, test::on_native_device());
-    const View view{.width = 17, .height = 13, .camera = {}, .every_partition = false};
-    const Image picture = device.render(view);
-    CHECK(device.statistics().method == "every partition, five kernels");
-    Settings by_reference;
-    by_reference.reference = true;
-    test::require_same(picture, Renderer(scene, {}, by_reference).render(view));
+    Tally tally;
+    require_scene(scene, false, true, tally);
+    Renderer renderer(scene, {}, test::on_native_device());
+    renderer.render({.width = 8, .height = 8, .camera = {}, .every_partition = false});
+    CHECK(renderer.statistics().method == "every partition, five kernels");
 }
 TEST_CASE("random scenes: 100,000", "[.long][agreement]") {
     const char* const first = std::getenv("CSGRT_SEED");  // for several processes at once

@@ -10,7 +10,6 @@
 #include "compile/linear.hpp"
 #include "compile/pack_chunks.hpp"
 #include "compile/solids/pack.hpp"
-#include "base/parallel.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {
@@ -104,17 +103,12 @@ void note_films(const std::vector<std::vector<Film>>& films, const Box& common, 
     if (count > shown) warn({}, "nothing is left of " + std::to_string(count - shown) + " more such solids");
 }
 
-template <class Call>
-void for_each_chunk(std::size_t count, Call call) {
-    for_chunks(count, 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
-}
-
 /// Puts each plane into its shard.
 Shards shards_of(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, const Shapes& shapes) {
     Shards shards(chunks.size());
     std::size_t planes = 0;
     for (const PackedChunk& chunk : chunks) planes += chunk.planes.size();
-    for_each_chunk(chunks.size(), [&](std::size_t number) {
+    for_each_chunk(chunks, [&](std::size_t number) {
         PackedChunk& chunk = chunks[number];
         shards.chunk(number).reserve(chunk.planes.size());
         auto plane = chunk.planes.begin();
@@ -166,14 +160,14 @@ Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const
 /// Writes the scene's records, in the order of the solids, and makes each `ref` the scene's.
 void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, Shapes& shapes) {
     std::vector<std::uint32_t> first_record(chunks.size());
-    for_each_chunk(chunks.size(), [&](std::size_t number) {
+    for_each_chunk(chunks, [&](std::size_t number) {
         for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
     });
     std::size_t records = 0;
     for (std::uint32_t& first : first_record) records += std::exchange(first, static_cast<std::uint32_t>(records));
     PlaneTable::check_count(records);
     resize_cleared(shapes.planes, records);
-    for_each_chunk(chunks.size(), [&](std::size_t number) {
+    for_each_chunk(chunks, [&](std::size_t number) {
         std::uint32_t next = first_record[number];
         for (PackedPlane& plane : chunks[number].planes) {
             if (!plane.is_first) continue;
@@ -196,7 +190,7 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
                       std::vector<Warning>& warnings) {
     std::vector<std::vector<kernel::PlaneRef>> of(chunks.size());
     std::vector<std::vector<Film>> films(chunks.size());
-    for_each_chunk(chunks.size(), [&](std::size_t number) {
+    for_each_chunk(chunks, [&](std::size_t number) {
         std::vector<kernel::PlaneRef>& own = of[number];
         own.reserve(chunks[number].planes.size());
         auto plane = chunks[number].planes.begin();
@@ -228,7 +222,7 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
     }
     check_numbers(refs);
     shapes.words.resize(refs);
-    for_each_chunk(chunks.size(), [&](std::size_t number) {
+    for_each_chunk(chunks, [&](std::size_t number) {
         std::copy(of[number].begin(), of[number].end(), shapes.words.begin() + first_ref[number]);
         for (std::size_t i = 0; i < chunks[number].parts.size(); ++i)
             shapes.solids[number * PackedChunk::size + i].first_plane += first_ref[number];
@@ -239,7 +233,7 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
 
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
                   std::vector<Warning>& warnings) {
-    for_each_chunk(chunks.size(), [&](std::size_t number) { insert_large(chunks[number]); });
+    for_each_chunk(chunks, [&](std::size_t number) { insert_large(chunks[number]); });
     const Shards shards = shards_of(chunks, empty, common, shapes);
     const Firsts firsts = find_shared(chunks, shards, empty, common, shapes);
     number_planes(chunks, shards, firsts, shapes);
