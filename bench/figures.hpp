@@ -22,11 +22,12 @@ inline constexpr Stage stages[] = {{"count_segments", &Times::count_segments},
                                    {"weave", &Times::weave},
                                    {"evaluate", &Times::evaluate},
                                    {"shade", &Times::shade},
+                                   {"rows", &Times::rows},
                                    {"cull", &Times::cull_tiles},
                                    {"first_hits", &Times::first_hits}};
 
 struct Figures {
-    std::string workload, device, mode;  ///< mode: "first hits" or "every partition"
+    std::string workload, device, mode;  ///< mode: "first hits", "every partition" or "lists"
     int size = 0, frames = 0;
     int orbit = 0;  ///< frames around the model, 0: all from one side
     std::uint64_t solids = 0, regions = 0, segments = 0, partitions_used = 0, partitions_allocated = 0;

@@ -14,6 +14,7 @@ static Counted counted;
 }  // namespace csgrt::kernel
 
 #define box_is_hit(ray, node) (++counted.boxes, box_is_hit(ray, node))
+#define box_is_hit_before(ray, node, end) (++counted.boxes, box_is_hit_before(ray, node, end))
 #undef TREE_SHIFT  // every word of a tree is split by it when it is read
 #define TREE_SHIFT (++counted.words, 29u)
 #include "kernel_host/geometry.hpp"

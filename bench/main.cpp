@@ -1,11 +1,12 @@
 // csgrt_bench: warm frames of every workload; tables on standard output, JSON on demand.
 //
-//   csgrt_bench [--device CHOICE|all]... [--size N] [--frames N] [--first-hit | --both] [--color] [--orbit N]
-//               [--only NAME,...] [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
+//   csgrt_bench [--device CHOICE|all]... [--size N] [--frames N] [--first-hit | --both | --lists] [--color]
+//               [--orbit N] [--only NAME,...] [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
 //   csgrt_bench --compare A.json B.json
 //
 // --floors: also what a frame of every partition must do at least, counted, beside what was measured of it (nothing is
 // measured with --frames 0).
+// --lists: in place of pictures the partitions along their rays, as arrays: regions and distances.
 // --color: pictures of colours alone, as a viewer shows them, in place of all channels.
 // --orbit N: a frame at each of N azimuths around the model, as a viewer draws them, in place of --frames from one
 // side. Afterwards the orbit is drawn again, and its pictures must be those that are drawn into new memory, bit by bit;
@@ -36,7 +37,7 @@ struct Options {
     std::vector<std::string> devices, only, compare;
     std::string models = "../shared/brlcad", scenes = "scenes", json;
     int size = 1024, frames = 20, orbit = 0;
-    bool every_partition = true, first_hits = false, floors = false, color = false;
+    bool every_partition = true, first_hits = false, lists = false, floors = false, color = false;
 };
 
 /// Of frame `i`: always from one side, or from the orbit's next azimuth.
@@ -76,14 +77,22 @@ Figures measure(const Workload& workload, Renderer& renderer, bool every_partiti
     f.ms.emplace_back("first", renderer.statistics().ms.compile + setup + milliseconds_since(start));
     std::vector<Statistics> frames;
     const int count = options.orbit > 0 ? options.orbit : options.frames;
+    const std::vector<Ray> rays =
+        options.lists ? renderer.rays_of(view_of(options, every_partition, 0)) : std::vector<Ray>();
+    Partitions answer;
+    if (options.lists) renderer.partitions(rays, answer);
     for (int i = 0; i < count; ++i) {
-        renderer.render(view_of(options, every_partition, i), framebuffer);
+        if (options.lists)
+            renderer.partitions(rays, answer);
+        else
+            renderer.render(view_of(options, every_partition, i), framebuffer);
         frames.push_back(renderer.statistics());
     }
     const Statistics& s = frames.front();
     f.workload = workload.name;
     f.device = s.device;
     f.mode = every_partition ? "every partition" : "first hits";
+    if (options.lists) f.mode = "lists";
     if (options.color) f.mode += ", colors alone";
     f.size = options.size;
     f.frames = count;
@@ -116,6 +125,10 @@ Options parse(int argc, char** argv) {
         if (name == "--first-hit" || name == "--both") {
             options.first_hits = true;
             options.every_partition = name == "--both";
+            continue;
+        }
+        if (name == "--lists") {
+            options.lists = true;
             continue;
         }
         if (name == "--color") {

@@ -23,6 +23,7 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     u32 id = (u32)get_global_id(0), number;
     CandidateCount count;
     ray3 r;
+    ray_range wanted;
     if (id >= frame->ray_count) return;
     if (candidates) {
         if (places[id].candidates == places[id + 1].candidates || !candidates_of(frame, places)) return;
@@ -31,7 +32,8 @@ __kernel void find_candidates(__global const Frame* frame, __global const BvhNod
     count.candidates = count.unused = 0;
     number = number_of(frame, listed, id);
     if (lists) lists = list_of(frame, lists, number);
-    if (ray_of(frame, rays, number, &r)) count.candidates = walk(frame, nodes, lists, r, id, candidates);
+    if (ray_of(frame, rays, number, &r, &wanted))
+        count.candidates = walk(frame, nodes, lists, r, wanted, id, candidates);
     if (!candidates) places[id] = count;
 }
 
@@ -40,17 +42,16 @@ static void intersect_candidate(__global const Frame* frame, Geometry g, __globa
     const Candidate c = *candidate;
     SolidRecord solid;
     ray3 r, own;
-    real t_min;
+    ray_range wanted;
     u32 count, near = 0;
 #ifdef CSGRT_PACKETS  // then 1_packet_candidates.cl has counted some
     if (c.count != UNCOUNTED) return;
 #endif
-    if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
-    t_min = t_min_along(frame, r);
+    if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
     solid = g.solids[c.solid];
     own = ray_at(solid, r);
-    if (!collect_many(g, solid, c.solid, own, t_min, 0, &count, &near)) {
-        const segments h = collect_few(g, solid, own, t_min);
+    if (!collect_many(g, solid, c.solid, own, wanted.t_min, 0, &count, &near)) {
+        const segments h = collect_few(g, solid, own, wanted.t_min);
         count = h.count;
         if (count == 1) put_segment(segment, c.solid, h.in0, h.in0_surface, h.out0, h.out0_surface);
     }

@@ -1,6 +1,7 @@
-// Kernel 1's first step on processors, for a picture's tiles: packets of eight rays list their candidates. Solids
-// that packets know are intersected here, too; count_segments (1_count_segments.cl) is left with what one ray alone
-// can answer.
+// Kernel 1's first step on processors, for a picture's tiles and for lists: packets of eight rays list their
+// candidates. Solids that packets know are intersected here, too; count_segments (1_count_segments.cl) is left with
+// what one ray alone can answer. A list's packet is eight rays in a row; those that go different ways cost little more
+// than alone.
 //
 //   count packet candidates -> (scan) -> list packet candidates -> count segments -> ...
 #include "shared/capacity.h"
@@ -8,29 +9,93 @@
 #include "geometry/collect.h"
 #include "packet/packet.h"
 
-// A packet on its way through the nodes of its tile's list.
+// Eight rays, and which of them there are.
+typedef struct {
+    packet_world_ray rays;
+    double8 t_min, t_max;
+    u32 within;  // a mask
+    u32 number;  // of the first one of a picture
+} ray_packet;
+
+// The place of a packet's ray k among the batch's rays; `id`: of its first work-item's.
+static u32 place_in_packet(__global const Frame* f, u32 id, u32 k) {
+    return f->work == WORK_RAYS ? id + k : first_of_packet(id) + ray_of_packet(k);
+}
+
+static ray_packet listed_packet(__global const Frame* f, __global const RayRecord* rays, u32 id) {
+    const u32 count = f->ray_count - id < PACKET ? f->ray_count - id : PACKET;
+    double of[8][PACKET];
+    ray_packet p;
+    u32 k;
+    for (k = 0; k < PACKET; ++k) {
+        const RayRecord record = rays[id + (k < count ? k : 0)];
+        const ray_range wanted = range_of(f, record, geometry_ray(f, listed_ray(record)));
+        of[0][k] = record.ox;
+        of[1][k] = record.oy;
+        of[2][k] = record.oz;
+        of[3][k] = record.dx;
+        of[4][k] = record.dy;
+        of[5][k] = record.dz;
+        of[6][k] = wanted.t_min;
+        of[7][k] = wanted.t_max;
+    }
+    p.rays.o = packet_make_wide3(vload8(0, of[0]), vload8(0, of[1]), vload8(0, of[2]));
+    p.rays.d = packet_make_vec3(vload8(0, of[3]), vload8(0, of[4]), vload8(0, of[5]));
+    p.t_min = vload8(0, of[6]);
+    p.t_max = vload8(0, of[7]);
+    p.within = (1u << count) - 1u;
+    p.number = 0;
+    return p;
+}
+
+static ray_packet packet_of(__global const Frame* f, __global const RayRecord* rays, __global const u32* listed,
+                            u32 id) {
+    ray_packet p;
+    pixel_position first;
+    if (f->work == WORK_RAYS) return listed_packet(f, rays, id);
+    p.number = first_of_packet(number_of(f, listed, id));
+    first = pixel_of(p.number, f->screen);
+    p.rays = rays_through(f, first);
+    p.t_min = (double8)f->t_min;
+    p.t_max = (double8)REAL_INFINITY;
+    p.within = first.inside ? rays_inside(f, first) : 0;
+    return p;
+}
+
+// A packet on its way through the nodes of its tile's list, or through all.
 typedef struct {
     packet_slab_ray slabs;
+    float8 range_end;
     __global const BvhNode* nodes;
-    __global const TileNode* next;
-    bvh_cursor cursor;  // in the subtree of the list's last node
-    u32 active_mask;    // rays that pass near the scene
+    __global const TileNode* next;  // 0: there is no list
+    bvh_cursor cursor;              // in the subtree of the list's last node
+    u32 active_mask;                // rays that pass near the scene
 } packet_walk;
 
-static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const TileNode* list,
-                              packet_world_ray r, u32 within) {
+static packet_walk start_walk(__global const Frame* f, __global const BvhNode* nodes, __global const TileNode* lists,
+                              ray_packet p) {
     packet_walk w;
-    w.slabs = slabs_of(f, r);
+    w.slabs = make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), p.rays.o),
+                            p.rays.d, f->radius, p.t_min);
+    w.range_end = end_of_range(w.slabs, f->radius, p.t_max);
     w.nodes = nodes;
-    w.next = list;
-    w.active_mask = bits_of(w.slabs.hits_sphere) & within;
-    w.cursor = bvh_over(0);
+    w.next = lists ? list_of(f, lists, p.number) : 0;
+    w.active_mask = bits_of(w.slabs.hits_sphere) & p.within;
+    w.cursor = bvh_over(lists ? 0 : f->node_count);
     return w;
 }
 
 // The next leaf that any ray hits, as BvhNode has it, and the mask of those that do; 0: there is none.
 static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
     u32 leaf = 0;
+    if (w->active_mask && !w->next) {
+        while (!leaf && bvh_goes_on(w->cursor)) {
+            const BvhNode node = w->nodes[w->cursor.node];
+            *hit_mask = bits_of(box_is_hit_before(w->slabs, node, w->range_end)) & w->active_mask;
+            leaf = bvh_step(&w->cursor, node, *hit_mask != 0);
+        }
+        return leaf;
+    }
     while (!leaf && w->active_mask && (bvh_goes_on(w->cursor) || w->next->node != NONE)) {
         if (!bvh_goes_on(w->cursor)) w->cursor = bvh_below(w->nodes, (w->next++)->node);
         leaf = next_leaf(w->slabs, w->nodes, &w->cursor, w->active_mask, hit_mask);
@@ -39,25 +104,22 @@ static u32 next_packet_leaf(packet_walk* w, u32* hit_mask) {
 }
 
 __kernel void count_packet_candidates(__global const Frame* frame, __global const BvhNode* nodes,
-                                      __global const TileNode* lists, __global const u32* listed,
-                                      __global CandidateCount* places) {
+                                      __global const TileNode* lists, __global const RayRecord* rays,
+                                      __global const u32* listed, __global CandidateCount* places) {
     const u32 id = (u32)get_global_id(0) * PACKET;
-    pixel_position first;
-    u32 counts[PACKET], number, k;
+    ray_packet p;
+    packet_walk w;
+    u32 counts[PACKET], k, hit_mask, leaf;
     if (id >= frame->ray_count) return;
-    number = first_of_packet(number_of(frame, listed, id));
-    first = pixel_of(number, frame->screen);
-    for (k = 0; k < PACKET; ++k) counts[k] = 0;
-    if (first.inside) {
-        const u32 within = rays_inside(frame, first);
-        packet_walk w = start_walk(frame, nodes, list_of(frame, lists, number), rays_through(frame, first), within);
-        u32 hit_mask, leaf;
-        for (k = 0; k < PACKET; ++k) counts[k] = within >> k & 1u ? frame->unbounded_count : 0;
+    p = packet_of(frame, rays, listed, id);
+    for (k = 0; k < PACKET; ++k) counts[k] = p.within >> k & 1u ? frame->unbounded_count : 0;
+    if (p.within) {
+        w = start_walk(frame, nodes, lists, p);
         while ((leaf = next_packet_leaf(&w, &hit_mask)))
             for (k = 0; k < PACKET; ++k) counts[k] += hit_mask >> k & 1u ? leaf & BVH_LEAF_MASK : 0;
     }
-    for (k = 0; k < PACKET; ++k) {
-        const u32 place = first_of_packet(id) + ray_of_packet(k);
+    for (k = 0; k < PACKET && id + k < frame->ray_count; ++k) {
+        const u32 place = place_in_packet(frame, id, k);
         places[place].candidates = counts[k];
         places[place].unused = 0;
     }
@@ -66,9 +128,9 @@ __kernel void count_packet_candidates(__global const Frame* frame, __global cons
 // Where a packet's candidates are stored.
 typedef struct {
     packet_ray3 rays;
-    real t_min;
-    u32 ray;           // the first one's place
-    u32 next[PACKET];  // a ray's next candidate
+    double8 t_min;
+    u32 ray[PACKET];   // a ray's place
+    u32 next[PACKET];  // its next candidate
     __global Candidate* candidates;
     __global End* found;
 } packet_list;
@@ -91,7 +153,7 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask
     for (; active_mask; active_mask &= active_mask - 1u) {
         const u32 k = lowest(active_mask), place = list->next[k]++;
         Candidate c;
-        c.ray = list->ray + ray_of_packet(k);
+        c.ray = list->ray[k];
         c.solid = index;
         c.count = alone >> k & 1u ? UNCOUNTED : met >> k & 1u;
         c.before = 0;
@@ -102,35 +164,30 @@ static void list_solid(packet_list* list, Geometry g, u32 index, u32 active_mask
 }
 
 __kernel void list_packet_candidates(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes,
-                                     __global const TileNode* lists, __global const u32* listed,
-                                     __global const CandidateCount* places, __global Candidate* candidates,
-                                     __global End* found) {
+                                     __global const TileNode* lists, __global const RayRecord* rays,
+                                     __global const u32* listed, __global const CandidateCount* places,
+                                     __global Candidate* candidates, __global End* found) {
     const u32 id = (u32)get_global_id(0) * PACKET;
     const Geometry g = GEOMETRY;
-    packet_world_ray from_eye;
+    ray_packet p;
     packet_list list;
     packet_walk w;
-    pixel_position first;
-    u32 number, within, hit_mask, leaf, k, any = 0;
+    u32 hit_mask, leaf, k, any = 0;
     if (id >= frame->ray_count || !candidates_of(frame, places)) return;
-    list.ray = first_of_packet(id);
-    for (k = 0; k < PACKET; ++k) {
-        const u32 ray = list.ray + ray_of_packet(k);
+    for (k = 0; k < PACKET && id + k < frame->ray_count; ++k) {
+        const u32 ray = list.ray[k] = place_in_packet(frame, id, k);
         list.next[k] = places[ray].candidates;
         any |= places[ray + 1].candidates != list.next[k];
     }
     if (!any) return;
-    number = first_of_packet(number_of(frame, listed, id));
-    first = pixel_of(number, frame->screen);
-    within = rays_inside(frame, first);
-    from_eye = rays_through(frame, first);
-    list.rays.o = from_eye.o;
-    list.rays.d = from_eye.d;
-    list.t_min = frame->t_min;
+    p = packet_of(frame, rays, listed, id);
+    list.rays.o = p.rays.o;
+    list.rays.d = p.rays.d;
+    list.t_min = p.t_min;
     list.candidates = candidates;
     list.found = found;
-    for (k = 0; k < frame->unbounded_count; ++k) list_solid(&list, g, k, within);
-    w = start_walk(frame, nodes, list_of(frame, lists, number), from_eye, within);
+    for (k = 0; k < frame->unbounded_count; ++k) list_solid(&list, g, k, p.within);
+    w = start_walk(frame, nodes, lists, p);
     while ((leaf = next_packet_leaf(&w, &hit_mask))) {
         const u32 begin = leaf >> BVH_LEAF_SHIFT, end = begin + (leaf & BVH_LEAF_MASK);
         for (k = begin; k < end; ++k) list_solid(&list, g, k, hit_mask);

@@ -14,10 +14,11 @@ __kernel void count_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __globa
     const Geometry g = GEOMETRY;
     Candidate c;
     ray3 r;
+    ray_range wanted;
     if (id >= candidates_of(frame, places)) return;
     c = candidates[id];
-    if (!(c.count & IN_SOME_FACE) || !ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
-    c.count = collect_beside(g, g.solids[c.solid], c.solid, r, t_min_along(frame, r), 0, c.count & ~IN_SOME_FACE);
+    if (!(c.count & IN_SOME_FACE) || !ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
+    c.count = collect_beside(g, g.solids[c.solid], c.solid, r, wanted.t_min, 0, c.count & ~IN_SOME_FACE);
     candidates[id].count = c.count | IN_SOME_FACE;
 }
 
@@ -30,12 +31,13 @@ __kernel void store_in_faces(__global const Frame* frame, GEOMETRY_ARGS, __globa
     const Geometry g = GEOMETRY;
     Candidate c;
     ray3 r;
+    ray_range wanted;
     size_t base;
     u32 i;
     if (!segments_fit(frame, offsets) || id >= candidates_of(frame, places)) return;
     c = candidates[id];
-    if (!(c.count & IN_SOME_FACE) || !ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
+    if (!(c.count & IN_SOME_FACE) || !ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
     base = 2 * ((size_t)offsets[c.ray].segments + c.before);
-    collect(g, g.solids[c.solid], c.solid, r, t_min_along(frame, r), ends + base);
+    collect(g, g.solids[c.solid], c.solid, r, wanted.t_min, ends + base);
     for (i = 0; i < 2 * (c.count & ~IN_SOME_FACE); ++i) bits[base + i] = c.ray;
 }

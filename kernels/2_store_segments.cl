@@ -19,9 +19,10 @@ static void store(__global const Frame* frame, Geometry g, __global const RayRec
 #if (CSGRT_SOLIDS) & ~ONE_SEGMENT
     if (c.count > 1 || (MANY_SEGMENTS >> g.solids[c.solid].type & 1u)) {
         ray3 r;
+        ray_range wanted;
         u32 near = 0;  // it is not
-        if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r)) return;
-        collect_as_it_is(g, g.solids[c.solid], c.solid, r, t_min_along(frame, r), ends + base, &near);
+        if (!ray_of(frame, rays, number_of(frame, listed, c.ray), &r, &wanted)) return;
+        collect_as_it_is(g, g.solids[c.solid], c.solid, r, wanted.t_min, ends + base, &near);
     } else
 #endif
     {

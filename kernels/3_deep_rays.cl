@@ -211,6 +211,7 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
     RayCount offset;
     status_tree tree;
     ray3 r;
+    ray_range wanted;
     real tolerance;
     __global End* ends;
     __global PartitionNode* list;
@@ -220,7 +221,7 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
     swept = deep[first_ray + id];
     offset = offsets[swept.ray];
     end_count = 2 * (offsets[swept.ray + 1].segments - offset.segments);
-    if (swept.changed == end_count || !ray_of(frame, rays, number_of(frame, listed, swept.ray), &r)) return;
+    if (swept.changed == end_count || !ray_of(frame, rays, number_of(frame, listed, swept.ray), &r, &wanted)) return;
     tolerance = tolerance_along(frame, r);
     ends = all_ends + 2 * (size_t)offset.segments;
     list = all_nodes + 2 * (size_t)offset.segments;

@@ -45,6 +45,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     RayTally tally;
     RayCount offset;
     ray3 r;
+    ray_range wanted;
     real tolerance, t_e;
     u32 segment_count, words, at = 0, open, open_bits, last, e, after_e;
     __global End* ends;
@@ -55,7 +56,7 @@ __kernel void weave(__global const Frame* frame, __global const RayRecord* rays,
     offset = offsets[id];
     segment_count = offsets[id + 1].segments - offset.segments;
     if (segment_count > DEEP_SEGMENTS) return;
-    if (segment_count == 0 || !ray_of(frame, rays, number_of(frame, listed, id), &r)) {
+    if (segment_count == 0 || !ray_of(frame, rays, number_of(frame, listed, id), &r, &wanted)) {
         tallies[id] = tally;
         return;
     }

@@ -20,7 +20,8 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.bits = all_bits + offset.words + (id - 2 * offset.segments) * words_of(c.segments);
     list_covered(c, &covered);
-    if (covered.count == 1) owner = c.solids[covered.solids[0]].alone;
+    // Not along an edge of it: beside it there is nothing then, and so no overlap.
+    if (covered.count == 1 && covered.missed != MISSED) owner = c.solids[covered.solids[0]].alone;
     if (owner == ALONE_UNKNOWN) {
         const claim found = find_claim_beside(c, c.bits, &covered, ranks, all_solids());
         owner = found.least | (found.other != NONE ? OVERLAP : 0u);

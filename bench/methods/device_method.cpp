@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "compile/frame.hpp"
+#include "compile/lists/ray_list.hpp"
 #include "device/choice.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
 #include "pipeline/passes/partitions.hpp"
@@ -145,11 +146,13 @@ private:
         frame.ray_count = count;
         frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
         batch_.frame = Buffer(device_, "frame", kernels_->frame(frame));
-        batch_.rays = Buffer(device_, "list of rays", kernels_->rays(rays));
+        std::vector<kernel::RayRecord> records(rays.size());
+        RayList(rays, {}).fill(0, records);
+        batch_.rays = Buffer(device_, "list of rays", kernels_->rays(records));
         TimedKernels timed;
         if (!pass_.trace_counted({scene_tables_, batch_, Work::rays, count}, timed)) return false;
         add_times(timed, counts_);
-        const TracedPartitions traced = pass_.read(count);
+        const TracedBatch traced = pass_.read(count);
         for (std::uint32_t ray = 0; ray < count; ++ray) {
             const std::uint32_t segments = traced.offsets[ray + 1].segments - traced.offsets[ray].segments;
             const std::size_t first = 2 * std::size_t{traced.offsets[ray].segments};

@@ -1,7 +1,14 @@
 // Rays, and what they meet: which region holds which part of a ray.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <csgrt/vector.hpp>
@@ -37,6 +44,88 @@ struct Overlap {
 struct RayPartitions {
     std::vector<Partition> partitions = {};
     std::vector<Overlap> overlaps = {};
+};
+
+/// What of a ray is asked for: t_near <= t <= t_far, in lengths of the ray's direction. From -infinity to infinity it
+/// is the whole line.
+struct RayRange {
+    double t_near = 0, t_far = std::numeric_limits<double>::infinity();
+};
+
+/// The ranges of a list of rays.
+struct RayRanges {
+    RayRange all = {};
+    std::span<const RayRange> each = {};  ///< one a ray, in place of `all`; empty: `all` counts
+};
+
+/// What a list of rays is asked for besides rays, regions and distances.
+struct Fields {
+    bool solids = false, normals = false, overlaps = false;
+};
+
+/// Numbers in a row, in memory of malloc that grows without a copy where the system can move pages, and is kept until
+/// this goes. What resize() adds has any value.
+template <class T>
+class Array {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    Array() = default;
+    Array(Array&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)),
+          size_(std::exchange(other.size_, 0)),
+          room_(std::exchange(other.room_, 0)) {}
+    Array& operator=(Array&& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(room_, other.room_);
+        return *this;
+    }
+    ~Array() { std::free(data_); }
+
+    T* data() noexcept { return data_; }
+    const T* data() const noexcept { return data_; }
+    std::size_t size() const noexcept { return size_; }
+    bool empty() const noexcept { return size_ == 0; }
+    T* begin() noexcept { return data_; }
+    T* end() noexcept { return data_ + size_; }
+    const T* begin() const noexcept { return data_; }
+    const T* end() const noexcept { return data_ + size_; }
+    T& operator[](std::size_t i) noexcept { return data_[i]; }
+    const T& operator[](std::size_t i) const noexcept { return data_[i]; }
+
+    /// Throws std::bad_alloc; then nothing has changed.
+    void resize(std::size_t size) {
+        if (size > room_) {
+            const std::size_t room = size > room_ + room_ / 2 ? size : room_ + room_ / 2;
+            void* const data = std::realloc(static_cast<void*>(data_), room * sizeof(T));
+            if (!data) throw std::bad_alloc();
+            data_ = static_cast<T*>(data);
+            room_ = room;
+        }
+        size_ = size;
+    }
+
+private:
+    T* data_ = nullptr;
+    std::size_t size_ = 0, room_ = 0;
+};
+
+/// Everything along a list of rays, as arrays. The rows of ray i are [ray_splits[i], ray_splits[i + 1]), in order of
+/// distance; neighbouring partitions of one region are one row. A row is cut at the ray's range: there it has the bound
+/// as its distance, -1 as its solid and zeros as its normal. A row of which nothing is left is not there. If the range
+/// is one point, the row is there that begins or goes on at it, and not the one that ends.
+struct Partitions {
+    Array<std::int64_t> ray_splits = {};                  ///< (rays + 1)
+    Array<std::int32_t> region_ids = {};                  ///< (rows), indices into Renderer::regions()
+    Array<double> t_in = {}, t_out = {};                  ///< (rows), distances in lengths of the ray's direction
+    Array<std::int32_t> in_solids = {}, out_solids = {};  ///< (rows), if asked for: indices into Renderer::solids()
+    Array<Vec3> in_normals = {}, out_normals = {};  ///< (rows), if asked for: unit vectors, outward from the region
+    // If asked for: parts of rays that several regions of one rank claim (see Overlap), in the same way.
+    Array<std::int64_t> overlap_splits = {};              ///< (rays + 1)
+    Array<double> overlap_t_in = {}, overlap_t_out = {};  ///< (overlaps)
+    Array<std::int64_t> overlap_region_splits = {};       ///< (overlaps + 1)
+    Array<std::int32_t> overlap_region_ids = {};          ///< all claimants of an overlap, ascending
 };
 
 }  // namespace csgrt

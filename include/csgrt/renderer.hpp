@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,10 @@ public:
     /// Everything along each ray, one element a ray. Throws Error: usage (a ray that Limits excludes; the message has
     /// its index), out_of_memory, device_fault, interrupted.
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
+
+    /// The same as arrays, whose memory is used again: only those that are asked for are computed. `ranges`: what of
+    /// the rays is wanted. Throws as shoot().
+    void partitions(std::span<const Ray> rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {});
 
     /// The rays of a picture, one a pixel, row by row from the top left. Throws Error (usage).
     std::vector<Ray> rays_of(const View& view) const;

@@ -37,6 +37,7 @@ struct Statistics {
         /// Finding devices and compiling all kernels so far. A call that waits for that does not count it as `frame`.
         double build = 0;
         double count_segments = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;  ///< kernels
+        double rows = 0;                                                                              ///< kernels
         double cull_tiles = 0, first_hits = 0;                                                        ///< kernels
         double kernels = 0;  ///< in which kernels ran on a device, whether one or several at once
         double frame = 0;    ///< the whole call, on the host's clock

@@ -258,6 +258,7 @@ typedef struct {
     u32 rows;              // of the batch's picture if it is row-major; 0: it has a float a ray, in the rays' order
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
+    u32 cuts;  // lists: partitions are cut at the rays' ranges; 0: each that ends at t_near or later is whole
 } Frame;
 
 // A float for each channel of a picture.
@@ -269,8 +270,10 @@ typedef struct {
 // Rays are numbered in tiles of 8 x 8 pixels, so that the work-items of a group look at neighbours.
 #define TILE 8u
 
+// A ray of a list, and what of it is wanted. Distances count lengths of its direction.
 typedef struct {
     wide ox, oy, oz, dx, dy, dz;
+    wide t_near, t_far;
 } RayRecord;
 
 // 0 cull tiles -> first hits, and kernel 1 on processors: nodes of the hierarchy that hold all that a tile's rays may
@@ -364,6 +367,17 @@ typedef struct {
     u32 partitions;  // woven
     u32 overlaps;    // of them, those that more than one region of the owner's rank wanted
 } RayTally;
+
+// 6 rows: what bounds a row of the answer to a list. Ends are those of the batch; NONE: the ray's range cuts it there.
+typedef struct {
+    u32 ray, in_end, out_end;
+} RowEnds;
+
+// 6 rows -> the host: a partition that several regions of the owner's rank claim, and its node among the ray's.
+typedef struct {
+    wide in, out;
+    u32 ray, node;
+} OverlapPiece;
 
 // What is seen at one pixel; what of it the host gets is in Frame.channels.
 typedef struct {

@@ -74,6 +74,17 @@ FN single_lane_mask box_is_hit(slab_ray s, BvhNode node) {
     return in <= out;
 }
 
+// Where what is wanted ends that begins at t_max or before, in the hierarchy's parameter; and the boxes that are
+// entered before it.
+FN single end_of_range(slab_ray s, real radius, real t_max) {
+    return to_single(real_min(t_max * s.length - s.shift, REAL(4) * radius) + radius * SLAB_SLACK);
+}
+FN single_lane_mask box_is_hit_before(slab_ray s, BvhNode node, single end) {
+    single out;
+    const single in = box_passage(s, node, &out);
+    return in <= out && in <= end;
+}
+
 // BOX_MISSED: the ray does not enter it.
 FN single box_entry(slab_ray s, BvhNode node) {
     single out;

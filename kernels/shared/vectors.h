@@ -102,6 +102,8 @@ FN wide3 wide_scale(wide3 a, wide s) { return scale(a, s); }
 FN wide3 wide_add_scaled(wide3 a, wide s, wide3 b) { return add_scaled(a, s, b); }
 FN wide wide_dot(wide3 a, wide3 b) { return dot3(a, b); }
 FN wide wide_sqrt(wide x) { return real_sqrt(x); }
+FN wide wide_abs(wide x) { return real_abs(x); }
+FN wide wide_max(wide a, wide b) { return real_max(a, b); }
 FN vec3 widen(vec3 v) { return v; }
 FN vec3 narrow(wide3 v) { return v; }
 FN pair difference(wide a, wide b) { return two_sum(a, -b); }

@@ -78,24 +78,68 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
+// What of a ray is wanted: segments that end before t_min or begin behind t_max are not.
+typedef struct {
+    real t_min, t_max;
+} ray_range;
+
+FN wide largest_of(wide3 d) { return wide_max(wide_abs(d.x), wide_max(wide_abs(d.y), wide_abs(d.z))); }
+
+FN world_ray listed_ray(RayRecord record) {
+    world_ray w;
+    w.o = make_wide3(record.ox, record.oy, record.oz);
+    w.d = make_wide3(record.dx, record.dy, record.dz);
+    return w;
+}
+
+// The length of a listed ray's direction, in units of which its distances are; 1 where geometry_ray keeps the length.
+FN wide unit_of(world_ray w) {
+#ifdef CSGRT_EYE_RELATIVE
+    const wide largest = largest_of(w.d);
+    const wide3 d = wide_scale(w.d, (wide)1 / largest);
+    return largest * wide_sqrt(wide_dot(d, d));
+#else
+    (void)w;
+    return 1;
+#endif
+}
+
+// A listed ray's range, wider by the tolerance at least, so that ends near its bounds become one event with those that
+// they are one with on the whole line. What is not cut at the range may begin anywhere before it.
+FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
+    ray_range wanted;
+#ifdef CSGRT_EYE_RELATIVE
+    const wide unit = unit_of(listed_ray(record)), slack = f->tolerance;
+    wanted.t_min = REAL(record.t_near * unit - r.start - slack);
+    wanted.t_max = REAL(record.t_far * unit - r.start + slack);
+#else
+    const wide slack = f->tolerance / largest_of(listed_ray(record).d);
+    (void)r;
+    wanted.t_min = record.t_near - slack;
+    wanted.t_max = record.t_far + slack;
+#endif
+    if (!f->cuts) wanted.t_min = -REAL_INFINITY;
+    return wanted;
+}
+
 // The number of the batch's ray `id`. `listed`: numbers of tiles or of pixels, see WORK_x.
 FN u32 number_of(GLOBAL const Frame* f, GLOBAL const u32* listed, u32 id) {
     if (f->work == WORK_RAYS) return id;
     return f->work == WORK_PIXELS ? listed[id] : listed[id / (TILE * TILE)] * (TILE * TILE) + id % (TILE * TILE);
 }
 
-// The ray of a number: one that the host gave, or through a pixel. 0: there is no such ray.
-FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r) {
+// The ray of a number: of a list, or through a pixel. 0: there is no such ray.
+FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, ray3* r, ray_range* wanted) {
     if (f->work == WORK_RAYS) {
-        RayRecord record = rays[number];
-        world_ray w;
-        w.o = make_wide3(record.ox, record.oy, record.oz);
-        w.d = make_wide3(record.dx, record.dy, record.dz);
-        *r = geometry_ray(f, w);
+        const RayRecord record = rays[number];
+        *r = geometry_ray(f, listed_ray(record));
+        *wanted = range_of(f, record, *r);
         return 1;
     } else {
         pixel_position at = pixel_of(number, f->screen);
         *r = geometry_ray(f, camera_ray(f, at));
+        wanted->t_min = t_min_along(f, *r);
+        wanted->t_max = REAL_INFINITY;
         return at.inside;
     }
 }

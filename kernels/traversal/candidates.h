@@ -8,11 +8,22 @@
 #include "bvh_cursor.h"
 #include "camera.h"
 
+// As next_leaf, of the leaves that are entered before `end`.
+FN u32 next_leaf_before(slab_ray s, single end, GLOBAL const BvhNode* nodes, bvh_cursor* c) {
+    u32 leaf = 0;
+    while (!leaf && bvh_goes_on(*c)) {
+        const BvhNode node = nodes[c->node];
+        leaf = bvh_step(c, node, box_is_hit_before(s, node, end));
+    }
+    return leaf;
+}
+
 // Returns how many candidates the ray has; stores them from `candidates` on unless that is 0. `next`: the nodes that
 // the ray's tile meets, as they stand in the hierarchy; 0: there is no such list.
-FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, u32 ray,
-            GLOBAL Candidate* candidates) {
-    const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min_along(f, r));
+FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, ray_range wanted,
+            u32 ray, GLOBAL Candidate* candidates) {
+    const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), wanted.t_min);
+    const single range_end = end_of_range(s, REAL(f->radius), wanted.t_max);
     bvh_cursor cursor = bvh_over(s.hits_sphere && !next ? f->node_count : 0);
     u32 count = 0, solid = 0, end = f->unbounded_count;
     for (;;) {
@@ -26,10 +37,10 @@ FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const Til
                 c.before = 0;
                 candidates[count] = c;
             }
-        leaf = next_leaf(s, nodes, &cursor);
+        leaf = next_leaf_before(s, range_end, nodes, &cursor);
         while (!leaf && next && s.hits_sphere && next->node != NONE) {
             cursor = bvh_below(nodes, (next++)->node);
-            leaf = next_leaf(s, nodes, &cursor);
+            leaf = next_leaf_before(s, range_end, nodes, &cursor);
         }
         if (!leaf) return count;
         solid = leaf >> BVH_LEAF_SHIFT;

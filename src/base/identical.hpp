@@ -31,4 +31,32 @@ inline bool identical(const RayPartitions& a, const RayPartitions& b) {
            std::equal(a.overlaps.begin(), a.overlaps.end(), b.overlaps.begin(), b.overlaps.end(), same_overlap);
 }
 
+/// The rows of ray i of `a` and of ray k of `b`, to the last bit, in all arrays that `a` has.
+inline bool same_rows(const Partitions& a, std::size_t i, const Partitions& b, std::size_t k) {
+    const auto same = [](const auto& splits_a, std::size_t ia, const auto& splits_b, std::size_t ib,
+                         const auto& values_a, const auto& values_b) {
+        if (values_a.empty() && values_b.empty()) return true;
+        const auto count = static_cast<std::size_t>(splits_a[ia + 1] - splits_a[ia]);
+        if (static_cast<std::size_t>(splits_b[ib + 1] - splits_b[ib]) != count) return false;
+        return count == 0 || std::memcmp(values_a.data() + splits_a[ia], values_b.data() + splits_b[ib],
+                                         count * sizeof *values_a.data()) == 0;
+    };
+    const auto rows = [&](const auto& values_a, const auto& values_b) {
+        return same(a.ray_splits, i, b.ray_splits, k, values_a, values_b);
+    };
+    if (a.ray_splits[i + 1] - a.ray_splits[i] != b.ray_splits[k + 1] - b.ray_splits[k]) return false;
+    bool are_same = rows(a.region_ids, b.region_ids) && rows(a.t_in, b.t_in) && rows(a.t_out, b.t_out) &&
+                    rows(a.in_solids, b.in_solids) && rows(a.out_solids, b.out_solids) &&
+                    rows(a.in_normals, b.in_normals) && rows(a.out_normals, b.out_normals);
+    if (!are_same || a.overlap_splits.empty()) return are_same;
+    const auto overlap = a.overlap_splits[i], other = b.overlap_splits[k], count = a.overlap_splits[i + 1] - overlap;
+    are_same = same(a.overlap_splits, i, b.overlap_splits, k, a.overlap_t_in, b.overlap_t_in) &&
+               same(a.overlap_splits, i, b.overlap_splits, k, a.overlap_t_out, b.overlap_t_out) &&
+               b.overlap_splits[k + 1] - other == count;
+    for (std::int64_t n = 0; are_same && n < count; ++n)
+        are_same = same(a.overlap_region_splits, static_cast<std::size_t>(overlap + n), b.overlap_region_splits,
+                        static_cast<std::size_t>(other + n), a.overlap_region_ids, b.overlap_region_ids);
+    return are_same;
+}
+
 }  // namespace csgrt

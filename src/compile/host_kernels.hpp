@@ -22,17 +22,21 @@ public:
     virtual Tables tables() const = 0;
     virtual std::vector<std::byte> frame(const kernel::Frame& frame) const = 0;
     virtual std::vector<std::byte> lights(const std::vector<kernel::LightRecord>& lights) const = 0;
-    /// Throws Error (usage) for a ray whose numbers do not fit the precision.
-    virtual void check(const std::vector<Ray>& rays) const = 0;
-    virtual std::vector<std::byte> rays(std::span<const Ray> rays) const = 0;
+    /// Throws Error (usage) for a ray whose numbers do not fit the precision. `first`: the first one's index.
+    virtual void check(std::span<const kernel::RayRecord> rays, std::uint64_t first) const = 0;
+    /// Writes ray_bytes() for each from `to` on. Any thread.
+    virtual void write_rays(std::span<const kernel::RayRecord> rays, std::byte* to) const = 0;
+    std::vector<std::byte> rays(std::span<const kernel::RayRecord> rays) const {
+        std::vector<std::byte> bytes(rays.size() * ray_bytes());
+        write_rays(rays, bytes.data());
+        return bytes;
+    }
     virtual std::size_t ray_bytes() const = 0;
     virtual std::size_t end_bytes() const = 0;
+    virtual std::size_t piece_bytes() const = 0;
+    virtual std::size_t wide_bytes() const = 0;
     virtual std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const = 0;
-
-    /// Where along the ray as it was given an end lies whose t is the kernels'.
-    virtual double distance(const kernel::Frame& frame, const Ray& ray, double t) const = 0;
-    /// The outward unit normal of its solid at an end.
-    virtual Vec3 normal(const kernel::Frame& frame, const Ray& ray, const kernel::End& end) const = 0;
+    virtual std::vector<kernel::OverlapPiece> pieces(const std::vector<std::byte>& bytes) const = 0;
 };
 
 }  // namespace csgrt

@@ -50,6 +50,7 @@ public:
     /// kernels leave out the work-items that have not begun. Null, as at first: none is to end.
     void end_by(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
     bool may_end() const noexcept { return stop_ != nullptr; }
+    const std::atomic<bool>* stop() const noexcept { return stop_; }
     /// Throws Error (interrupted) if `stop` is true, and (device_fault) if the device is lost.
     void check_end() const;
 

@@ -8,5 +8,6 @@ namespace csgrt::kernel {
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
 #include "../kernels/shading/pixel.h"
+#include "../kernels/boolean/rows.h"
 
 }  // namespace csgrt::kernel

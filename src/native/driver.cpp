@@ -290,16 +290,10 @@ cl_int get_build_info(cl_program program, cl_device_id, cl_program_build_info wh
 
 // ---- Kernels ----
 
-const CompiledKernel* find(std::span<const CompiledKernel> kernels, std::string_view name) {
-    const auto found =
-        std::find_if(kernels.begin(), kernels.end(), [&](const CompiledKernel& k) { return k.name == name; });
-    return found == kernels.end() ? nullptr : &*found;
-}
-
 cl_kernel create_kernel(cl_program program, const char* name, cl_int* code) {
     const Program* const built = as<BuiltProgram>(program).program;
-    const CompiledKernel* compiled = built ? find(built->kernels, name) : nullptr;
-    if (!compiled && built) compiled = find(scan_kernels(), name);
+    const CompiledKernel* compiled = built ? built->kernel(name) : nullptr;
+    if (!compiled && built) compiled = Program{"scan", scan_kernels()}.kernel(name);
     set(code, compiled ? CL_SUCCESS : built ? CL_INVALID_KERNEL_NAME : CL_INVALID_PROGRAM_EXECUTABLE);
     if (!compiled) return nullptr;
     return handle_of<cl_kernel>(new BuiltKernel{compiled, std::vector<std::uint64_t>(compiled->argument_count)});
@@ -330,6 +324,17 @@ cl_int set_argument(cl_kernel kernel, cl_uint index, std::size_t bytes, const vo
     if (memory) argument = reinterpret_cast<std::uintptr_t>(as<Memory>(memory).data);
     return CL_SUCCESS;
 }
+
+}  // namespace
+
+void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64_t* arguments,
+              const std::atomic<bool>* stop) {
+    item.size = items;
+    item.stop = stop ? stop : &never;
+    kernel.run(0, items, arguments);
+}
+
+namespace {
 
 // A thread takes parts until none is left: small ones, for rays differ in what they cost, but no smaller than it takes
 // to ask.
@@ -418,6 +423,10 @@ const OpenCl& functions() {
                                .GetEventInfo = get_event_info,
                                .GetEventProfilingInfo = get_event_times};
     return all;
+}
+
+const Level* level_of(const OpenCl* table, cl_device_id device) {
+    return table == &functions() ? &level_of(device) : nullptr;
 }
 
 }  // namespace csgrt::native

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/opencl/opencl_table.hpp"
+#include "native/kernels.hpp"
 
 namespace csgrt::native {
 
@@ -19,5 +20,8 @@ inline constexpr const char* platform_name = "csgrt";
 inline constexpr cl_context_properties stop_property = 0x63736773;
 
 const OpenCl& functions();
+
+/// The kernels of a device, if these are its functions, as they are; else null.
+const Level* level_of(const OpenCl* table, cl_device_id device);
 
 }  // namespace csgrt::native

@@ -2,6 +2,7 @@
 // (cmake/native_kernels.cmake writes the tables; clang compiles the files of kernels/ as they are).
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,7 +24,14 @@ struct CompiledKernel {
 struct Program {
     const char* name;  ///< as cmake/native_kernels.cmake lists them
     std::span<const CompiledKernel> kernels;
+
+    const CompiledKernel* kernel(std::string_view name) const;
 };
+
+/// Runs work-items [0, items) of a kernel on this thread. When `stop`, which may be null, becomes true, those that have
+/// not begun are left out.
+void run_here(const CompiledKernel& kernel, std::size_t items, const std::uint64_t* arguments,
+              const std::atomic<bool>* stop);
 
 struct Level {
     const char* name;  ///< as compilers call it: x86-64-v4

@@ -57,6 +57,11 @@ bool can_run(std::string_view level) {
 #endif
 }
 
+const CompiledKernel* Program::kernel(std::string_view wanted) const {
+    const auto found = std::find_if(kernels.begin(), kernels.end(), [&](const auto& k) { return k.name == wanted; });
+    return found == kernels.end() ? nullptr : &*found;
+}
+
 const Program* Level::program(std::string_view wanted) const {
     const auto found =
         std::find_if(programs.begin(), programs.end(), [&](const Program& p) { return p.name == wanted; });

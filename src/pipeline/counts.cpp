@@ -21,6 +21,7 @@ PipelineCounts& PipelineCounts::operator+=(const PipelineCounts& other) {
     weave += other.weave;
     evaluate += other.evaluate;
     shade += other.shade;
+    rows += other.rows;
     cull_tiles += other.cull_tiles;
     first_hits += other.first_hits;
     kernels += other.kernels;

@@ -16,7 +16,7 @@ struct PipelineCounts {
     std::uint64_t segment_bytes = 0, partition_bytes = 0;
     std::uint32_t batches = 0, retried = 0;  ///< retried: batches for which the buffers at hand did not do
     std::vector<RayBatch> done;              ///< the batches
-    double count_segments = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0;
+    double count_segments = 0, scan = 0, store_segments = 0, weave = 0, evaluate = 0, shade = 0, rows = 0;
     double cull_tiles = 0, first_hits = 0;
     std::vector<TimeSpan> spans;  ///< of all kernels of one device; a sum has none
     double kernels = 0;           ///< time in which kernels ran, whether one or several at once

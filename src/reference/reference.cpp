@@ -5,11 +5,25 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
+#include "compile/lists/overlaps.hpp"
 #include "compile/flatten/attributes.hpp"
 #include "kernel_host/geometry.hpp"
 #include "reference/precision/double_fma.hpp"
 
 namespace csgrt {
+
+namespace {
+
+/// A partition that at least one region claims.
+struct ClaimedPartition {
+    kernel::End in, out;                   ///< the ends that bound it; their t is the partition's
+    bool in_leaves = false;                ///< `in` is where its solid ends (a subtraction exposes it)
+    bool out_enters = false;               ///< `out` is where its solid begins
+    std::uint32_t region = 0;              ///< the lowest claimant
+    std::vector<std::uint32_t> claimants;  ///< all of the region's rank, ascending; only kept if there are several
+};
+
+}  // namespace
 
 // One ray's answer, and the memory that the next ray uses again.
 struct Reference::Claims {
@@ -20,6 +34,9 @@ struct Reference::Claims {
         claimants;                      ///< of a partition: its solids, their regions, those that claim it
     std::vector<std::uint32_t> beside;  ///< ... on one side of a face that the ray runs in
     std::vector<std::uint8_t> values;   ///< of a tree's operands, while it is evaluated
+    std::vector<kernel::End> row_ends;  ///< of a list's ray
+    std::vector<kernel::PartitionNode> nodes;
+    std::vector<kernel::OverlapPiece> pieces;
     std::size_t woven = 0, overlaps = 0;
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };
@@ -108,14 +125,15 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
 }
 
-void Reference::evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const {
+void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const {
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
     claims.first_seen = SIZE_MAX;
     const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, claims.ends, claims.weaver);
     if (claims.ends.empty()) return;
     claims.woven = woven.size();
-    const double t_min = kernels_.t_min(frame, ray);
+    const double t_min =
+        frame.work == WORK_RAYS ? 0 : kernels_.t_min(frame, {{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}});
 
     auto &claimants = claims.claimants, &beside = claims.beside;
     for (const WovenPartition& partition : woven) {
@@ -184,7 +202,10 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
             const std::size_t number = some ? (*some)[i] : i;
             const Ray ray = kernels_.camera_ray(frame, static_cast<std::uint32_t>(number % frame.width),
                                                 static_cast<std::uint32_t>(number / frame.width));
-            evaluate(frame, ray, claims);
+            evaluate(
+                frame,
+                {ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, 0, 0},
+                claims);
             kernel::Pixel pixel;
             if (claims.first_seen == SIZE_MAX) {
                 pixel = kernel::background_pixel(&frame);
@@ -211,27 +232,54 @@ std::vector<kernel::Pixel> Reference::render(const PreparedFrame& prepared, Watc
     return pixels;
 }
 
-std::vector<RayPartitions> Reference::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
-                                            ReferenceCounts& counts) const {
-    std::vector<RayPartitions> results(rays.size());
-    parallel(rays.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+// A node for each claim, as kernel 4 leaves them: an end's place is odd where a solid ends.
+void Reference::append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray,
+                            Fields fields, Claims& claims, RowMemory& rows) const {
+    const std::size_t count = claims.partitions.size();
+    claims.row_ends.assign(4 * count, kernel::End{});
+    claims.nodes.assign(2 * ((count + 1) / 2), kernel::PartitionNode{NONE, NONE, NONE, NONE});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const ClaimedPartition& claim = claims.partitions[i];
+        const std::uint32_t in = 4 * i + (claim.in_leaves ? 1 : 0), out = 4 * i + (claim.out_enters ? 2 : 3);
+        claims.row_ends[in] = claim.in;
+        claims.row_ends[out] = claim.out;
+        claims.nodes[i] = {in, out, i + 1 < count ? i + 1 : NONE,
+                           claim.region | (claim.claimants.empty() ? 0 : OVERLAP)};
+    }
+    kernels_.append_rows(frame, record, claims.row_ends, claims.nodes, fields, rows, claims.pieces);
+    if (!fields.overlaps) return;
+    for (const kernel::OverlapPiece& piece : claims.pieces)
+        append_overlap(ray, piece.in, piece.out, claims.partitions[piece.node].claimants, rows);
+}
+
+void Reference::trace(const kernel::Frame& frame, const RayList& list, RowSink& sink, Watch* watch,
+                      ReferenceCounts& counts) const {
+    const auto trace_some = [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;
+        RowMemory rows;
+        rows.places.resize(1);
         for (std::size_t i = begin; i < end; ++i) {
             if (watch) watch->check();
-            evaluate(prepared.frame, rays[i], claims);
-            results[i] = to_partitions(kernels_, prepared.frame, rays[i], claims.partitions);
+            const kernel::RayRecord record = list.record(i);
+            kernels_.check({&record, 1}, i);
+            evaluate(frame, record, claims);
+            append_rows(frame, record, static_cast<std::uint32_t>(i - begin), sink.fields(), claims, rows);
+            rows.places.push_back({static_cast<std::uint32_t>(rows.regions.size()), 0});
             sum.ends += claims.ends.size();
             sum.segments += claims.ends.size() / 2;
             sum.partitions += claims.woven;
-            sum.overlaps += claims.overlaps;
+            sum.overlaps += claims.pieces.size();
         }
+        sink.put(rows.view(begin, end - begin, sink.fields()));
         const std::lock_guard lock(mutex);
         counts.ends += sum.ends;
         counts.segments += sum.segments;
         counts.partitions += sum.partitions;
         counts.overlaps += sum.overlaps;
+    };
+    parallel(list.size(), watch, [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
+        sink.guard([&] { trace_some(begin, end, claims, mutex); });
     });
-    return results;
 }
 
 }  // namespace csgrt

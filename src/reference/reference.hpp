@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "base/watch.hpp"
-#include "compile/regions/claims.hpp"
+#include "compile/lists/ray_list.hpp"
+#include "compile/lists/sink.hpp"
 #include "compile/frame.hpp"
 #include "reference/reference_kernels.hpp"
 
@@ -25,8 +26,9 @@ public:
     /// may be null, says so.
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
                                       const std::vector<std::uint32_t>* some = nullptr) const;
-    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
-                                     ReferenceCounts& counts) const;
+    /// Every ray of a list.
+    void trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch* watch,
+               ReferenceCounts& counts) const;
 
 private:
     struct Claims;
@@ -36,7 +38,10 @@ private:
     /// `missed`.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
                         std::vector<std::uint32_t>& claimants) const;
-    void evaluate(const kernel::Frame& frame, const Ray& ray, Claims& claims) const;
+    void evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const;
+    /// Adds a listed ray's rows, and rows of overlaps.
+    void append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray, Fields fields,
+                     Claims& claims, RowMemory& rows) const;
     bool inside(std::uint32_t region, const std::vector<std::uint32_t>& solids,
                 std::vector<std::uint8_t>& values) const;
     template <class Work>

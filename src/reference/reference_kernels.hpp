@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compile/host_kernels.hpp"
+#include "compile/lists/rows.hpp"
 #include "reference/near_solids.hpp"
 #include "reference/weave.hpp"
 
@@ -19,8 +20,14 @@ public:
     /// The ends of all segments along a ray, two a segment, by ascending solid. In double every solid is tried that is
     /// near, in single precision every one, in 113 bits, which are slow, those whose boxes are met. Segments that end
     /// before the frame's t_min are left out. Then what they weave, which is `weaver`'s.
-    virtual std::span<const WovenPartition> trace(const kernel::Frame& frame, const Ray& ray, const NearSolids& near,
-                                                  std::vector<kernel::End>& ends, Weaver& weaver) const = 0;
+    virtual std::span<const WovenPartition> trace(const kernel::Frame& frame, const kernel::RayRecord& ray,
+                                                  const NearSolids& near, std::vector<kernel::End>& ends,
+                                                  Weaver& weaver) const = 0;
+    /// Adds a listed ray's rows (kernels/boolean/rows.h), and its partitions that overlap. `nodes` and `ends`: the
+    /// ray's, as kernel 4 leaves them.
+    virtual void append_rows(const kernel::Frame& frame, const kernel::RayRecord& ray,
+                             const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
+                             Fields fields, RowMemory& rows, std::vector<kernel::OverlapPiece>& pieces) const = 0;
     /// The frame's t_min as it is compared with ends.
     virtual double t_min(const kernel::Frame& frame, const Ray& ray) const = 0;
     /// A pixel that shows a region's surface at an end; `leaves`: from within.

@@ -12,6 +12,8 @@
 
 #include "base/watch.hpp"
 #include "compile/frame.hpp"
+#include "compile/lists/ray_list.hpp"
+#include "compile/lists/sink.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/readback/picture.hpp"
 #include "render/channel_table.hpp"
@@ -32,11 +34,13 @@ class Backend {
 public:
     virtual ~Backend() = default;
 
-    /// Before each call of render() or shoot() of that kind: waits until somebody has the kernels for it.
+    /// Before each call of render() or trace() of that kind: waits until somebody has the kernels for it.
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
-    virtual std::vector<RayPartitions> shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                             Watch& watch) = 0;
+    /// Puts the rows of every ray into the sink.
+    virtual void trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) = 0;
+    /// Before the call ends: are the rows those of the reference? See SpotCheck.
+    virtual void check(const kernel::Frame&, const RayList&, const Partitions&, Fields, Watch&) {}
 
     /// Who answers the next call: a device's name, or several.
     virtual std::string name() const = 0;

@@ -49,12 +49,13 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
     }
 }
 
-std::vector<RayPartitions> DeviceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                                Watch& watch) {
-    std::vector<RayPartitions> answers;
-    counted([&] { answers = drawer_->shoot(frame, rays, &watch, counts_); });
-    spot_check_.look_at(frame, rays, answers, counts_.done, drawer_->name(), watch);
-    return answers;
+void DeviceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) {
+    counted([&] { drawer_->trace_list(frame, rays, sink, &watch, counts_); });
+}
+
+void DeviceBackend::check(const kernel::Frame& frame, const RayList& rays, const Partitions& answer, Fields fields,
+                          Watch& watch) {
+    spot_check_.look_at(frame, rays, answer, fields, counts_.done, drawer_->name(), watch);
 }
 
 std::string DeviceBackend::method(bool every_partition) const {
@@ -80,6 +81,7 @@ void DeviceBackend::report(Statistics& statistics) const {
     statistics.ms.weave = c.weave;
     statistics.ms.evaluate = c.evaluate;
     statistics.ms.shade = c.shade;
+    statistics.ms.rows = c.rows;
     statistics.ms.cull_tiles = c.cull_tiles;
     statistics.ms.first_hits = c.first_hits;
     statistics.ms.kernels = c.kernels;

@@ -18,10 +18,9 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
     });
 }
 
-std::vector<RayPartitions> ReferenceBackend::shoot(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                                                   Watch& watch) {
+void ReferenceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) {
     counts_ = {};
-    return reference_.shoot(frame, rays, &watch, counts_);
+    reference_.trace(frame, rays, sink, &watch, counts_);
 }
 
 void ReferenceBackend::report(Statistics& statistics) const {

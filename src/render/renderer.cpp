@@ -13,6 +13,7 @@
 #include "base/thread.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
+#include "compile/lists/along_rays.hpp"
 #include "compile/linear.hpp"
 #include "device/choice.hpp"
 #include "kernel_host/geometry.hpp"
@@ -23,26 +24,6 @@
 
 namespace csgrt {
 namespace {
-
-/// The power of two that a direction is divided by before it is shot, so that its squares, and floats of it, are
-/// numbers. 0 for all of usual length.
-int exponent_of(const Vec3& direction) {
-    constexpr int usual = 32;
-    int exponent = 0;
-    std::frexp(largest(direction), &exponent);
-    return exponent > usual || exponent < -usual ? exponent : 0;
-}
-Vec3 times_power(const Vec3& v, int exponent) {
-    return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
-}
-void scale_distances(RayPartitions& answer, int exponent) {
-    const auto scale = [exponent](auto& stretch) {
-        stretch.in = std::ldexp(stretch.in, exponent);
-        stretch.out = std::ldexp(stretch.out, exponent);
-    };
-    std::for_each(answer.partitions.begin(), answer.partitions.end(), scale);
-    std::for_each(answer.overlaps.begin(), answer.overlaps.end(), scale);
-}
 
 /// The tolerance that the settings ask for, in millimetres.
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
@@ -76,7 +57,8 @@ struct Renderer::Impl {
     void prepare(bool every_partition);
     void end_call(Clock::time_point start);
     void render(const View& view, Framebuffer& framebuffer, Watch& watch);
-    std::vector<RayPartitions> shoot(const std::vector<Ray>& rays, Watch& watch);
+    void trace(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges, bool cuts,
+               Watch& watch);
 };
 
 Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
@@ -250,39 +232,42 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
     end_call(start);
 }
 
+void Renderer::partitions(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges) {
+    const FloatingPoint own;
+    Impl& impl = this->impl();
+    const AllowedThreads allowed(impl.settings.threads);
+    Watch::over(own.of_host(impl.settings.progress),
+                [&](Watch& watch) { impl.trace(rays, answer, fields, ranges, true, watch); });
+}
+
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     const FloatingPoint own;
     Impl& impl = this->impl();
     const AllowedThreads allowed(impl.settings.threads);
+    Partitions answer;
     std::vector<RayPartitions> answers;
-    Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) { answers = impl.shoot(rays, watch); });
+    Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) {
+        impl.trace(rays, answer, {.solids = true, .normals = true, .overlaps = true}, {}, false, watch);
+        answers = along_rays(answer);
+    });
     return answers;
 }
 
-std::vector<RayPartitions> Renderer::Impl::shoot(const std::vector<Ray>& rays, Watch& watch) {
+void Renderer::Impl::trace(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges,
+                           bool cuts, Watch& watch) {
     const auto start = Clock::now();
     if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         throw Error(Status::usage, "too many rays in one call: shoot them in parts of less than 2^31");
-    bool in_direction = false, any_scaled = false;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (const std::string fault = ray_fault(rays[i].origin, rays[i].direction, in_direction); !fault.empty())
-            throw Error(Status::usage, "ray " + std::to_string(i) + ": " + fault);
-        any_scaled = any_scaled || exponent_of(rays[i].direction) != 0;
-    }
-    const PreparedFrame prepared = prepare_rays(scene, static_cast<std::uint32_t>(rays.size()), tolerance);
-    kernels->check(rays);
+    const RayList list(rays, ranges);
+    kernel::Frame frame = prepare_rays(scene, static_cast<std::uint32_t>(rays.size()), tolerance).frame;
+    frame.cuts = cuts;
     start_call(rays.size(), true, 0, 0);
-    std::vector<Ray> scaled;
-    if (any_scaled) {
-        scaled = rays;
-        for (Ray& ray : scaled) ray.direction = times_power(ray.direction, -exponent_of(ray.direction));
-    }
     prepare(true);
-    std::vector<RayPartitions> answers = backend->shoot(prepared, any_scaled ? scaled : rays, watch);
-    for (std::size_t i = 0; any_scaled && i < rays.size(); ++i)
-        if (const int exponent = exponent_of(rays[i].direction); exponent != 0) scale_distances(answers[i], -exponent);
+    RowSink sink(answer, fields, rays.size());
+    backend->trace(frame, list, sink, watch);
+    backend->check(frame, list, answer, fields, watch);
+    list.restore_lengths(answer);
     end_call(start);
-    return answers;
 }
 
 std::vector<Ray> Renderer::rays_of(const View& view) const {

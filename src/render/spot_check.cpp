@@ -61,17 +61,17 @@ void SpotCheck::look_at(const PreparedFrame& frame, const FrameMemory& memory, c
         }
 }
 
-void SpotCheck::look_at(const PreparedFrame& frame, const std::vector<Ray>& rays,
-                        const std::vector<RayPartitions>& answers, const std::vector<RayBatch>& batches,
-                        const std::string& device, Watch& watch) {
+void SpotCheck::look_at(const kernel::Frame& frame, const RayList& rays, const Partitions& answer, Fields fields,
+                        const std::vector<RayBatch>& batches, const std::string& device, Watch& watch) {
     const std::vector<std::uint32_t> numbers = rays_of(batches);
     if (numbers.empty()) return;
-    std::vector<Ray> some;
-    for (const std::uint32_t number : numbers) some.push_back(rays[number]);
+    const RayList some = rays.some(numbers);
     ReferenceCounts counts;
-    const std::vector<RayPartitions> right = reference().shoot(frame, some, &watch, counts);
+    Partitions right;
+    RowSink sink(right, fields, numbers.size());
+    reference().trace(frame, some, sink, &watch, counts);
     for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (!identical(answers[numbers[i]], right[i]))
+        if (!same_rows(answer, numbers[i], right, i))
             fail(device, "the partitions of ray " + std::to_string(numbers[i]) + " are not the reference's");
 }
 

@@ -20,7 +20,7 @@ public:
     /// (interrupted) if `watch` says so. `batches`: those of a call that `device` has answered.
     void look_at(const PreparedFrame& frame, const FrameMemory& memory, const std::vector<RayBatch>& batches,
                  const std::string& device, Watch& watch);
-    void look_at(const PreparedFrame& frame, const std::vector<Ray>& rays, const std::vector<RayPartitions>& answers,
+    void look_at(const kernel::Frame& frame, const RayList& rays, const Partitions& answer, Fields fields,
                  const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
 
 private:

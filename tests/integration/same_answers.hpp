@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -49,6 +50,92 @@ inline void require_same(const std::vector<RayPartitions>& a, const std::vector<
         for (std::size_t k = 0; k < a[i].overlaps.size(); ++k) {
             const Overlap &p = a[i].overlaps[k], &q = b[i].overlaps[k];
             REQUIRE((same(p.in, q.in) && same(p.out, q.out) && p.regions == q.regions));
+        }
+    }
+}
+
+template <class T>
+bool same(const Array<T>& a, const Array<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+inline void require_same(const Partitions& a, const Partitions& b) {
+    REQUIRE(same(a.ray_splits, b.ray_splits));
+    REQUIRE(same(a.region_ids, b.region_ids));
+    REQUIRE(same(a.t_in, b.t_in));
+    REQUIRE(same(a.t_out, b.t_out));
+    REQUIRE(same(a.in_solids, b.in_solids));
+    REQUIRE(same(a.out_solids, b.out_solids));
+    REQUIRE(same(a.in_normals, b.in_normals));
+    REQUIRE(same(a.out_normals, b.out_normals));
+    REQUIRE(same(a.overlap_splits, b.overlap_splits));
+    REQUIRE(same(a.overlap_t_in, b.overlap_t_in));
+    REQUIRE(same(a.overlap_t_out, b.overlap_t_out));
+    REQUIRE(same(a.overlap_region_splits, b.overlap_region_splits));
+    REQUIRE(same(a.overlap_region_ids, b.overlap_region_ids));
+}
+
+/// What of a whole line's rows is within a range: one ray's regions, distances and solids.
+struct CutRow {
+    std::int32_t region, in_solid, out_solid;
+    double in, out;
+    Vec3 in_normal, out_normal;
+};
+inline std::vector<CutRow> cut_rows(const Partitions& whole, std::size_t ray, RayRange range) {
+    std::vector<CutRow> rows;
+    for (auto i = std::size_t(whole.ray_splits[ray]); i < std::size_t(whole.ray_splits[ray + 1]); ++i) {
+        CutRow row{whole.region_ids[i], whole.in_solids[i],  whole.out_solids[i], whole.t_in[i],
+                   whole.t_out[i],      whole.in_normals[i], whole.out_normals[i]};
+        if (range.t_near == range.t_far ? !(row.in <= range.t_near && range.t_near < row.out)
+                                        : !(row.in < range.t_far && range.t_near < row.out))
+            continue;
+        if (row.in < range.t_near) row.in = range.t_near, row.in_solid = -1, row.in_normal = {};
+        if (row.out > range.t_far) row.out = range.t_far, row.out_solid = -1, row.out_normal = {};
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+/// A range for each ray: of both signs, some without a bound, some of one point.
+inline std::vector<RayRange> random_ranges(std::size_t count) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> near(-2, 12);
+    std::vector<RayRange> ranges(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double a = near(random), b = near(random);
+        ranges[i] = {std::min(a, b), std::max(a, b)};
+        if (i % 5 == 1) ranges[i].t_near = -infinity;
+        if (i % 5 == 2) ranges[i].t_far = infinity;
+        if (i % 5 == 3) ranges[i].t_far = ranges[i].t_near;
+    }
+    return ranges;
+}
+
+/// Of two renderers, whose answers have the same bits: for the whole line, and for ranges, which cut it.
+inline void require_same_lists(Renderer& expected, Renderer& found, const std::vector<Ray>& rays) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr Fields all{.solids = true, .normals = true, .overlaps = true};
+    Partitions whole, other;
+    expected.partitions(rays, whole, all, {.all = {-infinity, infinity}});
+    found.partitions(rays, other, all, {.all = {-infinity, infinity}});
+    require_same(other, whole);
+    const std::vector<RayRange> ranges = random_ranges(rays.size());
+    Partitions cut;
+    expected.partitions(rays, cut, all, {.each = ranges});
+    found.partitions(rays, other, all, {.each = ranges});
+    require_same(other, cut);
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+        INFO("ray " << ray << " from " << ranges[ray].t_near << " to " << ranges[ray].t_far);
+        const std::vector<CutRow> rows = cut_rows(whole, ray, ranges[ray]);
+        const auto first = std::size_t(cut.ray_splits[ray]);
+        REQUIRE(std::size_t(cut.ray_splits[ray + 1]) - first == rows.size());
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const std::size_t i = first + k;
+            const CutRow& row = rows[k];
+            REQUIRE((cut.region_ids[i] == row.region && same(cut.t_in[i], row.in) && same(cut.t_out[i], row.out)));
+            REQUIRE((cut.in_solids[i] == row.in_solid && cut.out_solids[i] == row.out_solid));
+            REQUIRE((same(cut.in_normals[i], row.in_normal) && same(cut.out_normals[i], row.out_normal)));
         }
     }
 }
@@ -136,6 +223,8 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
     const auto expected = reference.shoot(list);
     require_same(device.shoot(list), expected);
     require_same(batched.shoot(list), expected);
+    require_same_lists(reference, device, list);
+    require_same_lists(reference, batched, list);
 }
 
 }  // namespace csgrt::test

@@ -28,7 +28,7 @@ struct Along {
         frame.segment_capacity = frame.word_capacity = COUNT_MAX;
     }
     kernel::Frame frame{};
-    kernel::RayRecord ray{0, 0, 0, 0, 0, 1};
+    kernel::RayRecord ray{0, 0, 0, 0, 0, 1, 0, 1};
     std::vector<kernel::RayCount> offsets;
 };
 

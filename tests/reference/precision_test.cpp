@@ -1,5 +1,6 @@
 // What each precision is worth: regions before the oracle from afar, and 113 bits against what is known exactly.
 #include "catch.hpp"
+#include "integration/lists.hpp"
 
 #include <cmath>
 #include <limits>
@@ -123,7 +124,7 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
                 if (answer.tie) continue;
                 std::vector<kernel::End> ends;
                 Weaver weaver;
-                kernels->trace(frame, ray, near, ends, weaver);
+                kernels->trace(frame, test::records_of({ray}).front(), near, ends, weaver);
                 REQUIRE(ends.size() == 2 * answer.intervals.size());
                 for (std::size_t i = 0; i < ends.size(); ++i, ++ends_seen) {
                     const auto& interval = answer.intervals[i / 2];
@@ -164,7 +165,7 @@ TEST_CASE("a precision where it is not is refused", "[pipeline]") {
     CHECK(refusal(settings).find("contraction is on a device only") != std::string::npos);
 
     const CompiledScene compiled = compile_alone(Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, identity);
-    const std::vector<Ray> faint = {{{-9, 0, 0}, {1e-40, 0, 0}}};
-    CHECK_THROWS_AS(make_kernels(compiled, Precision::single_world, Quartic::bracketed)->check(faint), Error);
-    CHECK_NOTHROW(make_kernels(compiled, Precision::single, Quartic::bracketed)->check(faint));
+    const std::vector<kernel::RayRecord> faint = {{-9, 0, 0, 1e-40, 0, 0, 0, 1}};
+    CHECK_THROWS_AS(make_kernels(compiled, Precision::single_world, Quartic::bracketed)->check(faint, 0), Error);
+    CHECK_NOTHROW(make_kernels(compiled, Precision::single, Quartic::bracketed)->check(faint, 0));
 }

@@ -22,7 +22,7 @@ void check(cl_int code, std::string_view call);
 /// The functions that drive a device, and how long it may take.
 struct Driver : OpenCl {
     Driver(const OpenCl& functions, std::string name, double seconds)
-        : OpenCl(functions), device(std::move(name)), patience(seconds) {}
+        : OpenCl(functions), table(&functions), device(std::move(name)), patience(seconds) {}
 
     /// Throws Error (device_fault) if the device is lost.
     void check_lost() const;
@@ -30,6 +30,7 @@ struct Driver : OpenCl {
     /// check_lost().
     [[noreturn]] void give_up() const;
 
+    const OpenCl* table;                       ///< what this is a copy of
     std::string device;                        ///< its name
     double patience;                           ///< seconds that the host waits for an answer; 0: any time
     mutable std::atomic<bool> is_lost{false};  ///< it took longer

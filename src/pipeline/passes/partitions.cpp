@@ -17,7 +17,7 @@ std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
     if (packets) files.push_back("1_packet_candidates.cl");
     if (rays_in_faces) files.push_back("2_rays_in_faces.cl");
     files.insert(files.end(), {"1_count_segments.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl",
-                               "3_deep_rays.cl", "5_shade.cl"});
+                               "3_deep_rays.cl", "5_shade.cl", "6_rows.cl"});
     return files;
 }
 
@@ -55,6 +55,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       shade_(program_.kernel("shade")),
       memory_(device, kernels),
       deep_rays_(device, program_, scene),
+      rows_(device, program_, scene, kernels),
       no_buffer_(device, "nothing"),
       scan_sums_buffer_(device, "sums of counts"),
       read_(device, "sums of tallies"),
@@ -115,7 +116,6 @@ std::optional<PartitionSizes> PartitionPass::try_counted(const Input& input, Tim
         sum_segments(input, 0, timed);
         sizes.total = read_total(memory_.offsets(), input.rays, timed);
     }
-    counted_ = sizes.total;
     if (!memory_.reserve_segments(sizes.total)) return {};
     if (has_deep_rays_ && !deep_rays_.prepare(memory_.offsets().read<kernel::RayCount>(std::size_t{input.rays} + 1),
                                               memory_.to_reserve(sizes.total.segments)))
@@ -156,8 +156,8 @@ void PartitionPass::place_candidates(const Input& input, TimedKernels& timed) {
     timed.emplace_back(
         &PipelineCounts::count_segments,
         in_packets(input)
-            ? packet_candidates_->count.launch(input.rays / packet_rays, work_group, batch.frame, input.scene.nodes(),
-                                               tile_nodes, batch.tiles, places)
+            ? packet_candidates_->count.launch((input.rays + packet_rays - 1) / packet_rays, work_group, batch.frame,
+                                               input.scene.nodes(), tile_nodes, batch.rays, batch.tiles, places)
             : find_candidates_.launch(input.rays, work_group, batch.frame, input.scene.nodes(), tile_nodes, batch.rays,
                                       batch.numbers(input.work), places, no_buffer_));
     scan(places, input.rays, timed);
@@ -171,9 +171,10 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
     const std::size_t listing_rays = candidates ? input.rays : 0;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::count_segments, std::move(event)); };
     add(in_packets(input)
-            ? packet_candidates_->list.launch(listing_rays / packet_rays, work_group, batch.frame,
-                                              input.scene.geometry(), input.scene.nodes(), tile_nodes, batch.tiles,
-                                              memory_.candidate_places(), memory_.candidates(), memory_.found())
+            ? packet_candidates_->list.launch((listing_rays + packet_rays - 1) / packet_rays, work_group, batch.frame,
+                                              input.scene.geometry(), input.scene.nodes(), tile_nodes, batch.rays,
+                                              batch.tiles, memory_.candidate_places(), memory_.candidates(),
+                                              memory_.found())
             : find_candidates_.launch(listing_rays, work_group, batch.frame, input.scene.nodes(), tile_nodes,
                                       batch.rays, numbers, memory_.candidate_places(), memory_.candidates()));
     device_.flush();
@@ -222,11 +223,21 @@ void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates
                                              memory_.ends(), memory_.bits(), memory_.partitions()));
 }
 
-TracedPartitions PartitionPass::read(std::uint32_t rays) {
-    const std::size_t ends = 2 * std::size_t{counted_.segments};
-    return {.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1),
-            .ends = kernels_.ends(memory_.ends().read<std::byte>(ends * kernels_.end_bytes())),
-            .nodes = memory_.partitions().read<kernel::PartitionNode>(ends)};
+bool PartitionPass::write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed) {
+    const RowPass::Input of = rows_of(input, first);
+    const Buffer* const counts = rows_.count(of, timed);
+    if (!counts) return false;
+    scan(*counts, input.rays, timed);
+    return rows_.write(of, read_total(*counts, input.rays, timed), fields, input.scene, timed);
+}
+
+TracedBatch PartitionPass::read(std::uint32_t rays) {
+    TracedBatch traced;
+    traced.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1);
+    const std::size_t ends = 2 * std::size_t{traced.offsets.back().segments};
+    traced.ends = kernels_.ends(memory_.ends().read<std::byte>(ends * kernels_.end_bytes()));
+    traced.nodes = memory_.partitions().read<kernel::PartitionNode>(ends);
+    return traced;
 }
 
 void PartitionPass::shade(const Input& input, const Buffer& picture, TimedKernels& timed) {

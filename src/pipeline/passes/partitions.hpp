@@ -15,10 +15,10 @@
 
 #include "device/queued.hpp"
 #include "pipeline/counts.hpp"
-#include "pipeline/passes/claims.hpp"
 #include "pipeline/passes/cull.hpp"
 #include "pipeline/passes/deep_rays.hpp"
 #include "pipeline/passes/partition_memory.hpp"
+#include "pipeline/passes/rows.hpp"
 
 namespace csgrt {
 
@@ -64,14 +64,24 @@ public:
     /// Adds what rays needed to the counts, and remembers it for capacity_for().
     void add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts);
 
+    /// Kernel 6: the rows of the listed rays that the last trace_counted() has traced; `first`: the first one's number.
+    /// Waits for their number only. False: there is not enough memory.
+    bool write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed);
+    /// Starts to copy these rows to the host, once their kernels are done.
+    void start_copy(std::uint32_t rays) {
+        rows_.start_copy();
+        if (rows_.are_overlaps_wanted()) rows_.read_overlaps(read(rays));
+    }
+    RowPass& rows() { return rows_; }
     /// What the last trace_counted() left of its rays. Waits.
-    TracedPartitions read(std::uint32_t rays);
+    TracedBatch read(std::uint32_t rays);
 
     CullPass& cull() { return cull_; }
     DeepRayPass& deep_rays() { return deep_rays_; }
-    std::uint64_t held() const { return memory_.held() + deep_rays_.held(); }
+    std::uint64_t held() const { return memory_.held() + deep_rays_.held() + rows_.held(); }
     void release() {
         memory_.release();
+        rows_.release();
         deep_rays_.release();
     }
 
@@ -89,8 +99,12 @@ private:
     void sum_blocks(const Buffer& entries, std::uint32_t size, Buffer& sums, TimedKernels& timed);
     void scan(const Buffer& counts, std::uint32_t rays, TimedKernels& timed);
     kernel::RayCount read_total(const Buffer& counts, std::uint32_t rays, const TimedKernels& timed);
-    /// Only tiles hold rays that lie side by side.
-    bool in_packets(const Input& input) const { return input.work == Work::tiles && packet_candidates_; }
+    /// Pixels that are listed one by one lie anywhere.
+    bool in_packets(const Input& input) const { return input.work != Work::pixels && packet_candidates_; }
+    RowPass::Input rows_of(const Input& input, std::uint64_t first) {
+        return {input.batch.frame, input.batch.rays, memory_.offsets(), memory_.ends(), memory_.partitions(), first,
+                input.rays};
+    }
 
     Device& device_;
     const HostKernels& kernels_;
@@ -109,9 +123,9 @@ private:
         order_ends_, weave_, evaluate_, shade_;
     PartitionMemory memory_;
     DeepRayPass deep_rays_;
+    RowPass rows_;
     Buffer no_buffer_;  ///< a null pointer
     Buffer scan_sums_buffer_;
-    kernel::RayCount counted_{};        ///< by the last trace_counted
     bool has_deep_rays_ = false;        ///< perhaps, the same
     Average average_, average_before_;  ///< of the last rays whose sizes are known, and of those before
     std::size_t tally_count_ = 0;       ///< of sums

@@ -10,7 +10,7 @@ namespace {
 
 // The range's first batch, of at most `most` rays: whole rows of the screen's tiles, else a part of one row, else a
 // part of a tile.
-std::uint64_t end_of_batch(const RayRange& range, std::uint64_t most, std::uint64_t row) {
+std::uint64_t end_of_batch(const RayNumbers& range, std::uint64_t most, std::uint64_t row) {
     const std::uint64_t end = std::min(range.first + most, range.end);
     if (row == 0) return end;
     const auto end_of = [&](std::uint64_t unit) { return range.first / unit * unit + unit; };
@@ -22,9 +22,15 @@ std::uint64_t end_of_batch(const RayRange& range, std::uint64_t most, std::uint6
 
 }  // namespace
 
+void throw_too_long_ray(std::uint64_t budget) {
+    throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
+                                           std::to_string(budget >> 20) +
+                                           " MiB): raise --max-memory, or use --reference");
+}
+
 bool BatchSource::is_empty() {
     while (!has_ended_ && left_.empty()) {
-        const RayRange range = take_();
+        const RayNumbers range = take_();
         has_ended_ = range.first == range.end;
         if (has_ended_) break;
         left_.push_back(range);
@@ -35,7 +41,7 @@ bool BatchSource::is_empty() {
 
 RayBatch BatchSource::next(std::uint64_t most) {
     if (is_empty()) return {};
-    RayRange& range = left_.back();
+    RayNumbers& range = left_.back();
     const std::uint64_t first = std::exchange(range.first, end_of_batch(range, std::min(size_, most), row_));
     const RayBatch batch{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(range.first - first)};
     if (range.first == range.end) left_.pop_back();
@@ -43,10 +49,7 @@ RayBatch BatchSource::next(std::uint64_t most) {
 }
 
 void BatchSource::halve(const RayBatch& batch, std::uint64_t budget) {
-    if (batch.rays == 1)
-        throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
-                                               std::to_string(budget >> 20) +
-                                               " MiB): raise --max-memory, or use --reference");
+    if (batch.rays == 1) throw_too_long_ray(budget);
     size_ = batch.rays / 2;
     give_back(batch);
 }

@@ -13,7 +13,10 @@
 namespace csgrt {
 
 /// The next rays; empty: there are none left.
-using TakeRays = std::function<RayRange()>;
+using TakeRays = std::function<RayNumbers()>;
+
+/// Throws Error (out_of_memory).
+[[noreturn]] void throw_too_long_ray(std::uint64_t budget);
 
 class BatchSource {
 public:
@@ -35,7 +38,7 @@ private:
     TakeRays take_;
     std::function<std::uint64_t()> most_;
     std::uint64_t row_, size_ = 0;
-    std::vector<RayRange> left_;
+    std::vector<RayNumbers> left_;
     bool has_ended_ = false;
 };
 

@@ -77,7 +77,7 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
             parts.stop();
             thrown[own_number] = std::current_exception();
         }
-        own.kernels = covered_time(std::move(own.spans));
+        own.kernels += covered_time(std::move(own.spans));
         const std::lock_guard lock(mutex);
         counts += own;
     };
@@ -150,15 +150,13 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
     if_thrown.is_finished = true;
 }
 
-std::vector<RayPartitions> DeviceGroup::shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
-                                              PipelineCounts& counts) {
+void DeviceGroup::trace_list(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch* watch,
+                             PipelineCounts& counts) {
     start_call();
-    std::vector<RayPartitions> answers(rays.size());
     share(rays.size(), 1, true, watch, counts,
           [&](Pipeline& pipeline, const TakeRays& take, const Told& told, PipelineCounts& own) {
-              pipeline.shoot(prepared, rays, take, answers.data(), told, own);
+              sink.guard([&] { pipeline.trace_list(frame, rays, take, sink, told, own); });
           });
-    return answers;
 }
 
 std::string DeviceGroup::name() const {

@@ -29,8 +29,8 @@ public:
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
     /// As Pipeline's. Throws Error (interrupted), too, if `watch`, which may be null, says so.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
-    std::vector<RayPartitions> shoot(const PreparedFrame& prepared, const std::vector<Ray>& rays, Watch* watch,
-                                     PipelineCounts& counts);
+    void trace_list(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch* watch,
+                    PipelineCounts& counts);
 
     std::string name() const;            ///< "A", or "A + B"
     std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and what drivers hold of registered memory

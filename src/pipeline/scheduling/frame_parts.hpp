@@ -7,7 +7,7 @@
 namespace csgrt {
 
 /// Of a picture's rays, or of a list's.
-struct RayRange {
+struct RayNumbers {
     std::uint64_t first = 0, end = 0;
 };
 
@@ -19,7 +19,7 @@ public:
         : rays_(rays), unit_(unit), devices_(devices), least_(least), most_(most) {}
 
     /// The next one. Empty if there is none.
-    RayRange take() {
+    RayNumbers take() {
         const std::uint64_t first = next_, left = rays_ - first;
         const std::uint64_t size = std::clamp(left / devices_ / 2, least_, most_);
         next_ += std::min((size + unit_ - 1) / unit_ * unit_, left);

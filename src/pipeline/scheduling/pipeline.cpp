@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "native/driver.hpp"
+
 namespace csgrt {
 
 Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
@@ -10,6 +12,9 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       most_rays_(most_rays),
       synchronous_(
           passes_, [this] { return memory(); }, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
+    if (const native::Level* const level = native::level_of(device.cl().table, device.id());
+        level && settings.precision == Precision::double_)
+        native_.emplace(*level, scene, device);
     // A processor shares the host's memory, and has no time beside its kernels.
     if (readback == Readback::asynchronous || !is_processor()) asynchronous_.emplace(passes_, synchronous_);
 }
@@ -50,15 +55,20 @@ void Pipeline::abandon() noexcept {
     if (asynchronous_) asynchronous_->abandon();
 }
 
-void Pipeline::shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take,
-                     RayPartitions* answers, const Told& told, PipelineCounts& counts) {
+void Pipeline::trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowSink& sink,
+                          const Told& told, PipelineCounts& counts) {
+    if (native_) {
+        for (RayNumbers range = take(); range.first < range.end; range = take())
+            native_->trace(frame, rays, range, sink, told, counts);
+        return;
+    }
     passes_.cancel_tallies();  // of a call that threw
     const auto most = [&] {
-        const std::uint64_t fitting = rays_fitting(memory(), synchronous_.shot_ray_bytes());
-        return is_processor() ? std::min(fitting, most_rays_on_processor(true)) : fitting;
+        return std::min(rays_fitting(memory(), synchronous_.listed_ray_bytes()),
+                        is_processor() ? most_rays_on_processor(true) : most_rays_listed);
     };
     BatchSource source(take, most, 0);
-    synchronous_.shoot(prepared.frame, rays, source, answers, told, counts);
+    synchronous_.trace_list(frame, rays, source, sink, told, counts);
 }
 
 }  // namespace csgrt

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "pipeline/scheduling/native_lists.hpp"
 #include "pipeline/scheduling/asynchronous.hpp"
 
 namespace csgrt {
@@ -20,6 +21,9 @@ public:
         return every_partition ? 1u << 17 : 1u << 20;
     }
 
+    /// Of a list's batch on a GPU: the rows of one are copied while the next is traced.
+    static constexpr std::uint64_t most_rays_listed = 1u << 18;
+
     /// Uploads the scene. Kernels are compiled when they are first wanted. `kernels` are the host's in the same
     /// precision. `most_rays`: of a picture's batch. All three objects must outlive the pipeline.
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
@@ -35,9 +39,9 @@ public:
     void finish();
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
-    /// An answer for each ray that `take` gives.
-    void shoot(const PreparedFrame& prepared, std::span<const Ray> rays, const TakeRays& take, RayPartitions* answers,
-               const Told& told, PipelineCounts& counts);
+    /// Puts the rows of each ray that `take` gives. The native device's own kernels are called without OpenCL.
+    void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowSink& sink,
+                    const Told& told, PipelineCounts& counts);
 
     bool is_asynchronous() const { return asynchronous_.has_value(); }
     double build_ms() const { return passes_.build_ms(); }  ///< spent on compiling kernels so far
@@ -50,6 +54,7 @@ private:
     std::uint64_t most_rays_;
     SynchronousSchedule synchronous_;
     std::optional<AsynchronousSchedule> asynchronous_;
+    std::optional<NativeLists> native_;  ///< if the device is a native one
 };
 
 }  // namespace csgrt

@@ -1,11 +1,13 @@
 #include "pipeline/scheduling/synchronous.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "base/clock.hpp"
+#include "base/parallel.hpp"
 #include "device/discovery.hpp"
 
 namespace csgrt {
@@ -139,7 +141,7 @@ bool SynchronousSchedule::draw_partitions(const FrameJob& job, Work work, std::u
 void SynchronousSchedule::draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers) {
     const std::uint64_t pixel_bytes = job.shape().pixel_bytes;
     const std::uint64_t ray_bytes = pixel_bytes + sizeof(std::uint32_t) + PartitionMemory::ray_bytes;
-    const auto take = [left = RayRange{0, numbers.size()}]() mutable { return std::exchange(left, RayRange{}); };
+    const auto take = [left = RayNumbers{0, numbers.size()}]() mutable { return std::exchange(left, RayNumbers{}); };
     BatchSource source(
         take, [&] { return rays_fitting(memory_(), ray_bytes); }, 0);
     for_each_batch(source, [&](const RayBatch& batch) {
@@ -159,35 +161,61 @@ void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch&
     draw_pixels(job, numbers);
 }
 
-void SynchronousSchedule::shoot(const kernel::Frame& shot, std::span<const Ray> rays, BatchSource& source,
-                                RayPartitions* answers, const Told& told, PipelineCounts& counts) {
+void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch) {
+    const std::size_t bytes = passes_.kernels.ray_bytes();
+    wait_until_done(rays_upload_);  // of a call that threw
+    if (!staged_rays_ || staged_rays_->size() < batch.rays * bytes) {
+        staged_rays_.reset();
+        staged_rays_.emplace(passes_.device, "rays", batch.rays * bytes);
+    }
+    auto* const staged = static_cast<std::byte*>(staged_rays_->data());
+    for_chunks(batch.rays, 4096, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        std::array<kernel::RayRecord, 128> records;
+        for (; first < last; first += records.size()) {
+            const std::span some = std::span(records).first(std::min(records.size(), last - first));
+            rays.fill(batch.first + first, some);
+            passes_.kernels.check(some, batch.first + first);
+            passes_.kernels.write_rays(some, staged + first * bytes);
+        }
+    });
+    batch_.rays.reserve(batch.rays * bytes);
+    rays_upload_ = batch_.rays.queue_upload(staged, batch.rays * bytes);
+}
+
+// While a batch's rows are copied, the next one is traced.
+void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& rays, BatchSource& source, RowSink& sink,
+                                     const Told& told, PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();
+    RayBatch copied;
+    const auto take_copied = [&] {
+        if (!pass.rows().is_underway()) return;
+        sink.put(pass.rows().wait());
+        if (told) told(copied.rays);
+    };
+    pass.rows().cancel();  // of a call that threw
     picture_.release();
     for_each_batch(source, [&](const RayBatch& batch) {
-        const std::span<const Ray> some = rays.subspan(batch.first, batch.rays);
-        make_room(batch.rays * shot_ray_bytes(), batch_.rays.size());
-        batch_.rays.reserve(batch.rays * passes_.kernels.ray_bytes());
-        batch_.rays.upload(passes_.kernels.rays(some));
-        kernel::Frame frame = shot;
+        make_room(batch.rays * listed_ray_bytes(), batch_.rays.size());
+        upload_rays(rays, batch);
+        kernel::Frame frame = list;
         frame.ray_count = batch.rays;
         upload(frame);
         TimedKernels timed;
-        const auto sizes = trace({passes_.tables, batch_, Work::rays, batch.rays}, timed);
-        if (!sizes) return false;
+        const PartitionPass::Input input{passes_.tables, batch_, Work::rays, batch.rays};
+        const auto sizes = trace(input, timed);
+        take_copied();
+        if (!sizes || !pass.write_rows(input, batch.first, sink.fields(), timed)) return false;
         pass.add_sizes(*sizes, batch.rays, counts);
         finish_trace(batch.rays, true, timed, counts);
-        const TracedPartitions traced = pass.read(batch.rays);
-        for (std::uint32_t i = 0; i < batch.rays; ++i) {
-            passes_.device.check_end();
-            const std::vector<ClaimedPartition> claims = claimed_partitions(passes_.scene, traced, i);
-            answers[batch.first + i] = to_partitions(passes_.kernels, shot, some[i], claims);
-            for (const ClaimedPartition& claim : claims) counts.overlaps += !claim.claimants.empty();
-        }
+        wait_for(rays_upload_);
+        pass.start_copy(batch.rays);
+        counts.overlaps += pass.rows().overlaps();
+        copied = batch;
         ++counts.batches;
         counts.done.push_back(batch);
-        if (told) told(batch.rays);
         return true;
     });
+    take_copied();
 }
 
 }  // namespace csgrt

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "compile/lists/ray_list.hpp"
+#include "compile/lists/sink.hpp"
 #include "pipeline/scheduling/device_passes.hpp"
 
 namespace csgrt {
@@ -39,11 +41,13 @@ public:
     void draw_pixels(const FrameJob& job, std::span<const std::uint32_t> numbers);
     /// The pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
-    /// Answers the rays that `source` gives, by number.
-    void shoot(const kernel::Frame& frame, std::span<const Ray> rays, BatchSource& source, RayPartitions* answers,
-               const Told& told, PipelineCounts& counts);
+    /// Puts the rows of the rays that `source` gives, by number.
+    void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowSink& sink,
+                    const Told& told, PipelineCounts& counts);
 
-    std::uint64_t shot_ray_bytes() const { return passes_.kernels.ray_bytes() + PartitionMemory::ray_bytes; }
+    ~SynchronousSchedule() { wait_until_done(rays_upload_); }
+
+    std::uint64_t listed_ray_bytes() const { return passes_.kernels.ray_bytes() + PartitionMemory::ray_bytes; }
     std::uint64_t held() const { return batch_.held() + picture_.size(); }
 
 private:
@@ -55,6 +59,7 @@ private:
     std::optional<PartitionSizes> trace(const PartitionPass::Input& input, TimedKernels& timed);
     void finish_trace(std::uint32_t rays, bool are_tallied, TimedKernels& timed, PipelineCounts& counts);
     void make_room(std::uint64_t bytes, std::uint64_t reused);
+    void upload_rays(const RayList& rays, const RayBatch& batch);
     void upload(const kernel::Frame& frame) {
         frame_upload_.start<std::byte>(batch_.frame, passes_.kernels.frame(frame));
     }
@@ -68,6 +73,8 @@ private:
     BatchBuffers batch_;
     Buffer picture_;  ///< of each channel a float a ray
     QueuedUpload frame_upload_, list_upload_;
+    std::optional<PinnedMemory> staged_rays_;
+    Event rays_upload_;
     Pace pace_;
     std::uint64_t seen_ = 0;  ///< rays of the last batch that see something
 };

@@ -26,6 +26,7 @@ using namespace kernel;  // records, and functions so small that they become par
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
 #include "../kernels/shading/pixel.h"
+#include "../kernels/boolean/rows.h"
 
 }  // namespace csgrt::fused
 

@@ -84,6 +84,11 @@ Converted<To, From> convert_all(const std::vector<From>& from, const Convert& on
     }
 }
 
+k::RayRecord convert(const kernel::RayRecord& r) {
+    return {static_cast<wide>(r.ox), static_cast<wide>(r.oy), static_cast<wide>(r.oz),     static_cast<wide>(r.dx),
+            static_cast<wide>(r.dy), static_cast<wide>(r.dz), static_cast<wide>(r.t_near), static_cast<wide>(r.t_far)};
+}
+
 [[maybe_unused]] std::vector<kernel::End> ends_of(std::vector<kernel::End>&& ends) { return std::move(ends); }
 template <class End>
 std::vector<kernel::End> ends_of(std::vector<End>&& ends) {
@@ -151,53 +156,74 @@ public:
         const auto& records = lights_of(lights);
         return bytes_of(records.data(), records.size());
     }
-    std::vector<std::byte> rays(std::span<const Ray> rays) const override {
-        std::vector<k::RayRecord> records;
-        records.reserve(rays.size());
-        for (const Ray& ray : rays) {
-            const k::world_ray r = convert_ray(ray);
-            records.push_back({r.o.x, r.o.y, r.o.z, r.d.x, r.d.y, r.d.z});
+    void write_rays(std::span<const kernel::RayRecord> rays, std::byte* to) const override {
+        for (const kernel::RayRecord& ray : rays) {
+            const k::RayRecord record = convert(ray);
+            std::memcpy(to, &record, sizeof record);
+            to += sizeof record;
         }
-        return bytes_of(records.data(), records.size());
     }
-    void check(const std::vector<Ray>& rays) const override {
+    void check(std::span<const kernel::RayRecord> rays, std::uint64_t first) const override {
         if (sizeof(wide) > sizeof(float)) return;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const k::world_ray r = convert_ray(rays[i]);
+            const k::world_ray r = k::listed_ray(convert(rays[i]));
             const wide sum = r.o.x + r.o.y + r.o.z;
             const wide size2 = r.d.x * r.d.x + r.d.y * r.d.y + r.d.z * r.d.z;
             if (sum - sum == 0 && size2 > wide(1e-30) && size2 < wide(1e30)) continue;
-            throw Error(Status::usage, "ray " + std::to_string(i) +
+            throw Error(Status::usage, "ray " + std::to_string(first + i) +
                                            ": single precision in world coordinates needs a direction whose length is "
                                            "between 1e-15 and 1e15, and an origin below 1e38");
         }
     }
     std::size_t ray_bytes() const override { return sizeof(k::RayRecord); }
     std::size_t end_bytes() const override { return sizeof(k::End); }
+    std::size_t piece_bytes() const override { return sizeof(k::OverlapPiece); }
+    std::size_t wide_bytes() const override { return sizeof(wide); }
+    std::vector<kernel::OverlapPiece> pieces(const std::vector<std::byte>& bytes) const override {
+        std::vector<k::OverlapPiece> own(bytes.size() / sizeof(k::OverlapPiece));
+        if (!own.empty()) std::memcpy(own.data(), bytes.data(), own.size() * sizeof(k::OverlapPiece));
+        std::vector<kernel::OverlapPiece> pieces;
+        for (const k::OverlapPiece& p : own)
+            pieces.push_back({static_cast<double>(p.in), static_cast<double>(p.out), p.ray, p.node});
+        return pieces;
+    }
     std::vector<kernel::End> ends(const std::vector<std::byte>& bytes) const override {
         std::vector<k::End> ends(bytes.size() / sizeof(k::End));
         if (!ends.empty()) std::memcpy(ends.data(), bytes.data(), bytes.size());
         return ends_of(std::move(ends));
     }
 
-    double distance(const kernel::Frame& f, const Ray& ray, double t) const override {
-#ifdef CSGRT_EYE_RELATIVE
+    void append_rows(const kernel::Frame& f, const kernel::RayRecord& ray, const std::vector<kernel::End>& ends,
+                     const std::vector<kernel::PartitionNode>& nodes, Fields fields, RowMemory& rows,
+                     std::vector<kernel::OverlapPiece>& pieces) const override {
         const k::Frame& frame = convert_frame(f);
-        const double all = k::distance_along(k::geometry_ray(&frame, convert_ray(ray)), static_cast<real>(t));
-        if (frame.work != WORK_RAYS) return all;
-        const Vec3& d = ray.direction;
-        const double longest = std::fmax(std::fabs(d.x), std::fmax(std::fabs(d.y), std::fabs(d.z)));
-        return all / (longest * std::hypot(d.x / longest, d.y / longest, d.z / longest));
-#else
-        (void)f;
-        (void)ray;
-        return t;
-#endif
-    }
-    Vec3 normal(const kernel::Frame& f, const Ray& ray, const kernel::End& end) const override {
-        const k::Frame& frame = convert_frame(f);
-        const k::vec3 n = normal_at(k::geometry_ray(&frame, convert_ray(ray)), end);
-        return {static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)};
+        const k::RayRecord record = convert(ray);
+        std::vector<k::End> own_ends;
+        for (const kernel::End& e : ends) own_ends.push_back({static_cast<real>(e.t), e.solid, e.surface});
+        std::vector<k::PartitionNode> own_nodes;
+        for (const kernel::PartitionNode& n : nodes) own_nodes.push_back({n.in_end, n.out_end, n.next, n.owner});
+        k::ray_rows w = k::rows_of(&frame, record, own_ends.data(), own_nodes.data(),
+                                   static_cast<k::u32>(nodes.size() / 2)),
+                    overlaps = w;
+        const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
+        const auto describe = [&](k::u32 number, k::u32 is_out, auto& solids, auto& normals) {
+            if (fields.solids) solids.push_back(number == NONE ? -1 : static_cast<std::int32_t>(ends[number].solid));
+            if (!fields.normals) return;
+            const k::vec3 n =
+                number == NONE ? k::make_vec3(0, 0, 0) : k::row_normal(g_, r, own_ends[number], number, is_out);
+            normals.push_back({static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)});
+        };
+        k::ray_row row;
+        while (k::next_row(&w, &row)) {
+            rows.regions.push_back(static_cast<std::int32_t>(row.region));
+            rows.in.push_back(static_cast<double>(row.in));
+            rows.out.push_back(static_cast<double>(row.out));
+            describe(row.in_end, 0, rows.in_solids, rows.in_normals);
+            describe(row.out_end, 1, rows.out_solids, rows.out_normals);
+        }
+        pieces.clear();
+        for (k::u32 node = 0; k::next_overlap(&overlaps, &row, &node);)
+            pieces.push_back({static_cast<double>(row.in), static_cast<double>(row.out), 0, node});
     }
 
     Ray camera_ray(const kernel::Frame& f, std::uint32_t x, std::uint32_t y) const override {
@@ -212,12 +238,13 @@ public:
             return {point(r.o), point(r.d)};
         }
     }
-    std::span<const WovenPartition> trace(const kernel::Frame& f, const Ray& ray,
+    std::span<const WovenPartition> trace(const kernel::Frame& f, const kernel::RayRecord& ray,
                                           [[maybe_unused]] const NearSolids& near, std::vector<kernel::End>& ends,
                                           Weaver& weaver) const override {
         const k::Frame& frame = convert_frame(f);
-        const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
-        const real t_min = k::t_min_along(&frame, r);
+        const k::RayRecord record = convert(ray);
+        const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
+        const real t_min = frame.work == WORK_RAYS ? k::range_of(&frame, record, r).t_min : k::t_min_along(&frame, r);
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
             const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
@@ -227,7 +254,7 @@ public:
             k::collect(g_, solids_[solid], solid, r, t_min, own.data() + first);
         };
         if constexpr (sizeof(real) == sizeof(double)) {
-            near.for_each(ray, meet);
+            near.for_each({{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}}, meet);
         } else if constexpr (sizeof(real) < sizeof(double)) {
             for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) meet(solid);
         } else {

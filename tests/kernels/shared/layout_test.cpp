@@ -35,11 +35,15 @@ using namespace csgrt;
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
-    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) RECORD(ScreenBounds) \
+    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, cuts) \
+    RECORD(ScreenBounds) \
     FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \
     FIELD(RayRecord, ox) FIELD(RayRecord, oy) FIELD(RayRecord, oz) FIELD(RayRecord, dx) FIELD(RayRecord, dy) \
-    FIELD(RayRecord, dz) RECORD(TileNode) FIELD(TileNode, node) FIELD(TileNode, entry) \
+    FIELD(RayRecord, dz) FIELD(RayRecord, t_near) FIELD(RayRecord, t_far) RECORD(RowEnds) FIELD(RowEnds, ray) \
+    FIELD(RowEnds, in_end) FIELD(RowEnds, out_end) RECORD(OverlapPiece) FIELD(OverlapPiece, in) \
+    FIELD(OverlapPiece, out) FIELD(OverlapPiece, ray) FIELD(OverlapPiece, node) RECORD(TileNode) \
+    FIELD(TileNode, node) FIELD(TileNode, entry) \
     RECORD(BatchReport) FIELD(BatchReport, candidates) FIELD(BatchReport, total) FIELD(BatchReport, tiles) \
     FIELD(BatchReport, listed) \
     FIELD(BatchReport, entries) FIELD(BatchReport, overflows) RECORD(RayCount) FIELD(RayCount, segments) \

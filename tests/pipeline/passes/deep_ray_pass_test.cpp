@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "integration/deep_scenes.hpp"
+#include "integration/lists.hpp"
 #include "integration/same_answers.hpp"
 #include "kernel_host/geometry.hpp"
 #include "pipeline/passes/on_device.hpp"
@@ -14,27 +15,21 @@ namespace {
 
 struct Shot {
     explicit Shot(const Scene& scene) : on(scene), pass(on.device, on.compiled, *on.kernels, on.settings) {
-        on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(rays));
+        on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(test::records_of(rays)));
         prepared.frame.ray_count = count();
         on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(prepared.frame));
     }
     std::uint32_t count() const { return static_cast<std::uint32_t>(rays.size()); }
     std::optional<PartitionSizes> trace() {
         TimedKernels timed;
-        return pass.trace_counted({on.tables, on.batch, Work::rays, count()}, timed);
+        return pass.trace_counted(input(), timed);
     }
-    std::vector<RayPartitions> answers() {
-        const TracedPartitions traced = pass.read(count());
-        std::vector<RayPartitions> found;
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            found.push_back(
-                to_partitions(*on.kernels, prepared.frame, rays[i], claimed_partitions(on.compiled, traced, i)));
-        return found;
-    }
+    PartitionPass::Input input() { return {on.tables, on.batch, Work::rays, count()}; }
+    std::vector<RayPartitions> answers() { return test::answers_of(pass, input()); }
     std::vector<RayPartitions> expected() {
         const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
         ReferenceCounts counts;
-        return Reference(on.compiled, *to_run).shoot(prepared, rays, nullptr, counts);
+        return test::answers_of(Reference(on.compiled, *to_run), prepared.frame, rays, counts);
     }
 
     test::OnDevice on;

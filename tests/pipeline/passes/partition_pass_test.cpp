@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "catch.hpp"
+#include "integration/lists.hpp"
 #include "integration/same_answers.hpp"
 #include "kernel_host/geometry.hpp"
 #include "pipeline/passes/on_device.hpp"
@@ -49,17 +50,14 @@ TEST_CASE("the partition pass answers rays as they come") {
     PreparedFrame prepared = prepare_rays(on.compiled, 200);
     prepared.frame.ray_count = 200;
     on.batch.frame = Buffer(on.device, "frame", on.kernels->frame(prepared.frame));
-    on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(rays));
+    on.batch.rays = Buffer(on.device, "rays", on.kernels->rays(test::records_of(rays)));
     TimedKernels timed;
-    REQUIRE(pass.trace_counted({on.tables, on.batch, Work::rays, 200}, timed));
-    const TracedPartitions traced = pass.read(200);
-    std::vector<RayPartitions> answers;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        answers.push_back(
-            to_partitions(*on.kernels, prepared.frame, rays[i], claimed_partitions(on.compiled, traced, i)));
+    const PartitionPass::Input input{on.tables, on.batch, Work::rays, 200};
+    REQUIRE(pass.trace_counted(input, timed));
     const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
     ReferenceCounts counts;
-    test::require_same(answers, Reference(on.compiled, *to_run).shoot(prepared, rays, nullptr, counts));
+    test::require_same(test::answers_of(pass, input),
+                       test::answers_of(Reference(on.compiled, *to_run), prepared.frame, rays, counts));
     CHECK(counts.partitions > 100);
 }
 

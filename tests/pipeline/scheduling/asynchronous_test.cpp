@@ -15,6 +15,7 @@
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/scheduling/device_group.hpp"
 #include "integration/deep_scenes.hpp"
+#include "integration/lists.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "reference/reference.hpp"
@@ -30,7 +31,7 @@ TakeRays ranges_of(std::uint64_t rays, std::uint64_t each) {
     return [=, first = std::uint64_t{0}]() mutable {
         const std::uint64_t begin = first;
         first = std::min(begin + each, rays);
-        return RayRange{begin, first};
+        return RayNumbers{begin, first};
     };
 }
 
@@ -139,6 +140,14 @@ struct Lined {
         return alone.allocated();
     }
 
+    std::vector<RayPartitions> trace(const kernel::Frame& frame, const std::vector<Ray>& rays) {
+        PipelineCounts counts;
+        Partitions answer;
+        RowSink sink(answer, test::all_fields, rays.size());
+        pipeline.trace_list(frame, RayList(rays, {}), ranges_of(rays.size(), rays.size()), sink, nullptr, counts);
+        return along_rays(answer);
+    }
+
     /// Draws `width` x `height` pixels in ranges of `rays`. The same bits as the renderer's picture, unless `progress`
     /// interrupts it.
     PipelineCounts draw(int width, int height, bool every_partition, std::uint64_t rays,
@@ -236,15 +245,14 @@ TEST_CASE("asynchronous: deep rays beside others, in little memory and in much",
 }
 
 TEST_CASE("a picture in place after a list of rays, in little memory") {
+    const test::ByOpenCl lists;
     const Scene scene = bench::scene_of_parts(20);
     for (const std::uint64_t room : rooms(60'000, 3'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, Pipeline::most_rays_drawn, Readback::by_device);
         const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 20'000);
         const PreparedFrame prepared = prepare_rays(lined.compiled, 20'000, lined.renderer.statistics().tolerance);
-        std::vector<RayPartitions> answers(rays.size());
-        PipelineCounts counts;
-        lined.pipeline.shoot(prepared, rays, ranges_of(rays.size(), rays.size()), answers.data(), nullptr, counts);
+        lined.trace(prepared.frame, rays);
         lined.draw(300, 300, false, 1 << 20);
     }
 }
@@ -413,6 +421,7 @@ TEST_CASE("asynchronous: few tiles with more to see than all others, whose rays 
 }
 
 TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in much") {
+    const test::ByOpenCl lists;
     const Scene scene = bench::scene_of_parts(20);
     const bool every_partition = GENERATE(false, true);
     for (const std::uint64_t room : rooms(30'000, 6'000'000)) {
@@ -421,10 +430,7 @@ TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in 
         lined.draw(1000, 24, every_partition, 1 << 20);
         const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 300);
         const PreparedFrame prepared = prepare_rays(lined.compiled, 300, lined.renderer.statistics().tolerance);
-        std::vector<RayPartitions> answers(rays.size());
-        PipelineCounts counts;
-        lined.pipeline.shoot(prepared, rays, ranges_of(rays.size(), rays.size()), answers.data(), nullptr, counts);
-        test::require_same(answers, lined.renderer.shoot(rays));
+        test::require_same(lined.trace(prepared.frame, rays), lined.renderer.shoot(rays));
     }
 }
 

@@ -19,7 +19,7 @@ TEST_CASE("a batch is whole rows of tiles, or a part of one row, or of one tile;
         const TakeRays take = [&] {  // parts of whole tiles
             const std::uint64_t first = taken;
             taken = std::min(rays, first + (1 + below(300)) * tile_rays);
-            return RayRange{first, taken};
+            return RayNumbers{first, taken};
         };
         BatchSource source(
             take, [=] { return most; }, row);
@@ -42,7 +42,7 @@ TEST_CASE("a batch is whole rows of tiles, or a part of one row, or of one tile;
 }
 
 TEST_CASE("one ray that does not fit is refused, and a list's batches have any size") {
-    BatchSource source([left = RayRange{0, 1000}]() mutable { return std::exchange(left, RayRange{}); },
+    BatchSource source([left = RayNumbers{0, 1000}]() mutable { return std::exchange(left, RayNumbers{}); },
                        [] { return 7; }, 0);
     CHECK(source.next() == RayBatch{0, 7});
     CHECK(source.next(1) == RayBatch{7, 1});

@@ -10,9 +10,9 @@ using namespace csgrt;
 
 namespace {
 
-std::vector<RayRange> all_of(Parts& parts) {
-    std::vector<RayRange> taken;
-    for (RayRange part = parts.take(); part.first < part.end; part = parts.take()) {
+std::vector<RayNumbers> all_of(Parts& parts) {
+    std::vector<RayNumbers> taken;
+    for (RayNumbers part = parts.take(); part.first < part.end; part = parts.take()) {
         REQUIRE(taken.size() < 10'000);
         taken.push_back(part);
     }
@@ -30,7 +30,7 @@ TEST_CASE("parts are all rays, each once, in whole units, no part larger than as
         INFO("round " << round << ": " << rays << " rays, units of " << unit << ", " << least << " to " << most);
         Parts parts(rays, unit, devices, least, most);
         std::uint64_t end = 0;
-        for (const RayRange& part : all_of(parts)) {
+        for (const RayNumbers& part : all_of(parts)) {
             CHECK(part.first == end);
             CHECK(part.first % unit == 0);
             CHECK(part.end - part.first < most + unit);
@@ -42,7 +42,7 @@ TEST_CASE("parts are all rays, each once, in whole units, no part larger than as
 
 TEST_CASE("devices' parts are as large as asked for, then ever smaller, but no smaller than is worth a launch") {
     Parts parts(1 << 26, 1 << 13, 2, 1 << 16, 1 << 22);
-    const std::vector<RayRange> taken = all_of(parts);
+    const std::vector<RayNumbers> taken = all_of(parts);
     CHECK(taken.front().end == 1 << 22);
     CHECK(taken.size() > 20);
     CHECK(taken.size() < 60);
@@ -56,6 +56,6 @@ TEST_CASE("no part comes after a stop") {
     Parts parts(1 << 22, 1, 2, 1 << 10, 1 << 16);
     CHECK(parts.take().end > 0);
     parts.stop();
-    const RayRange none = parts.take();
+    const RayNumbers none = parts.take();
     CHECK(none.first == none.end);
 }

@@ -1,4 +1,4 @@
-#include "pipeline/passes/claims.hpp"
+#include "compile/lists/overlaps.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -61,27 +61,32 @@ std::vector<std::uint32_t> all_claimants(const CompiledScene& scene, const kerne
 
 }  // namespace
 
-std::vector<ClaimedPartition> claimed_partitions(const CompiledScene& scene, const TracedPartitions& traced,
-                                                 std::size_t ray) {
-    std::vector<ClaimedPartition> claims;
-    const kernel::RayCount& begin = traced.offsets[ray];
-    const std::uint32_t segments = traced.offsets[ray + 1].segments - begin.segments;
-    const kernel::End* const ends = traced.ends.data() + 2 * std::size_t{begin.segments};
-    const kernel::PartitionNode* const nodes = traced.nodes.data() + 2 * std::size_t{begin.segments};
-    for (std::uint32_t node = kernel::first_partition(nodes, segments); node != NONE; node = nodes[node].next) {
-        const kernel::PartitionNode& partition = nodes[node];
-        const std::uint32_t region = partition.owner & ~OVERLAP;
-        if (region == NONE) continue;
-        ClaimedPartition claim;
-        claim.in = ends[partition.in_end];
-        claim.out = ends[partition.out_end];
-        claim.in_leaves = partition.in_end % 2 == 1;
-        claim.out_enters = partition.out_end % 2 == 0;
-        claim.region = region;
-        if (partition.owner & OVERLAP) claim.claimants = all_claimants(scene, ends, segments, claim.in.t);
-        claims.push_back(std::move(claim));
+void append_overlaps(const CompiledScene& scene, std::span<const kernel::OverlapPiece> pieces, const TracedRays& traced,
+                     RowMemory& rows) {
+    for (const kernel::OverlapPiece& piece : pieces) {
+        const std::uint32_t first = traced.offsets[piece.ray].segments,
+                            segments = traced.offsets[piece.ray + 1].segments - first;
+        const kernel::End* const ends = traced.ends + 2 * std::size_t{first};
+        const kernel::PartitionNode& node = traced.nodes[2 * std::size_t{first} + piece.node];
+        const std::vector<std::uint32_t> all = all_claimants(scene, ends, segments, ends[node.in_end].t);
+        append_overlap(piece.ray, piece.in, piece.out, all, rows);
     }
-    return claims;
+}
+
+void append_overlap(std::uint32_t ray, double in, double out, std::span<const std::uint32_t> claimants,
+                    RowMemory& rows) {
+    std::vector<std::int32_t>& regions = rows.overlap_regions;
+    if (!rows.overlaps.empty()) {
+        OverlapRow& last = rows.overlaps.back();
+        if (last.ray == ray && last.out == in &&
+            std::equal(regions.begin() + static_cast<std::ptrdiff_t>(last.first_region), regions.end(),
+                       claimants.begin(), claimants.end(), std::cmp_equal<std::int32_t, std::uint32_t>)) {
+            last.out = out;
+            return;
+        }
+    }
+    rows.overlaps.push_back({in, out, ray, regions.size()});
+    regions.insert(regions.end(), claimants.begin(), claimants.end());
 }
 
 }  // namespace csgrt

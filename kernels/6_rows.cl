@@ -1,0 +1,101 @@
+// Kernel 6: the answers to a list of rays, as arrays. A row is a partition that a region claims; the rows of a ray
+// stand together, in order of distance.
+//
+//   count rows -> (scan) -> write rows -> describe rows
+//
+// Each array is optional: its argument is 0 if nobody asked for it.
+#include "shared/scene_args.h"
+#include "geometry/solid.h"
+#include "boolean/rows.h"
+
+static ray_rows rows_at(__global const Frame* frame, __global const RayRecord* rays, u32 ray,
+                        __global const RayCount* offsets, __global const End* ends,
+                        __global const PartitionNode* nodes) {
+    const u32 first = offsets[ray].segments;
+    return rows_of(frame, rays[ray], ends + 2 * (size_t)first, nodes + 2 * (size_t)first,
+                   offsets[ray + 1].segments - first);
+}
+
+// Of a ray's rows in counts.segments, and of partitions that overlap in counts.words.
+__kernel void count_rows(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
+                         __global const End* ends, __global const PartitionNode* nodes, __global RayCount* counts) {
+    const u32 id = (u32)get_global_id(0);
+    RayCount count;
+    ray_rows rows, overlaps;
+    ray_row row;
+    u32 node;
+    if (id >= frame->ray_count) return;
+    count.segments = count.words = 0;
+    rows = overlaps = rows_at(frame, rays, id, offsets, ends, nodes);
+    while (next_row(&rows, &row)) ++count.segments;
+    while (next_overlap(&overlaps, &row, &node)) ++count.words;
+    counts[id] = count;
+}
+
+__kernel void write_rows(__global const Frame* frame, __global const RayRecord* rays, __global const RayCount* offsets,
+                         __global const End* ends, __global const PartitionNode* nodes, __global const RayCount* places,
+                         __global int* regions, __global wide* in, __global wide* out, __global RowEnds* bounds,
+                         __global OverlapPiece* pieces) {
+    const u32 id = (u32)get_global_id(0);
+    ray_rows rows, overlaps;
+    ray_row row;
+    RayCount place;
+    u32 base;
+    if (id >= frame->ray_count) return;
+    place = places[id];
+    rows = overlaps = rows_at(frame, rays, id, offsets, ends, nodes);
+    base = 2 * offsets[id].segments;
+    for (; next_row(&rows, &row); ++place.segments) {
+        regions[place.segments] = (int)row.region;
+        in[place.segments] = row.in;
+        out[place.segments] = row.out;
+        if (bounds) {
+            RowEnds b;
+            b.ray = id;
+            b.in_end = row.in_end == NONE ? NONE : base + row.in_end;
+            b.out_end = row.out_end == NONE ? NONE : base + row.out_end;
+            bounds[place.segments] = b;
+        }
+    }
+    if (pieces) {
+        OverlapPiece piece;
+        for (; next_overlap(&overlaps, &row, &piece.node); ++place.words) {
+            piece.ray = id;
+            piece.in = row.in;
+            piece.out = row.out;
+            pieces[place.words] = piece;
+        }
+    }
+}
+
+// At one of a row's ends: the solid whose surface it is, and the normal; -1 and zeros where the range cuts the row.
+static void describe_end(__global const Frame* frame, Geometry g, __global const RayRecord* rays,
+                         __global const End* ends, u32 ray, u32 number, u32 is_out, size_t place, __global int* solids,
+                         __global wide* normals) {
+    vec3 n = make_vec3(0, 0, 0);
+    int solid = -1;
+    if (number != NONE) {
+        const End end = ends[number];
+        solid = (int)end.solid;
+        if (normals) n = row_normal(g, geometry_ray(frame, listed_ray(rays[ray])), end, number, is_out);
+    }
+    if (solids) solids[place] = solid;
+    if (normals) {
+        normals[3 * place] = n.x;
+        normals[3 * place + 1] = n.y;
+        normals[3 * place + 2] = n.z;
+    }
+}
+
+// One work-item a row. `bounds`: write_rows'.
+__kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global const RayRecord* rays,
+                            __global const End* ends, __global const RowEnds* bounds, u32 rows, __global int* in_solids,
+                            __global int* out_solids, __global wide* in_normals, __global wide* out_normals) {
+    const u32 id = (u32)get_global_id(0);
+    const Geometry g = GEOMETRY;
+    RowEnds b;
+    if (id >= rows) return;
+    b = bounds[id];
+    describe_end(frame, g, rays, ends, b.ray, b.in_end, 0, id, in_solids, in_normals);
+    describe_end(frame, g, rays, ends, b.ray, b.out_end, 1, id, out_solids, out_normals);
+}

@@ -1,0 +1,115 @@
+// What of a ray's partitions the answer to a list holds: those that a region claims, joined where one region goes on,
+// within the ray's range. Kernel 6 and the reference go over them with the same functions.
+#ifndef CSGRT_BOOLEAN_ROWS_H
+#define CSGRT_BOOLEAN_ROWS_H
+
+#include "../traversal/camera.h"
+
+// A listed ray's partitions, and the row that comes next.
+typedef struct {
+    GLOBAL const End* ends;
+    GLOBAL const PartitionNode* nodes;
+    u32 node;  // of the next partition; NONE: no more
+    u32 cuts;  // see Frame
+    wide near, far;
+#ifdef CSGRT_EYE_RELATIVE
+    wide start, unit;  // a distance is (start + t) / unit
+#endif
+} ray_rows;
+
+typedef struct {
+    wide in, out;
+    u32 in_end, out_end;  // of the ray; NONE: the range cuts it there
+    u32 region;
+} ray_row;
+
+// `ends`, `nodes`: the ray's own.
+FN ray_rows rows_of(GLOBAL const Frame* f, RayRecord record, GLOBAL const End* ends, GLOBAL const PartitionNode* nodes,
+                    u32 segment_count) {
+    ray_rows w;
+    w.ends = ends;
+    w.nodes = nodes;
+    w.node = first_partition(nodes, segment_count);
+    w.cuts = f->cuts;
+    w.near = record.t_near;
+    w.far = record.t_far;
+#ifdef CSGRT_EYE_RELATIVE
+    w.start = geometry_ray(f, listed_ray(record)).start;
+    w.unit = unit_of(listed_ray(record));
+#endif
+    return w;
+}
+
+FN wide row_distance(ray_rows w, real t) {
+#ifdef CSGRT_EYE_RELATIVE
+    return (w.start + (wide)t) / w.unit;
+#else
+    (void)w;
+    return t;
+#endif
+}
+
+// Cuts it. 0: the range holds nothing of it. A range that is one point holds what begins there, not what ends there.
+FN int cut_row(ray_rows w, ray_row* row) {
+    const wide in = row->in, out = row->out;
+    if (!w.cuts) return !(out < w.near);
+    if (in < w.near) {
+        row->in = w.near;
+        row->in_end = NONE;
+    }
+    if (out > w.far) {
+        row->out = w.far;
+        row->out_end = NONE;
+    }
+    return w.near < w.far ? row->in < row->out : in <= w.near && w.near < out;
+}
+
+// The next row. 0: there is none.
+FN int next_row(ray_rows* w, ray_row* row) {
+    while (w->node != NONE) {
+        PartitionNode last = w->nodes[w->node];
+        const u32 region = last.owner & ~OVERLAP;
+        int goes_on = 1;
+        w->node = last.next;
+        if (region == NONE) continue;
+        row->region = region;
+        row->in_end = last.in_end;
+        while (goes_on && w->node != NONE) {
+            const PartitionNode next = w->nodes[w->node];
+            goes_on = (next.owner & ~OVERLAP) == region && w->ends[next.in_end].t == w->ends[last.out_end].t;
+            if (goes_on) {
+                last = next;
+                w->node = next.next;
+            }
+        }
+        row->out_end = last.out_end;
+        row->in = row_distance(*w, w->ends[row->in_end].t);
+        row->out = row_distance(*w, w->ends[row->out_end].t);
+        if (cut_row(*w, row)) return 1;
+    }
+    return 0;
+}
+
+// The next partition that several regions of the owner's rank claim; *node is its. 0: there is none. If the range cuts
+// nothing, the host joins neighbours before it leaves out what ends before t_near.
+FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
+    while (w->node != NONE) {
+        const PartitionNode n = w->nodes[w->node];
+        *node = w->node;
+        w->node = n.next;
+        if (!(n.owner & OVERLAP)) continue;
+        row->in = row_distance(*w, w->ends[n.in_end].t);
+        row->out = row_distance(*w, w->ends[n.out_end].t);
+        if (cut_row(*w, row) || !w->cuts) return 1;
+    }
+    return 0;
+}
+
+// The normal at one of a row's ends, outward from its region: where a solid ends that was removed from it, and where
+// one begins that takes what follows, the solid's own normal is turned around.
+FN vec3 row_normal(Geometry g, ray3 r, End end, u32 number, u32 is_out) {
+    const vec3 n = normal_at(g, g.solids[end.solid], r, end.t, end.surface);
+    return (number & 1u) == is_out ? n : make_vec3(-n.x, -n.y, -n.z);
+}
+
+#endif

@@ -1,0 +1,245 @@
+#include "pipeline/passes/native_tracer.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "base/clock.hpp"
+#include "compile/lists/overlaps.hpp"
+
+namespace csgrt {
+namespace kernel {
+#include "../kernels/boolean/status_tree.h"
+#include "../kernels/shared/capacity.h"
+}  // namespace kernel
+
+namespace {
+
+template <class T>
+std::uint64_t argument(T* memory) {
+    return reinterpret_cast<std::uintptr_t>(memory);
+}
+std::uint64_t argument(std::uint32_t value) { return value; }
+constexpr const void* none = nullptr;
+
+/// Sums of the counts before each; `counts` has a place behind for that of all, which is returned.
+kernel::RayCount scan(std::span<kernel::RayCount> counts) {
+    std::uint64_t segments = 0, words = 0;
+    const auto limited = [](std::uint64_t x) {
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(x, COUNT_MAX));
+    };
+    for (kernel::RayCount& count : counts.first(counts.size() - 1)) {
+        const kernel::RayCount own = count;
+        count = {limited(segments), limited(words)};
+        segments += own.segments;
+        words += own.words;
+    }
+    return counts.back() = {limited(segments), limited(words)};
+}
+
+}  // namespace
+
+/// A thread's.
+struct NativeTracer::Scratch {
+    std::vector<kernel::RayCount> places, offsets;
+    std::vector<kernel::Candidate> candidates;
+    std::vector<kernel::End> found, ends;
+    std::vector<kernel::PartitionNode> nodes;
+    std::vector<std::uint32_t> bits;
+    std::vector<kernel::RayTally> tallies;
+    std::vector<kernel::RowEnds> bounds;
+    std::vector<kernel::OverlapPiece> pieces;
+    std::vector<kernel::DeepSegment> deep_segments;
+    std::vector<std::uint32_t> status;
+
+    static Scratch& own() {
+        static thread_local Scratch scratch;
+        return scratch;
+    }
+    /// What one batch of many needed is not kept for all that come.
+    void trim() {
+        constexpr std::size_t most = std::size_t{1} << 16;
+        if (ends.size() > 8 * most || candidates.size() > 8 * most) *this = {};
+    }
+};
+
+/// One batch on its way.
+struct NativeTracer::Run {
+    const kernel::Frame& frame;
+    std::span<const kernel::RayRecord> rays;
+    const std::atomic<bool>* stop;
+    PipelineCounts& counts;
+    Scratch& scratch = Scratch::own();
+    kernel::RayCount total{};
+    Clock::time_point last = Clock::now();
+
+    template <class... Arguments>
+    void operator()(const native::CompiledKernel* kernel, std::size_t items, const Arguments&... arguments) {
+        const std::uint64_t all[] = {argument(arguments)...};
+        if (std::size(all) != kernel->argument_count) throw std::logic_error(kernel->name);
+        native::run_here(*kernel, items, all, stop);
+        if (stop && *stop) throw Error(Status::interrupted, "interrupted");
+    }
+    void lap(double PipelineCounts::*figure) {
+        const auto now = Clock::now();
+        counts.*figure += std::chrono::duration<double, std::milli>(now - last).count();
+        last = now;
+    }
+};
+
+NativeTracer::NativeTracer(const native::Level& level, const CompiledScene& scene, std::uint64_t budget)
+    : scene_(scene), budget_(budget) {
+    const native::Program& program = *level.program("partitions");
+    const auto kernel = [&](const char* name) {
+        const native::CompiledKernel* const found = program.kernel(name);
+        if (!found) throw std::logic_error(name);
+        return found;
+    };
+    find_candidates_ = kernel("find_candidates");
+    count_packet_candidates_ = kernel("count_packet_candidates");
+    list_packet_candidates_ = kernel("list_packet_candidates");
+    count_segments_ = kernel("count_segments");
+    count_in_faces_ = kernel("count_in_faces");
+    sum_segments_ = kernel("sum_segments");
+    store_segments_ = kernel("store_segments");
+    store_in_faces_ = kernel("store_in_faces");
+    order_ends_ = kernel("order_ends");
+    weave_ = kernel("weave");
+    evaluate_ = kernel("evaluate");
+    sort_deep_blocks_ = kernel("sort_deep_blocks");
+    merge_deep_runs_ = kernel("merge_deep_runs");
+    clear_status_ = kernel("clear_status");
+    sweep_deep_rays_ = kernel("sweep_deep_rays");
+    count_rows_ = kernel("count_rows");
+    write_rows_ = kernel("write_rows");
+    describe_rows_ = kernel("describe_rows");
+}
+
+const StatusTree& NativeTracer::status_tree() const {
+    std::call_once(has_status_tree_, [this] { status_tree_ = make_status_tree(scene_); });
+    return *status_tree_;
+}
+
+bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayRecord> rays, Fields fields,
+                         const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const {
+    kernel::Frame frame = list;
+    frame.ray_count = static_cast<std::uint32_t>(rays.size());
+    Run run{frame, rays, stop, counts};
+    Scratch& s = run.scratch;
+    const std::size_t n = rays.size();
+    const auto geometry = [&](const native::CompiledKernel* kernel, std::size_t items, const auto&... others) {
+        run(kernel, items, &frame, scene_.solids.data(), scene_.reals.data(), scene_.planes.data(), scene_.words.data(),
+            scene_.inner_nodes.data(), others...);
+    };
+    const bool packets = n > 1, flat_faced = (scene_.solid_types & FLAT_FACED) != 0;
+    const std::size_t items = packets ? (n + 7) / 8 : n;  // PACKET
+    kernel::RayCount* const places = room_for(s.places, n + 1);
+    const kernel::BvhNode* const nodes = scene_.nodes.data();
+    packets ? run(count_packet_candidates_, items, &frame, nodes, none, rays.data(), none, places)
+            : run(find_candidates_, items, &frame, nodes, none, rays.data(), none, places, none);
+    const std::uint32_t candidate_count = scan({places, n + 1}).segments;
+    if (candidate_count * std::uint64_t{sizeof(kernel::Candidate) + 2 * sizeof(kernel::End)} > budget_) return false;
+    kernel::Candidate* const candidates = room_for(s.candidates, candidate_count);
+    kernel::End* const found = room_for(s.found, 2 * std::size_t{candidate_count});
+    packets ? geometry(list_packet_candidates_, items, nodes, none, rays.data(), none, places, candidates, found)
+            : run(find_candidates_, items, &frame, nodes, none, rays.data(), none, places, candidates);
+    geometry(count_segments_, candidate_count, rays.data(), none, places, candidates, found);
+    if (flat_faced) geometry(count_in_faces_, candidate_count, rays.data(), none, places, candidates);
+    kernel::RayCount* const offsets = room_for(s.offsets, n + 1);
+    run(sum_segments_, n, &frame, places, candidates, std::uint32_t{0}, offsets, none);
+    run.total = scan({offsets, n + 1});
+    run.lap(&PipelineCounts::count_segments);
+
+    const std::size_t end_count = 2 * std::size_t{run.total.segments};
+    if (end_count * (sizeof(kernel::End) + sizeof(kernel::PartitionNode)) +
+                run.total.words * std::uint64_t{sizeof(std::uint32_t)} >
+            budget_ ||
+        run.total.segments >= NONE / 2 || run.total.words == COUNT_MAX)
+        return false;
+    kernel::End* const ends = room_for(s.ends, end_count);
+    std::uint32_t* const bits = room_for(s.bits, std::max<std::size_t>(run.total.words, end_count));
+    geometry(store_segments_, candidate_count, rays.data(), none, places, candidates, found, offsets, ends, bits);
+    if (flat_faced)
+        geometry(store_in_faces_, candidate_count, rays.data(), none, places, candidates, offsets, ends, bits);
+    run.lap(&PipelineCounts::store_segments);
+    kernel::PartitionNode* const partitions = room_for(s.nodes, end_count);
+    kernel::RayTally* const tallies = room_for(s.tallies, n);
+    run(order_ends_, end_count, &frame, offsets, ends, bits, partitions);
+    run(weave_, n, &frame, rays.data(), none, offsets, ends, partitions, bits, tallies);
+    run.lap(&PipelineCounts::weave);
+    run(evaluate_, end_count, &frame, scene_.solids.data(), scene_.starts.data(), scene_.trees.data(), offsets, ends,
+        bits, partitions);
+    trace_deep_rays(run);
+    run.lap(&PipelineCounts::evaluate);
+    write_rows(run, fields, rows);
+    run.lap(&PipelineCounts::rows);
+
+    for (std::size_t i = 0; i < n; ++i) counts.partitions_used += tallies[i].partitions;
+    counts.segments += run.total.segments;
+    counts.ends += end_count;
+    counts.partitions_allocated += end_count;
+    counts.segment_bytes += end_count * sizeof(kernel::End) +
+                            candidate_count * std::uint64_t{sizeof(kernel::Candidate) + 2 * sizeof(kernel::End)};
+    counts.partition_bytes += end_count * sizeof(kernel::PartitionNode) + run.total.words * sizeof(std::uint32_t);
+    ++counts.batches;
+    s.trim();
+    return true;
+}
+
+// One after the other, as DeepRayPass does it (src/pipeline/passes/deep_rays.hpp).
+void NativeTracer::trace_deep_rays(Run& run) const {
+    Scratch& s = run.scratch;
+    constexpr std::uint32_t field_in_end = 0, field_next = 2;  // of kernel::PartitionNode
+    const auto regions = static_cast<std::uint32_t>(scene_.regions.size());
+    for (std::uint32_t ray = 0; ray < run.rays.size(); ++ray) {
+        const std::uint32_t segments = s.offsets[ray + 1].segments - s.offsets[ray].segments, ends = 2 * segments;
+        if (segments <= DEEP_SEGMENTS) continue;
+        const StatusTree& tree = status_tree();
+        const auto cluster_words = static_cast<std::uint32_t>(tree.outside.size()),
+                   words = cluster_words + kernel::words_of_set(regions), all = 3 * words;  // as it is, above, below
+        std::uint32_t* const status = room_for(s.status, all);
+        kernel::DeepSegment* const of_segments = room_for(s.deep_segments, segments);
+        kernel::DeepRay deep{};
+        deep.ray = ray;
+        deep.open = deep.last = NONE;
+        const std::uint32_t blocks = (ends + DEEP_BLOCK - 1) / DEEP_BLOCK;
+        std::uint32_t field = field_next;
+        for (std::uint64_t length = DEEP_BLOCK; length < ends; length *= 2) field ^= field_next ^ field_in_end;
+        run(sort_deep_blocks_, blocks, &deep, 1u, blocks, s.offsets.data(), s.ends.data(), s.nodes.data(), field);
+        for (std::uint32_t length = DEEP_BLOCK; length < ends; length *= 2) {
+            run(merge_deep_runs_, blocks, &deep, 1u, blocks, s.offsets.data(), s.ends.data(), s.nodes.data(), field,
+                length);
+            field ^= field_next ^ field_in_end;
+        }
+        run(clear_status_, all, tree.outside.data(), cluster_words, words, all, status);
+        while (deep.changed < ends)
+            run(sweep_deep_rays_, 1, &run.frame, run.rays.data(), none, &deep, 0u, 0u, 1u, s.offsets.data(),
+                s.ends.data(), s.nodes.data(), of_segments, status, cluster_words, regions, tree.links.data(),
+                tree.first_leaves.data(), tree.leaves.data(), 16'384u, s.tallies.data());
+    }
+}
+
+void NativeTracer::write_rows(Run& run, Fields fields, RowMemory& rows) const {
+    Scratch& s = run.scratch;
+    const std::size_t n = run.rays.size();
+    const void* const offsets = s.offsets.data();
+    kernel::RayCount* const places = room_for(rows.places, n + 1);
+    run(count_rows_, n, &run.frame, run.rays.data(), offsets, s.ends.data(), s.nodes.data(), places);
+    const kernel::RayCount total = scan({places, n + 1});
+    rows.reserve(total.segments, fields);
+    run.counts.overlaps += total.words;
+    kernel::RowEnds* const bounds = fields.solids || fields.normals ? room_for(s.bounds, total.segments) : nullptr;
+    kernel::OverlapPiece* const pieces = fields.overlaps ? room_for(s.pieces, total.words) : nullptr;
+    run(write_rows_, n, &run.frame, run.rays.data(), offsets, s.ends.data(), s.nodes.data(), places,
+        rows.regions.data(), rows.in.data(), rows.out.data(), bounds, pieces);
+    if (bounds)
+        run(describe_rows_, total.segments, &run.frame, scene_.solids.data(), scene_.reals.data(), scene_.planes.data(),
+            scene_.words.data(), scene_.inner_nodes.data(), run.rays.data(), s.ends.data(), bounds, total.segments,
+            fields.solids ? rows.in_solids.data() : nullptr, fields.solids ? rows.out_solids.data() : nullptr,
+            fields.normals ? rows.in_normals.data() : nullptr, fields.normals ? rows.out_normals.data() : nullptr);
+    if (fields.overlaps)
+        append_overlaps(scene_, {pieces, total.words}, {s.offsets.data(), s.ends.data(), s.nodes.data()}, rows);
+}
+
+}  // namespace csgrt

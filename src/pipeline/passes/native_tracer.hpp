@@ -1,0 +1,52 @@
+// Lists of rays by the native device's kernels, without OpenCL: a batch is traced on the thread that asks, in memory of
+// the thread's own, which its caches hold. Several threads trace batches side by side.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/lists/rows.hpp"
+#include "compile/regions/status_tree.hpp"
+#include "native/kernels.hpp"
+#include "pipeline/counts.hpp"
+
+namespace csgrt {
+
+class NativeTracer {
+public:
+    /// The level must have the program "partitions". The scene must outlive this. `budget`: bytes that a batch may
+    /// take.
+    NativeTracer(const native::Level& level, const CompiledScene& scene, std::uint64_t budget);
+
+    /// How many rays go through the kernels together at most: their segments stay in a processor's cache.
+    static constexpr std::uint32_t batch_rays = 512;
+
+    /// The rows of a batch; `frame` is a list's. Any thread. False: it does not fit the budget. Throws Error
+    /// (interrupted) when `stop`, which may be null, becomes true.
+    bool trace(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
+               const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
+
+    std::uint64_t budget() const { return budget_; }
+
+private:
+    struct Scratch;
+    struct Run;
+    void trace_deep_rays(Run& run) const;
+    void write_rows(Run& run, Fields fields, RowMemory& rows) const;
+    const StatusTree& status_tree() const;
+
+    const CompiledScene& scene_;
+    const std::uint64_t budget_;
+    const native::CompiledKernel *find_candidates_, *count_packet_candidates_, *list_packet_candidates_,
+        *count_segments_, *count_in_faces_, *sum_segments_, *store_segments_, *store_in_faces_, *order_ends_, *weave_,
+        *evaluate_, *sort_deep_blocks_, *merge_deep_runs_, *clear_status_, *sweep_deep_rays_, *count_rows_,
+        *write_rows_, *describe_rows_;
+    mutable std::once_flag has_status_tree_;
+    mutable std::optional<StatusTree> status_tree_;
+};
+
+}  // namespace csgrt

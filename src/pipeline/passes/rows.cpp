@@ -1,0 +1,161 @@
+#include "pipeline/passes/rows.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "pipeline/passes/program_options.hpp"
+
+namespace csgrt {
+
+RowPass::RowPass(Device& device, const Program& program, const CompiledScene& scene, const HostKernels& kernels)
+    : device_(device),
+      scene_(scene),
+      kernels_(kernels),
+      count_rows_(program.kernel("count_rows")),
+      write_rows_(program.kernel("write_rows")),
+      describe_rows_(program.kernel("describe_rows")),
+      places_(device, "places of rows"),
+      bounds_(device, "rows' ends"),
+      pieces_(device, "overlaps"),
+      places_in_staging_(columns) {
+    for (const char* name : {"rows' regions", "rows' begins", "rows' ends' distances", "rows' first solids",
+                             "rows' last solids", "rows' first normals", "rows' last normals"})
+        columns_.emplace_back(device, name);
+}
+
+std::size_t RowPass::row_bytes(std::size_t column) const {
+    if (column == regions || column == in_solids || column == out_solids) return sizeof(std::int32_t);
+    return (column == in || column == out ? 1 : 3) * kernels_.wide_bytes();
+}
+
+bool RowPass::is_wanted(std::size_t column, Fields fields) const {
+    if (column == in_solids || column == out_solids) return fields.solids;
+    return (column != in_normals && column != out_normals) || fields.normals;
+}
+
+bool RowPass::reserve(const std::vector<std::pair<Buffer*, std::uint64_t>>& wanted) {
+    std::uint64_t more = 0;
+    for (const auto& [buffer, bytes] : wanted) {
+        if (bytes > device_.max_buffer()) return false;
+        more += bytes > buffer->size() ? bytes : 0;
+    }
+    if (more > device_.available()) return false;
+    for (const auto& [buffer, bytes] : wanted) buffer->reserve(bytes);
+    return true;
+}
+
+const Buffer* RowPass::count(const Input& input, TimedKernels& timed) {
+    if (!reserve({{&places_, (std::uint64_t{input.count} + 1) * sizeof(kernel::RayCount)}})) return nullptr;
+    timed.emplace_back(&PipelineCounts::rows, count_rows_.launch(input.count, work_group, input.frame, input.rays,
+                                                                 input.offsets, input.ends, input.nodes, places_));
+    return &places_;
+}
+
+bool RowPass::write(const Input& input, const kernel::RayCount& total, Fields fields, const SceneTables& scene,
+                    TimedKernels& timed) {
+    const bool is_described = fields.solids || fields.normals;
+    std::vector<std::pair<Buffer*, std::uint64_t>> wanted;
+    for (std::size_t i = 0; i < columns; ++i) {
+        if (!is_wanted(i, fields))
+            columns_[i].release();
+        else
+            wanted.emplace_back(&columns_[i], std::uint64_t{total.segments} * row_bytes(i));
+    }
+    bounds_.release();
+    pieces_.release();
+    if (is_described) wanted.emplace_back(&bounds_, std::uint64_t{total.segments} * sizeof(kernel::RowEnds));
+    if (fields.overlaps) wanted.emplace_back(&pieces_, std::uint64_t{total.words} * kernels_.piece_bytes());
+    if (!reserve(wanted)) return false;
+    const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::rows, std::move(event)); };
+    add(write_rows_.launch(total.segments + total.words ? input.count : 0, work_group, input.frame, input.rays,
+                           input.offsets, input.ends, input.nodes, places_, columns_[regions], columns_[in],
+                           columns_[out], bounds_, pieces_));
+    add(describe_rows_.launch(is_described ? total.segments : 0, work_group, input.frame, scene.geometry(), input.rays,
+                              input.ends, bounds_, cl_uint{total.segments}, columns_[in_solids], columns_[out_solids],
+                              columns_[in_normals], columns_[out_normals]));
+    total_ = total;
+    fields_ = fields;
+    first_ = input.first;
+    rays_ = input.count;
+    return true;
+}
+
+void RowPass::start_copy() {
+    constexpr std::size_t alignment = 64;
+    std::size_t bytes = (std::size_t{rays_} + 1) * sizeof(kernel::RayCount);
+    for (std::size_t i = 0; i < columns; ++i) {
+        places_in_staging_[i] = bytes = (bytes + alignment - 1) / alignment * alignment;
+        if (is_wanted(i, fields_)) bytes += total_.segments * row_bytes(i);
+    }
+    if (!staging_ || staging_->size() < bytes) {
+        staging_.reset();
+        staging_.emplace(device_, "rows", bytes + bytes / 4);
+    }
+    auto* const memory = static_cast<std::byte*>(staging_->data());
+    is_underway_ = true;
+    copies_.clear();
+    copies_.push_back(places_.copy_read(memory, (std::size_t{rays_} + 1) * sizeof(kernel::RayCount)));
+    for (std::size_t i = 0; i < columns; ++i)
+        if (is_wanted(i, fields_) && total_.segments > 0)
+            copies_.push_back(columns_[i].copy_read(memory + places_in_staging_[i], total_.segments * row_bytes(i)));
+    device_.flush_copies();
+    memory_.overlaps.clear();
+    memory_.overlap_regions.clear();
+}
+
+void RowPass::read_overlaps(const TracedBatch& traced) {
+    const auto pieces = kernels_.pieces(pieces_.read<std::byte>(total_.words * kernels_.piece_bytes()));
+    append_overlaps(scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
+}
+
+/// A column in the host's numbers.
+template <class T>
+const T* RowPass::column(std::size_t number, std::vector<T>& converted) const {
+    if (!is_wanted(number, fields_)) return nullptr;
+    const std::byte* const memory = static_cast<const std::byte*>(staging_->data()) + places_in_staging_[number];
+    if (row_bytes(number) == sizeof(T)) return reinterpret_cast<const T*>(memory);
+    const auto* const singles = reinterpret_cast<const float*>(memory);
+    const std::size_t count = total_.segments * sizeof(T) / sizeof(double);
+    auto* const numbers = reinterpret_cast<double*>(room_for(converted, total_.segments));
+    std::copy_n(singles, count, numbers);
+    return converted.data();
+}
+
+RowView RowPass::wait() {
+    is_underway_ = false;
+    for (const Event& copy : copies_) wait_for(copy);
+    copies_.clear();
+    const auto* const places = static_cast<const kernel::RayCount*>(staging_->data());
+    std::vector<std::int32_t> unused;
+    return {.first = first_,
+            .places = {places, std::size_t{rays_} + 1},
+            .regions = column(regions, unused),
+            .in = column(in, memory_.in),
+            .out = column(out, memory_.out),
+            .in_solids = column(in_solids, unused),
+            .out_solids = column(out_solids, unused),
+            .in_normals = column(in_normals, memory_.in_normals),
+            .out_normals = column(out_normals, memory_.out_normals),
+            .overlaps = memory_.overlaps,
+            .overlap_regions = memory_.overlap_regions};
+}
+
+void RowPass::cancel() noexcept {
+    is_underway_ = false;
+    for (const Event& copy : copies_) wait_until_done(copy);
+    copies_.clear();
+}
+
+std::uint64_t RowPass::held() const {
+    std::uint64_t sum = places_.size() + bounds_.size() + pieces_.size();
+    for (const Buffer& column : columns_) sum += column.size();
+    return sum;
+}
+
+void RowPass::release() {
+    for (Buffer* buffer : {&places_, &bounds_, &pieces_}) buffer->release();
+    for (Buffer& column : columns_) column.release();
+}
+
+}  // namespace csgrt

@@ -1,0 +1,80 @@
+// Kernel 6: the rows of a list's batch, which kernels 1 to 4 have traced. While they are copied to the host, the next
+// batch may be traced.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compile/host_kernels.hpp"
+#include "compile/lists/overlaps.hpp"
+#include "device/program.hpp"
+#include "pipeline/passes/scene_tables.hpp"
+#include "pipeline/counts.hpp"
+
+namespace csgrt {
+
+class RowPass {
+public:
+    /// `program`: with kernels/6_rows.cl. All must outlive this.
+    RowPass(Device& device, const Program& program, const CompiledScene& scene, const HostKernels& kernels);
+
+    ~RowPass() { cancel(); }
+
+    /// What the kernels read: of the batch that was traced last.
+    struct Input {
+        const Buffer &frame, &rays, &offsets, &ends, &nodes;
+        std::uint64_t first;  ///< the batch's first ray, of the list
+        std::uint32_t count;
+    };
+    /// Counts the rays' rows; the caller makes sums of them. Nothing: there is not enough memory.
+    const Buffer* count(const Input& input, TimedKernels& timed);
+    /// Writes the rows, of which there are `total`. False: there is not enough memory.
+    bool write(const Input& input, const kernel::RayCount& total, Fields fields, const SceneTables& scene,
+               TimedKernels& timed);
+    /// Starts to copy them, once their kernels are done.
+    void start_copy();
+    /// Overlaps need what the rays met; they are read at once.
+    void read_overlaps(const TracedBatch& traced);
+    /// The rows whose copy was started last, which are there until the next copy. Waits.
+    RowView wait();
+    /// Nobody will ask for them.
+    void cancel() noexcept;
+    /// A copy was started, and nobody has waited for it.
+    bool is_underway() const { return is_underway_; }
+
+    /// Partitions that overlap, of the rows that were written last.
+    std::uint32_t overlaps() const { return total_.words; }
+    bool are_overlaps_wanted() const { return fields_.overlaps && total_.words > 0; }
+
+    std::uint64_t held() const;
+    void release();
+
+private:
+    /// The arrays, by number, as RowView has them.
+    enum Column { regions, in, out, in_solids, out_solids, in_normals, out_normals };
+    static constexpr std::size_t columns = 7;
+    std::size_t row_bytes(std::size_t column) const;
+    bool is_wanted(std::size_t column, Fields fields) const;
+    bool reserve(const std::vector<std::pair<Buffer*, std::uint64_t>>& wanted);
+    template <class T>
+    const T* column(std::size_t number, std::vector<T>& converted) const;
+
+    Device& device_;
+    const CompiledScene& scene_;
+    const HostKernels& kernels_;
+    Kernel count_rows_, write_rows_, describe_rows_;
+    Buffer places_, bounds_, pieces_;
+    std::vector<Buffer> columns_;          ///< by Column
+    std::optional<PinnedMemory> staging_;  ///< of the places and the columns, one after the other
+    std::vector<Event> copies_;
+    std::vector<std::size_t> places_in_staging_;
+    kernel::RayCount total_{};
+    Fields fields_;
+    std::uint64_t first_ = 0;
+    std::uint32_t rays_ = 0;
+    bool is_underway_ = false;
+    RowMemory memory_;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,27 @@
+// A list of rays, batch by batch, by all threads and the native device's kernels.
+#pragma once
+
+#include "compile/lists/ray_list.hpp"
+#include "compile/lists/sink.hpp"
+#include "device/device.hpp"
+#include "pipeline/passes/native_tracer.hpp"
+#include "pipeline/scheduling/device_passes.hpp"
+
+namespace csgrt {
+
+class NativeLists {
+public:
+    /// All must outlive this.
+    NativeLists(const native::Level& level, const CompiledScene& scene, const Device& device)
+        : device_(device), tracer_(level, scene, device.budget()) {}
+
+    /// Puts the rows of a range of the list.
+    void trace(const kernel::Frame& frame, const RayList& rays, const RayNumbers& range, RowSink& sink,
+               const Told& told, PipelineCounts& counts) const;
+
+private:
+    const Device& device_;
+    NativeTracer tracer_;
+};
+
+}  // namespace csgrt

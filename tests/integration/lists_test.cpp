@@ -1,0 +1,133 @@
+// Answers to lists as arrays: what is in them, their ranges, and the ways that they are computed.
+#include "catch.hpp"
+#include "integration/deep_scenes.hpp"
+#include "integration/every_solid.hpp"
+#include "integration/lists.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Two balls in a row along x: from 0 to 2 and from 2 to 4, and a third that overlaps the second, from 3 to 5.
+Scene balls() {
+    Scene scene;
+    for (const double x : {1, 3, 4}) {
+        const std::string name = "ball" + std::to_string(int(x));
+        scene.objects.push_back(test::ball(name, {x, 0, 0}, 1));
+        Tree tree;
+        tree.nodes.push_back(test::leg(name));
+        scene.objects.push_back(test::region_of(name + ".r", std::move(tree)));
+    }
+    return scene;
+}
+
+std::vector<Ray> along_x() { return {{{0, 0, 0}, {1, 0, 0}}, {{0, 5, 0}, {1, 0, 0}}, {{3, 0, 0}, {2, 0, 0}}}; }
+
+}  // namespace
+
+TEST_CASE("the rows of a ray stand in order, and a cut end has the bound, no solid and no normal") {
+    Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
+    Partitions answer;
+    renderer.partitions(along_x(), answer, test::all_fields, {.all = {0, 1.25}});
+    REQUIRE(answer.ray_splits.size() == 4);
+    CHECK((answer.ray_splits[1] == 1 && answer.ray_splits[2] == 1 && answer.ray_splits[3] == 3));
+    CHECK((answer.region_ids[0] == 0 && answer.t_in[0] == 0 && answer.t_out[0] == 1.25));
+    CHECK((answer.in_solids[0] == 0 && answer.out_solids[0] == -1));
+    CHECK((answer.in_normals[0].x == -1 && answer.out_normals[0] == Vec3{}));
+    CHECK((answer.region_ids[1] == 1 && answer.t_in[1] == 0 && answer.t_out[1] == 0.5));
+    CHECK((answer.in_solids[1] == -1 && answer.out_normals[1].x == 1));
+    CHECK((answer.region_ids[2] == 2 && answer.t_in[2] == 0.5 && answer.t_out[2] == 1));
+    REQUIRE(answer.overlap_splits.size() == 4);
+    CHECK((answer.overlap_splits[2] == 0 && answer.overlap_splits[3] == 1));
+    CHECK((answer.overlap_t_in[0] == 0 && answer.overlap_t_out[0] == 0.5));
+    CHECK(std::vector<std::int32_t>(answer.overlap_region_ids.begin(), answer.overlap_region_ids.end()) ==
+          std::vector<std::int32_t>{1, 2});
+}
+
+TEST_CASE("a range of one point holds what begins or goes on there") {
+    Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
+    Partitions answer;
+    const std::vector<std::pair<double, std::int32_t>> expected = {{-0.5, -1}, {0, 0}, {1, 0}, {2, 1},
+                                                                   {3.5, 1},   {4, 2}, {5, -1}};
+    const std::vector<Ray> ray = {along_x().front()};
+    for (const auto& [t, region] : expected) {
+        INFO("t " << t);
+        renderer.partitions(ray, answer, {}, {.all = {t, t}});
+        REQUIRE(answer.region_ids.size() == (region < 0 ? 0 : 1));
+        if (region >= 0) CHECK((answer.region_ids[0] == region && answer.t_in[0] == t && answer.t_out[0] == t));
+    }
+}
+
+TEST_CASE("only the arrays that are asked for are filled, and their memory is used again") {
+    Renderer renderer(balls(), {}, test::on_device());
+    Partitions answer;
+    renderer.partitions(along_x(), answer, test::all_fields);
+    const double* const memory = answer.t_in.data();
+    renderer.partitions(along_x(), answer);
+    CHECK(answer.t_in.data() == memory);
+    CHECK(answer.t_in.size() == answer.region_ids.size());
+    CHECK((answer.in_solids.empty() && answer.out_normals.empty() && answer.overlap_splits.empty()));
+    renderer.partitions({}, answer, test::all_fields);
+    CHECK((answer.ray_splits.size() == 1 && answer.region_ids.empty() && answer.overlap_splits.size() == 1));
+}
+
+TEST_CASE("a list that cannot be answered is refused with the index of its first bad ray") {
+    Renderer renderer(balls(), {}, test::on_device());
+    Partitions answer;
+    const auto refusal = [&](const std::vector<Ray>& rays, const RayRanges& ranges) {
+        try {
+            renderer.partitions(rays, answer, {}, ranges);
+        } catch (const Error& error) {
+            CHECK(error.status() == Status::usage);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    std::vector<Ray> rays(100'000, along_x().front());
+    rays[70'000].direction = rays[90'000].direction = {};
+    CHECK(refusal(rays, {}).starts_with("ray 70000: needs a direction"));
+    CHECK(refusal(along_x(), {.all = {2, 1}}).find("from 2 to 1") != std::string::npos);
+    CHECK(refusal(along_x(), {.all = {std::nan(""), 1}}).find("t_near must not be above") != std::string::npos);
+    const std::vector<RayRange> two = {{0, 1}, {0, 1}}, third_bad = {{0, 1}, {0, 1}, {1, 0}};
+    CHECK(refusal(along_x(), {.each = two}).find("3 rays have 2 ranges") != std::string::npos);
+    CHECK(refusal(along_x(), {.each = third_bad}).starts_with("ray 2: its range is from 1 to 0"));
+}
+
+TEST_CASE("ranges count lengths of any direction") {
+    Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
+    Partitions answer;
+    for (const double length : {1e-200, 1e-3, 1.0, 0x1p40, 1e200}) {
+        INFO("length " << length);
+        const std::vector<Ray> rays = {{{0, 0, 0}, {length, 0, 0}}};
+        renderer.partitions(rays, answer, {}, {.all = {0.5 / length, 1 / length}});
+        REQUIRE(answer.region_ids.size() == 1);
+        CHECK((answer.t_in[0] == 0.5 / length && answer.t_out[0] == 1 / length));
+    }
+}
+
+TEST_CASE("lists have the same bits through OpenCL's functions, of every solid and of deep rays") {
+    const auto compare = [](const Scene& scene, const std::vector<Ray>& list) {
+        Renderer expected(scene, {}, {.reference = true});
+        Renderer direct(scene, {}, test::on_native_device());
+        test::require_same_lists(expected, direct, list);
+        const test::ByOpenCl functions;
+        Renderer by_functions(scene, {}, test::on_native_device());
+        test::require_same_lists(expected, by_functions, list);
+    };
+    const every_solid::Model model(3);
+    compare(model.scene, model.rays);
+    compare(test::deep_parts(3, 400, 40), test::rays_along_grid());
+}
+
+TEST_CASE("the number of threads changes no bit of a list") {
+    const Scene scene = test::deep_parts(5, 60, 20);
+    Settings one = test::on_device(), three = one;
+    one.threads = 1;
+    three.threads = 3;
+    Renderer expected(scene, {}, one), found(scene, {}, three);
+    test::require_same_lists(expected, found, test::random_rays(expected.bounds(), 20'000));
+}
