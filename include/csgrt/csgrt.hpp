@@ -28,6 +28,7 @@
 #include <csgrt/framebuffer.hpp>
 #include <csgrt/image.hpp>
 #include <csgrt/method.hpp>
+#include <csgrt/model.hpp>
 #include <csgrt/partitions.hpp>
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>

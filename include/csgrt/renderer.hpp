@@ -11,6 +11,7 @@
 #include <csgrt/framebuffer.hpp>
 #include <csgrt/image.hpp>
 #include <csgrt/method.hpp>
+#include <csgrt/model.hpp>
 #include <csgrt/partitions.hpp>
 #include <csgrt/scene.hpp>
 #include <csgrt/settings.hpp>
@@ -20,35 +21,19 @@
 
 namespace csgrt {
 
-/// One region of the compiled model.
-struct RegionInfo {
-    std::string path = {};  ///< "/top/.../region"
-    Fastgen fastgen = Fastgen::none;
-    int region_id = 0, air = 0, material_id = 0, los = 0;  ///< as in Combination
-    Vec3 color{1, 1, 1};                                   ///< display values: red, green, blue; 0 to 1
-    Finish finish = {};
-    Box bounds = {};  ///< millimetres; as BRL-CAD computes it, so not always tight
-};
-
-/// One solid of the compiled model.
-struct SolidInfo {
-    std::string name = {};
-    std::string type = {};    ///< as type_name() has it
-    std::uint32_t piece = 0;  ///< csgrt cuts a pipe into several solids: which of them this is, from 0
-};
-
-/// A scene, compiled for one device or for several that share the work. If the device is a GPU, its kernels are
+/// Draws and shoots Models, on one device or on several that share the work. If the device is a GPU, its kernels are
 /// compiled on another thread while a native device computes (see Settings::wait_for_device); the GPU replaces the
 /// native device between two calls. Not copyable. One thread at a time; different Renderers may be used by different
 /// threads at the same time. In a child of fork() a Renderer of the parent's throws Error (usage) at every call, and
 /// its destructor does nothing.
 class CSGRT_API Renderer {
 public:
-    /// Validates `scene`, compiles it and copies it to the device; the Scene is not needed afterwards. `objects` are
-    /// names, or paths such as "all.g/tor.r", which give an object the place and the attributes that it has there;
-    /// none: the scene's top objects. Throws Error: scene, usage (settings that exclude each other), no_device,
-    /// out_of_memory, device_fault. If a GPU was asked for by name and fails while it is made ready, the next call
-    /// throws (device_fault, out_of_memory); if it was chosen by default, warnings() says so.
+    /// Opens devices and copies the model to them. Of the settings those of the scene have no part in it (see
+    /// Model::Model). Throws Error: usage (settings that exclude each other), no_device, out_of_memory, device_fault.
+    /// If a GPU was asked for by name and fails while it is made ready, the next call throws (device_fault,
+    /// out_of_memory); if it was chosen by default, warnings() says so.
+    explicit Renderer(Model model, const Settings& settings = {});
+    /// Of a Model that it makes of the scene, while it looks for devices. Throws as both do.
     explicit Renderer(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
     /// Waits until a driver that is compiling kernels has ended, up to half a minute, since no driver can be stopped.
     /// Statistics::awaited_device tells whether there is one. A driver that caches its programs compiles once.
@@ -56,6 +41,12 @@ public:
     /// Calls of a Renderer that was moved from throw Error (usage).
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
+
+    const Model& model() const;
+    /// The next calls are about this model, which the first of them copies to the devices. Programs that know its types
+    /// of solids stay, and buffers. A call that throws since the model does not fit (out_of_memory) leaves the Renderer
+    /// to other models. Throws Error (usage).
+    void set_model(Model model);
 
     /// Draws a picture. Throws Error: usage (the view), out_of_memory, device_fault, interrupted.
     Image render(const View& view);
@@ -78,18 +69,14 @@ public:
     /// picture.
     void name_pixels(Image& image) const;
 
-    // The references are valid as long as the Renderer.
+    // The references are valid as long as the Renderer has this model.
 
-    /// The box around all regions' boxes, millimetres; low > high if no region is bounded.
-    const Box& bounds() const;
-    /// By the index that Partition::region has.
-    const std::vector<RegionInfo>& regions() const;
-    /// By the index that Partition::in_solid has.
-    const std::vector<SolidInfo>& solids() const;
+    const Box& bounds() const;                       ///< the model's
+    const std::vector<RegionInfo>& regions() const;  ///< by the index that Partition::region has
+    const std::vector<SolidInfo>& solids() const;    ///< by the index that Partition::in_solid has
     /// Of the last call; before the first call, of the constructor.
     const Statistics& statistics() const;
-    /// What the scene's reader tolerated, what was left out and other notes (air regions, open meshes, ...), each once
-    /// per object and reason; pictures have the first of these in their attribute csgrt:warnings. Then what is about
+    /// The model's warnings; pictures have the first of these in their attribute csgrt:warnings. Then what is about
     /// devices: that the reference computes since there is no device, or that a GPU cannot be used. Calls may append to
     /// those.
     const std::vector<Warning>& warnings() const;

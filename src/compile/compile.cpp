@@ -1,5 +1,6 @@
 // The steps: validate; flatten and measure, until all stand where they may; number; regions, looks, shapes.
 
+#include "compile/regions/status_tree.hpp"
 #include "compile/compiled_scene.hpp"
 
 #include <algorithm>
@@ -121,7 +122,12 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     Looks looks = looks_of(scene, flat, measured->brlcad_boxes, options.display_shading, warnings);
     Shapes shapes = pack_solids(scene, flat, *measured, order, space, common_box(scene, flat, space), terms, warnings);
     join_equal(warnings);
-    CompiledScene compiled{std::move(space),   std::move(logic), std::move(shapes), std::move(looks), 0,
+    CompiledScene compiled{std::move(space),
+                           std::move(logic),
+                           std::move(shapes),
+                           std::move(looks),
+                           std::make_shared<LateStatusTree>(),
+                           0,
                            std::move(warnings)};
     compiled.hash = hash_of(compiled);
     return compiled;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,10 @@ struct Looks {
     }
 };
 
+class LateStatusTree;  // regions/status_tree.hpp
+
 struct CompiledScene : Space, Logic, Shapes, Looks {
+    std::shared_ptr<LateStatusTree> status_tree;  ///< made for the first deep ray of all
     std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
     std::vector<Warning> warnings;  ///< see Renderer::warnings
 };

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+
+#include <csgrt/error.hpp>
 
 #include "kernel_host/kernels.hpp"
 
@@ -20,5 +23,12 @@ struct RayBatch {
     /// False: it is a part of a tile, because the memory holds no more.
     bool is_whole_tiles() const { return rays % tile_rays == 0; }
 };
+
+/// A batch of one ray does not fit. Throws Error (out_of_memory).
+[[noreturn]] inline void throw_too_long_ray(std::uint64_t budget) {
+    throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
+                                           std::to_string(budget >> 20) +
+                                           " MiB): raise --max-memory, or use --reference");
+}
 
 }  // namespace csgrt

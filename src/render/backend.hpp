@@ -16,6 +16,7 @@
 #include "compile/lists/sink.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 #include "pipeline/readback/picture.hpp"
+#include "reference/reference_kernels.hpp"
 #include "render/channel_table.hpp"
 
 namespace csgrt {
@@ -29,11 +30,21 @@ struct FrameMemory {
     std::shared_ptr<RegisteredMemory>& registered;  ///< with that backend's devices
 };
 
+/// A model, and its kernels in the backend's precision.
+struct ModelInUse {
+    std::shared_ptr<const void> owner;  ///< of the scene
+    const CompiledScene& scene;
+    std::unique_ptr<const ReferenceKernels> kernels;
+};
+
 /// One thread at a time. All calls throw Error (device_fault, out_of_memory, interrupted).
 class Backend {
 public:
     virtual ~Backend() = default;
 
+    /// The next calls are about another model.
+    virtual void set_model(std::shared_ptr<const ModelInUse> model) = 0;
+    virtual bool is_reference() const { return false; }
     /// Before each call of render() or trace() of that kind: waits until somebody has the kernels for it.
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;

@@ -7,20 +7,34 @@
 
 namespace csgrt {
 
-DeviceBackend::DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels,
-                             const Settings& settings, double search_ms)
-    : search_ms_(search_ms),
-      spot_check_(scene, settings),
+DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> model, const Settings& settings,
+                             double search_ms)
+    : model_(std::move(model)),
+      search_ms_(search_ms),
+      spot_check_(settings),
       takeover_(
           std::move(plan),
-          [&scene, &kernels, settings](const std::vector<FoundDevice>& devices) {
-              return std::make_unique<DeviceGroup>(devices, scene, kernels, settings);
+          [this, settings](const std::vector<FoundDevice>& devices) {
+              const std::shared_ptr<const ModelInUse> in_use = this->model();
+              auto group = std::make_unique<DeviceGroup>(devices, in_use->scene, *in_use->kernels, settings);
+              group->keep(in_use);
+              return group;
           },
           settings.wait_for_device) {}
+
+void DeviceBackend::set_model(std::shared_ptr<const ModelInUse> model) {
+    spot_check_.forget_scene();
+    const std::lock_guard lock(mutex_);
+    model_ = std::move(model);
+}
 
 void DeviceBackend::prepare(bool every_partition) {
     const auto start = Clock::now();
     drawer_ = &takeover_.drawer(every_partition);
+    if (drawer_->owner() != model_) {
+        drawer_->set_scene(model_->scene, *model_->kernels, model_);
+        drawer_->prepare(every_partition);
+    }
     build_ms_in_call_ = milliseconds_since(start);
 }
 
@@ -42,7 +56,7 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
         .channels = memory.channels, .covered = memory.covered, .registered = memory.registered.get()};
     try {
         counted([&] { drawer_->render(frame, target, &watch, counts_); });
-        spot_check_.look_at(frame, memory, counts_.done, drawer_->name(), watch);
+        spot_check_.look_at(model_->scene, frame, memory, counts_.done, drawer_->name(), watch);
     } catch (...) {  // pixels may be missing of tiles that are covered
         std::ranges::fill(memory.covered, std::uint8_t{1});
         throw;
@@ -55,7 +69,7 @@ void DeviceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowSi
 
 void DeviceBackend::check(const kernel::Frame& frame, const RayList& rays, const Partitions& answer, Fields fields,
                           Watch& watch) {
-    spot_check_.look_at(frame, rays, answer, fields, counts_.done, drawer_->name(), watch);
+    spot_check_.look_at(model_->scene, frame, rays, answer, fields, counts_.done, drawer_->name(), watch);
 }
 
 std::string DeviceBackend::method(bool every_partition) const {

@@ -1,6 +1,8 @@
 // Devices as a backend: those that draw at once, and those that take over when their kernels are compiled.
 #pragma once
 
+#include <mutex>
+
 #include "render/backend.hpp"
 #include "render/device_takeover.hpp"
 #include "render/spot_check.hpp"
@@ -9,11 +11,11 @@ namespace csgrt {
 
 class DeviceBackend final : public Backend {
 public:
-    /// `search_ms`: what it took to find the plan's devices. The scene, the kernels and the settings must outlive it.
-    /// Throws Error.
-    DeviceBackend(DevicePlan plan, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-                  double search_ms);
+    /// `search_ms`: what it took to find the plan's devices. The settings must outlive it. Throws Error.
+    DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> model, const Settings& settings, double search_ms);
 
+    /// Devices get it when they are next used.
+    void set_model(std::shared_ptr<const ModelInUse> model) override;
     void prepare(bool every_partition) override;
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
     void trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) override;
@@ -31,6 +33,13 @@ private:
     template <class Call>
     void counted(const Call& call);
 
+    std::shared_ptr<const ModelInUse> model() const {
+        const std::lock_guard lock(mutex_);
+        return model_;
+    }
+
+    mutable std::mutex mutex_;
+    std::shared_ptr<const ModelInUse> model_;  ///< the takeover's job asks for it, too
     double search_ms_;
     SpotCheck spot_check_;
     DeviceTakeover takeover_;

@@ -8,8 +8,13 @@ namespace csgrt {
 
 class ReferenceBackend final : public Backend {
 public:
-    /// Both must outlive it.
-    ReferenceBackend(const CompiledScene& scene, const ReferenceKernels& kernels) : reference_(scene, kernels) {}
+    explicit ReferenceBackend(std::shared_ptr<const ModelInUse> model) { set_model(std::move(model)); }
+
+    void set_model(std::shared_ptr<const ModelInUse> model) override {
+        reference_.emplace(model->scene, *model->kernels);
+        model_ = std::move(model);
+    }
+    bool is_reference() const override { return true; }
 
     void prepare(bool) override {}
     void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) override;
@@ -19,7 +24,8 @@ public:
     std::string method(bool) const override { return "every solid near the ray, unique lists"; }
 
 private:
-    Reference reference_;
+    std::shared_ptr<const ModelInUse> model_;
+    std::optional<Reference> reference_;
     ReferenceCounts counts_;
 };
 

@@ -11,46 +11,33 @@
 #include "base/fnv1a.hpp"
 #include "base/process.hpp"
 #include "base/thread.hpp"
-#include "compile/compiled_scene.hpp"
 #include "compile/frame.hpp"
 #include "compile/lists/along_rays.hpp"
-#include "compile/linear.hpp"
 #include "device/choice.hpp"
 #include "kernel_host/geometry.hpp"
 #include "render/device_backend.hpp"
 #include "render/image_header.hpp"
+#include "render/model_impl.hpp"
 #include "render/reference_backend.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {
-namespace {
-
-/// The tolerance that the settings ask for, in millimetres.
-double tolerance_of(const CompiledScene& scene, const Settings& settings) {
-    if (settings.tolerance_rule == Tolerance::none) return 0;
-    if (settings.tolerance_rule == Tolerance::relative)
-        return relative_tolerance(settings.precision) * 2 * scene.radius;
-    if (settings.tolerance_rule == Tolerance::length) {
-        if (settings.tolerance >= 0) return settings.tolerance;
-        if (scene.tolerance > 0) return scene.tolerance;
-    }
-    const double of_size = rounding_tolerance(settings.precision) * 2 * scene.radius;
-    return std::max(of_size, coordinate_rounding * largest_coordinate(scene.center, scene.radius));
-}
-
-}  // namespace
-
 struct Renderer::Impl {
     const unsigned process = process_number();  ///< where it works: its threads, and what drivers keep, are there alone
     Settings settings;
-    CompiledScene scene;
+    Model model;
     double tolerance = 0;  ///< as kernels get it, in millimetres
-    std::string title;
-    std::unique_ptr<ReferenceKernels> kernels;
+    std::shared_ptr<const ModelInUse> in_use;
     std::unique_ptr<Backend> backend;
-    std::vector<Warning> warnings;  ///< the scene's, and then those of devices, which are not of the picture
+    std::vector<Warning> warnings;         ///< the scene's, and then those of devices, which are not of the picture
+    std::vector<Warning> device_warnings;  ///< these alone
     Statistics statistics;
 
+    Impl(Model of, const Settings& given) : settings(given), model(std::move(of)) {}
+
+    const CompiledScene& scene() const { return model.impl_->scene; }
+    void use_model(bool is_reference);
+    void warn(std::string reason);
     void set_up_devices();
     void use_reference();
     void start_call(std::uint64_t rays, bool every_partition, int width, int height);
@@ -61,44 +48,78 @@ struct Renderer::Impl {
                Watch& watch);
 };
 
-Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
-    : impl_(new Impl) {
-    const FloatingPoint own;
-    const AllowedThreads allowed(settings.threads);
+namespace {
+
+/// Throws Error (usage) for settings that exclude each other.
+const Settings& checked(const Settings& settings) {
     if (settings.precision == Precision::quad && !settings.reference)
         throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
     if (settings.contraction && settings.reference)
         throw Error(Status::usage, "contraction is on a device only: the reference rounds every operation");
     if (settings.contraction && settings.check > 0)
         throw Error(Status::usage, "contraction changes the last digits, which a check by the reference compares");
-    if (settings.max_instances > Limits::most_instances)
-        throw Error(Status::usage, "max_instances is more than " + std::to_string(Limits::most_instances));
+    return settings;
+}
+
+/// Drivers start while a scene is compiled.
+Model model_of(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings) {
+    prepare_devices(checked(settings));
+    return Model(scene, objects, settings);
+}
+
+}  // namespace
+
+Renderer::Renderer(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
+    : Renderer(model_of(scene, objects, settings), settings) {}
+
+Renderer::Renderer(Model model, const Settings& settings) : impl_(new Impl(std::move(model), checked(settings))) {
+    const FloatingPoint own;
+    const AllowedThreads allowed(settings.threads);
     Impl& impl = *impl_;
-    impl.settings = settings;
-    impl.title = scene.title;
     prepare_devices(settings);
-    const auto start = Clock::now();
-    impl.scene = compile(scene, objects,
-                         {.air = settings.air,
-                          .skip_unsupported = settings.skip_unsupported,
-                          .display_shading = settings.display_shading,
-                          .max_instances = settings.max_instances});
-    impl.statistics.ms.compile = milliseconds_since(start);
-    impl.warnings = impl.scene.warnings;
     impl.statistics.precision = name_of(precision_names, settings.precision);
     if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
     impl.statistics.contraction = settings.contraction;
     impl.statistics.quartic = name_of(quartic_names, settings.quartic);
-    impl.statistics.tolerance = impl.tolerance = tolerance_of(impl.scene, settings);
+    impl.use_model(settings.reference);
     settings.reference ? impl.use_reference() : impl.set_up_devices();
     impl.statistics.device = impl.backend->name();
     impl.statistics.method = impl.backend->method(true);
     impl.backend->report(impl.statistics);
 }
 
+/// What the next calls are about.
+void Renderer::Impl::use_model(bool is_reference) {
+    const std::shared_ptr<const Model::Impl>& compiled = model.impl_;
+    in_use = std::make_shared<ModelInUse>(
+        ModelInUse{compiled, compiled->scene,
+                   is_reference ? make_kernels_to_run(compiled->scene, settings.precision, settings.quartic)
+                                : make_kernels(compiled->scene, settings.precision, settings.quartic)});
+    statistics.tolerance = tolerance = tolerance_of(compiled->scene, settings);
+    statistics.ms.compile = compiled->compile_ms;
+    warnings = compiled->scene.warnings;
+    warnings.insert(warnings.end(), device_warnings.begin(), device_warnings.end());
+}
+
+void Renderer::Impl::warn(std::string reason) {
+    device_warnings.push_back({.object = {}, .place = {}, .reason = std::move(reason)});
+    warnings.push_back(device_warnings.back());
+}
+
+const Model& Renderer::model() const { return impl().model; }
+
+void Renderer::set_model(Model model) {
+    const FloatingPoint own;
+    Impl& impl = this->impl();
+    const AllowedThreads allowed(impl.settings.threads);
+    impl.model = std::move(model);
+    impl.use_model(impl.backend->is_reference());
+    impl.backend->set_model(impl.in_use);
+}
+
 void Renderer::Impl::use_reference() {
-    kernels = make_kernels_to_run(scene, settings.precision, settings.quartic);
-    backend = std::make_unique<ReferenceBackend>(scene, *kernels);
+    use_model(true);
+    backend = std::make_unique<ReferenceBackend>(in_use);
 }
 
 // Without devices, and where nobody named one, the reference draws, with a warning.
@@ -109,9 +130,8 @@ void Renderer::Impl::set_up_devices() {
     std::vector<std::string> notes = plan.notes;
     if (!plan.first.empty()) {
         const bool can_do_without = plan.is_default && kernels_for(settings) == Kernels::any;
-        kernels = make_kernels(scene, settings.precision, settings.quartic);
         try {
-            backend = std::make_unique<DeviceBackend>(std::move(plan), scene, *kernels, settings, search_ms);
+            backend = std::make_unique<DeviceBackend>(std::move(plan), in_use, settings, search_ms);
             return;
         } catch (const Error& error) {
             if (!can_do_without || error.status() == Status::out_of_memory) throw;
@@ -122,7 +142,7 @@ void Renderer::Impl::set_up_devices() {
     std::string why =
         "no device draws but the CPU reference, which is slow: csgrt has no kernels of its own for this processor";
     for (const std::string& note : notes) why += "; " + note;
-    warnings.push_back({.object = {}, .place = {}, .reason = why});
+    warn(std::move(why));
     use_reference();
 }
 
@@ -146,8 +166,7 @@ void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int wi
 void Renderer::Impl::prepare(bool every_partition) {
     backend->prepare(every_partition);
     statistics.device = backend->name();
-    if (auto fault = backend->take_fault())
-        warnings.push_back({.object = {}, .place = {}, .reason = std::move(*fault)});
+    if (auto fault = backend->take_fault()) warn(std::move(*fault));
 }
 
 /// What a call waits for kernels counts as `build`.
@@ -184,7 +203,7 @@ void Renderer::render(const View& view, Framebuffer& framebuffer) {
 
 void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& watch) {
     const auto start = Clock::now();
-    const PreparedFrame prepared = prepare_frame(scene, view, tolerance);
+    const PreparedFrame prepared = prepare_frame(scene(), view, tolerance);
     const bool every_partition = prepared.frame.every_partition;
     start_call(std::uint64_t(view.width) * std::uint64_t(view.height), every_partition, view.width, view.height);
     const kernel::Pixel background_pixel = kernel::background_pixel(&prepared.frame);
@@ -221,13 +240,13 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
     image.display_values = settings.display_shading;
     image.attributes.clear();
     image.attributes["csgrt:version"] = version();
-    image.attributes["csgrt:title"] = title;
+    image.attributes["csgrt:title"] = model.impl_->title;
     image.attributes["csgrt:precision"] = statistics.precision;
     image.attributes["csgrt:method"] =
         statistics.method + ", quartics " + statistics.quartic + (settings.contraction ? ", contraction" : "");
     image.attributes["csgrt:shading"] = settings.display_shading ? "display values" : "linear light";
-    image.attributes["csgrt:scene_hash"] = hexadecimal(scene.hash);
-    if (!scene.warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene.warnings);
+    image.attributes["csgrt:scene_hash"] = hexadecimal(scene().hash);
+    if (!scene().warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene().warnings);
     describe_camera(prepared, image);
     end_call(start);
 }
@@ -259,7 +278,7 @@ void Renderer::Impl::trace(std::span<const Ray> rays, Partitions& answer, Fields
     if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
         throw Error(Status::usage, "too many rays in one call: shoot them in parts of less than 2^31");
     const RayList list(rays, ranges);
-    kernel::Frame frame = prepare_rays(scene, static_cast<std::uint32_t>(rays.size()), tolerance).frame;
+    kernel::Frame frame = prepare_rays(scene(), static_cast<std::uint32_t>(rays.size()), tolerance).frame;
     frame.cuts = cuts;
     start_call(rays.size(), true, 0, 0);
     prepare(true);
@@ -273,18 +292,18 @@ void Renderer::Impl::trace(std::span<const Ray> rays, Partitions& answer, Fields
 std::vector<Ray> Renderer::rays_of(const View& view) const {
     const FloatingPoint own;
     const Impl& impl = this->impl();
-    const PreparedFrame prepared = prepare_frame(impl.scene, view, impl.tolerance);
+    const PreparedFrame prepared = prepare_frame(impl.scene(), view, impl.tolerance);
     std::vector<Ray> rays;
     rays.reserve(std::size_t{prepared.frame.width} * prepared.frame.height);
     for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
         for (std::uint32_t x = 0; x < prepared.frame.width; ++x)
-            rays.push_back(impl.kernels->camera_ray(prepared.frame, x, y));
+            rays.push_back(impl.in_use->kernels->camera_ray(prepared.frame, x, y));
     return rays;
 }
 
-const Box& Renderer::bounds() const { return impl().scene.bounds; }
-const std::vector<RegionInfo>& Renderer::regions() const { return impl().scene.region_info; }
-const std::vector<SolidInfo>& Renderer::solids() const { return impl().scene.solid_info; }
+const Box& Renderer::bounds() const { return impl().scene().bounds; }
+const std::vector<RegionInfo>& Renderer::regions() const { return impl().scene().region_info; }
+const std::vector<SolidInfo>& Renderer::solids() const { return impl().scene().solid_info; }
 const std::vector<Warning>& Renderer::warnings() const { return impl().warnings; }
 
 const Statistics& Renderer::statistics() const {

@@ -23,12 +23,10 @@ std::string text_of(float value) {
 
 }  // namespace
 
-SpotCheck::SpotCheck(const CompiledScene& scene, const Settings& settings) : scene_(scene), settings_(settings) {}
-
-const Reference& SpotCheck::reference() {
+const Reference& SpotCheck::reference(const CompiledScene& scene) {
     if (!reference_) {
-        kernels_ = make_kernels_to_run(scene_, settings_.precision, settings_.quartic);
-        reference_.emplace(scene_, *kernels_);
+        kernels_ = make_kernels_to_run(scene, settings_.precision, settings_.quartic);
+        reference_.emplace(scene, *kernels_);
     }
     return *reference_;
 }
@@ -42,15 +40,15 @@ std::vector<std::uint32_t> SpotCheck::rays_of(const std::vector<RayBatch>& batch
     return rays;
 }
 
-void SpotCheck::look_at(const PreparedFrame& frame, const FrameMemory& memory, const std::vector<RayBatch>& batches,
-                        const std::string& device, Watch& watch) {
+void SpotCheck::look_at(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
+                        const std::vector<RayBatch>& batches, const std::string& device, Watch& watch) {
     std::vector<std::uint32_t> pixels;
     for (const std::uint32_t ray : rays_of(batches))
         if (const kernel::pixel_position at = kernel::pixel_of(ray, frame.frame.screen); at.inside)
             pixels.push_back(at.y * frame.frame.width + at.x);
     if (pixels.empty()) return;
     ReferenceCounts counts;
-    const std::vector<kernel::Pixel> right = reference().render(frame, &watch, counts, &pixels);
+    const std::vector<kernel::Pixel> right = reference(scene).render(frame, &watch, counts, &pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::size_t c = 0; c < memory.channels.size(); ++c) {
             const float found = memory.channels[c].pixels[pixels[i]], expected = memory.sources[c]->value(right[i]);
@@ -61,15 +59,16 @@ void SpotCheck::look_at(const PreparedFrame& frame, const FrameMemory& memory, c
         }
 }
 
-void SpotCheck::look_at(const kernel::Frame& frame, const RayList& rays, const Partitions& answer, Fields fields,
-                        const std::vector<RayBatch>& batches, const std::string& device, Watch& watch) {
+void SpotCheck::look_at(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays,
+                        const Partitions& answer, Fields fields, const std::vector<RayBatch>& batches,
+                        const std::string& device, Watch& watch) {
     const std::vector<std::uint32_t> numbers = rays_of(batches);
     if (numbers.empty()) return;
     const RayList some = rays.some(numbers);
     ReferenceCounts counts;
     Partitions right;
     RowSink sink(right, fields, numbers.size());
-    reference().trace(frame, some, sink, &watch, counts);
+    reference(scene).trace(frame, some, sink, &watch, counts);
     for (std::size_t i = 0; i < numbers.size(); ++i)
         if (!same_rows(answer, numbers[i], right, i))
             fail(device, "the partitions of ray " + std::to_string(numbers[i]) + " are not the reference's");

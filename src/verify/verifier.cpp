@@ -207,16 +207,18 @@ Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, 
     Settings own = settings;
     own.wait_for_device = true;  // what is verified is the device
     own.progress = [&impl](double fraction) { return impl.report(fraction); };
+    if (!settings.reference) prepare_devices(own);
+    const Model model(scene, objects, own);
     if (!settings.reference) {
-        impl.device.emplace(scene, objects, own);
+        impl.device.emplace(model, own);
         impl.result.device = impl.device->statistics().device;
     }
-    impl.reference.emplace(scene, objects, on_reference(own));
+    impl.reference.emplace(model, on_reference(own));
     const double tolerance = impl.reference->statistics().tolerance;
-    impl.judge.emplace(scene, objects, exact(own, tolerance));
+    impl.judge.emplace(model, exact(own, tolerance));
     if (tolerance > 0)
         for (const double factor : {0.5, 2.0})
-            impl.other_tolerances.emplace_back(scene, objects, exact(own, factor * tolerance));
+            impl.other_tolerances.emplace_back(model, exact(own, factor * tolerance));
     impl.box = box_of(*impl.judge);
     impl.size = length(impl.box.high - impl.box.low);
 }

@@ -115,12 +115,12 @@ inline Vec3 grid(std::size_t i) {
 
 /// The regions of all places, and below them a half-space, "floor". `first` and `second` are regions that are not
 /// drawn.
-struct Model {
+struct EverySolid {
     Scene scene;
     std::vector<Spot> places;
     std::vector<Ray> rays;  ///< some at each place, in the order of the places
 
-    explicit Model(int rays_a_place) {
+    explicit EverySolid(int rays_a_place) {
         Random random(5);
         scene = test::scene_of_samples();
         for (const test::Sample& sample : tested) {

@@ -18,7 +18,7 @@ TEST_CASE("the samples have every type of solid") {
 }
 
 TEST_CASE("every solid: regions are what the operators make of the solids' segments") {
-    const Model model(6);
+    const EverySolid model(6);
     Both both(model.scene);
     const std::vector<RayPartitions> found = both.shoot(model.rays);
     Renderer firsts(model.scene, model.all(&Spot::first), on_reference());
@@ -70,7 +70,7 @@ TEST_CASE("every solid: regions are what the operators make of the solids' segme
 TEST_CASE(
     "every solid: partitions are in order and disjoint, with normals outward, whole where they hold the start, "
     "left out where they end before it") {
-    const Model model(4);
+    const EverySolid model(4);
     Both both(model.scene);
     const std::vector<RayPartitions> base = both.shoot(model.rays);
     Faults faults;
@@ -118,7 +118,7 @@ TEST_CASE(
 }
 
 TEST_CASE("every solid: a ray has the same regions and overlaps from its other end") {
-    const Model model(4);
+    const EverySolid model(4);
     Both both(model.scene);
     const std::vector<RayPartitions> base = both.shoot(model.rays);
     std::vector<Ray> turned;
@@ -155,7 +155,7 @@ TEST_CASE("every solid: a ray has the same regions and overlaps from its other e
 }
 
 TEST_CASE("every solid: distances count lengths of the direction, to the bit where these are powers of two") {
-    const Model model(2);
+    const EverySolid model(2);
     Both both(model.scene);
     const std::vector<RayPartitions> base = both.shoot(model.rays);
     for (const int exponent : {700, -700, 40, -3}) {
@@ -173,7 +173,7 @@ TEST_CASE("every solid: distances count lengths of the direction, to the bit whe
 }
 
 TEST_CASE("every solid: a picture shows the first partition of each of its rays, and counts what the rays meet") {
-    Model model(0);
+    EverySolid model(0);
     Both both(model.scene);
     View view;
     view.width = 101;

@@ -118,7 +118,7 @@ TEST_CASE("lists have the same bits through OpenCL's functions, of every solid a
         Renderer by_functions(scene, {}, test::on_native_device());
         test::require_same_lists(expected, by_functions, list);
     };
-    const every_solid::Model model(3);
+    const every_solid::EverySolid model(3);
     compare(model.scene, model.rays);
     compare(test::deep_parts(3, 400, 40), test::rays_along_grid());
 }

@@ -30,7 +30,7 @@ int compare_models(const Settings& settings) {
         return 0;
     }
     int count = 0;
-    for (const Model& model : models()) {
+    for (const test::Model& model : models()) {
         if (!model.main && model.file != "goliath.asc") continue;
         INFO(model.file);
         require_agreement(load_scene(folder + "/" + model.file), model.objects, picture_size, 1000, settings);

@@ -32,7 +32,7 @@ void require_own_declarations(const std::vector<Precision>& precisions) {
         Settings settings;
         settings.precision = precision;
         const bool is_single = precision != Precision::double_;
-        std::vector<std::string> defines = program_options(device, scene, settings);
+        std::vector<std::string> defines = program_options(device, ProgramNeeds(scene), settings);
         CHECK(std::erase(defines, "CSGRT_PACKETS") == !is_single);  // with them last
         const auto require_own = [&](const std::vector<std::string>& files) {
             INFO(files.back());

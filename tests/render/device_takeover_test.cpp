@@ -47,7 +47,7 @@ View view_from(double azimuth, bool every_partition) {
 }
 
 /// What a takeover needs of a Renderer.
-struct Model {
+struct Compiled {
     Scene scene = bench::scene_of_parts(20);
     CompiledScene compiled = compile(scene, {});
     Settings settings;
@@ -173,7 +173,7 @@ TEST_CASE("a GPU that fails is a warning, and an error of who named it") {
 
 TEST_CASE("the first devices draw what the next have no kernels for yet") {
     if (!can_take_over()) return;
-    const Model model;
+    const Compiled model;
     DeviceTakeover takeover(model.plan(pocl_devices), model.set_up(), false);
     const std::uint64_t first = takeover.present().number();
     wait_for_job(takeover);  // found and set up, while no call wanted kernels
@@ -190,7 +190,7 @@ TEST_CASE("the first devices draw what the next have no kernels for yet") {
 
 TEST_CASE("where no device is found the first ones go on, and nothing was wrong") {
     if (!can_take_over()) return;
-    const Model model;
+    const Compiled model;
     for (const bool waits : {false, true}) {
         std::atomic<int> searches{0};
         DeviceTakeover takeover(model.plan([&] {
@@ -207,7 +207,7 @@ TEST_CASE("where no device is found the first ones go on, and nothing was wrong"
 
 TEST_CASE("a fault of drivers is told once, or thrown at every call") {
     if (!can_take_over()) return;
-    const Model model;
+    const Compiled model;
     const auto fail = []() -> std::vector<FoundDevice> {
         throw Error(Status::device_fault, "the driver is broken\nin many words");
     };
@@ -227,7 +227,7 @@ TEST_CASE("a fault of drivers is told once, or thrown at every call") {
 
 TEST_CASE("a takeover goes when its job has ended, which begins nothing more") {
     if (!can_take_over()) return;
-    const Model model;
+    const Compiled model;
     std::promise<void> begun, found;
     std::atomic<bool> is_gone{false};
     std::atomic<int> set_ups{0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "compile/compiled_scene.hpp"
@@ -19,5 +20,19 @@ struct StatusTree {
 /// it is no more than 2 log2(n) + 2 links. Takes a time that grows as n log(n), whatever the tree's depth.
 /// Throws Error (scene) if there are more clusters than 29 bits can number.
 StatusTree make_status_tree(const CompiledScene& scene);
+
+/// A scene's, made when it is first asked for. Any thread.
+class LateStatusTree {
+public:
+    static const StatusTree& of(const CompiledScene& scene) {
+        LateStatusTree& late = *scene.status_tree;
+        std::call_once(late.is_made_, [&] { late.tree_ = make_status_tree(scene); });
+        return late.tree_;
+    }
+
+private:
+    std::once_flag is_made_;
+    StatusTree tree_;
+};
 
 }  // namespace csgrt

@@ -27,7 +27,7 @@ DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t re
 DeepRayPass::DeepRayPass(Device& device, const Program& program, const CompiledScene& scene)
     : rays_at_a_time(device.info().type == "cpu" ? 256 : 65'536),
       device_(device),
-      scene_(scene),
+      scene_(&scene),
       sort_blocks_(program.kernel("sort_deep_blocks")),
       merge_runs_(program.kernel("merge_deep_runs")),
       clear_status_(program.kernel("clear_status")),
@@ -38,13 +38,11 @@ DeepRayPass::DeepRayPass(Device& device, const Program& program, const CompiledS
 
 bool DeepRayPass::has_tree(std::uint64_t spoken_for) {
     if (tree_) return true;
-    if (!made_) made_ = make_status_tree(scene_);
+    const StatusTree& made = LateStatusTree::of(*scene_);
     std::uint64_t words = 0;
-    for (const auto* list : {&made_->links, &made_->outside, &made_->first_leaves, &made_->leaves})
-        words += list->size();
+    for (const auto* list : {&made.links, &made.outside, &made.first_leaves, &made.leaves}) words += list->size();
     if (words * sizeof(std::uint32_t) + spoken_for > device_.available()) return false;
-    tree_.emplace(device_, *made_, static_cast<std::uint32_t>(scene_.regions.size()));
-    made_.reset();
+    tree_.emplace(device_, made, static_cast<std::uint32_t>(scene_->regions.size()));
     return true;
 }
 
@@ -127,7 +125,7 @@ void DeepRayPass::launch(const BatchBuffers& batch, Work work, PartitionMemory& 
             add(sweep_.launch(group.count, divergent_group(device_), batch.frame, batch.rays, batch.numbers(work),
                               rays_, group.first, cl_uint{listed_[group.first].segment}, group.count, memory.offsets(),
                               memory.ends(), memory.partitions(), segments_, status_, tree_->cluster_words,
-                              static_cast<cl_uint>(scene_.regions.size()), tree_->links, tree_->first_leaves,
+                              static_cast<cl_uint>(scene_->regions.size()), tree_->links, tree_->first_leaves,
                               tree_->leaves, cl_uint{ends_a_launch}, memory.ray_tallies()));
         device_.flush();
     }

@@ -27,6 +27,12 @@ public:
     /// After kernels 2 to 4. Does not wait.
     void launch(const BatchBuffers& batch, Work work, PartitionMemory& memory, TimedKernels& timed);
 
+    /// From now on rays meet another scene.
+    void set_scene(const CompiledScene& scene) {
+        scene_ = &scene;
+        tree_.reset();
+    }
+
     std::uint64_t held() const { return rays_.size() + segments_.size() + status_.size(); }
     void release();
 
@@ -49,10 +55,9 @@ private:
     void sort(PartitionMemory& memory, TimedKernels& timed);
 
     Device& device_;
-    const CompiledScene& scene_;
+    const CompiledScene* scene_;
     Kernel sort_blocks_, merge_runs_, clear_status_, sweep_;
     std::optional<Tree> tree_;
-    std::optional<StatusTree> made_;  ///< not on the device yet
     Buffer rays_, segments_, status_;
     std::vector<kernel::DeepRay> listed_;  ///< and one behind, for the sums
     std::vector<Group> groups_;

@@ -9,7 +9,7 @@ bool prefetches(const Device& device, const CompiledScene& scene, const Settings
 }
 
 std::vector<std::string> options_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
-    std::vector<std::string> options = program_options(device, scene, settings);
+    std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
     options.push_back("CSGRT_PRIVATE_ENDS");
     if (prefetches(device, scene, settings)) options.push_back("CSGRT_PREFETCH");
     if (scene.solids.size() > 32) options.push_back("CSGRT_FEW=64u");  // measured: docs/experiments/gpu-kernels.md

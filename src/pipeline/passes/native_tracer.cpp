@@ -1,6 +1,7 @@
 #include "pipeline/passes/native_tracer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -116,11 +117,6 @@ NativeTracer::NativeTracer(const native::Level& level, const CompiledScene& scen
     describe_rows_ = kernel("describe_rows");
 }
 
-const StatusTree& NativeTracer::status_tree() const {
-    std::call_once(has_status_tree_, [this] { status_tree_ = make_status_tree(scene_); });
-    return *status_tree_;
-}
-
 bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayRecord> rays, Fields fields,
                          const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const {
     kernel::Frame frame = list;
@@ -187,6 +183,25 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
     return true;
 }
 
+void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
+                         const std::atomic<bool>* stop, RowSink& sink, PipelineCounts& counts) const {
+    static thread_local RowMemory rows;
+    std::array<kernel::RayRecord, batch_rays> memory;
+    std::uint64_t size = batch_rays;
+    while (first < end) {
+        const std::span records = std::span(memory).first(std::min(size, end - first));
+        rays.fill(first, records);
+        if (!trace(frame, records, sink.fields(), stop, rows, counts)) {
+            if (records.size() == 1) throw_too_long_ray(budget_);
+            size = records.size() / 2;
+            continue;
+        }
+        sink.put(rows.view(first, records.size(), sink.fields()));
+        counts.done.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(records.size())});
+        first += records.size();
+    }
+}
+
 // One after the other, as DeepRayPass does it (src/pipeline/passes/deep_rays.hpp).
 void NativeTracer::trace_deep_rays(Run& run) const {
     Scratch& s = run.scratch;
@@ -195,7 +210,7 @@ void NativeTracer::trace_deep_rays(Run& run) const {
     for (std::uint32_t ray = 0; ray < run.rays.size(); ++ray) {
         const std::uint32_t segments = s.offsets[ray + 1].segments - s.offsets[ray].segments, ends = 2 * segments;
         if (segments <= DEEP_SEGMENTS) continue;
-        const StatusTree& tree = status_tree();
+        const StatusTree& tree = LateStatusTree::of(scene_);
         const auto cluster_words = static_cast<std::uint32_t>(tree.outside.size()),
                    words = cluster_words + kernel::words_of_set(regions), all = 3 * words;  // as it is, above, below
         std::uint32_t* const status = room_for(s.status, all);

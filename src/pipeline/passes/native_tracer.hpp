@@ -4,12 +4,11 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "compile/lists/rows.hpp"
+#include "compile/lists/ray_list.hpp"
+#include "compile/lists/sink.hpp"
 #include "compile/regions/status_tree.hpp"
 #include "native/kernels.hpp"
 #include "pipeline/counts.hpp"
@@ -30,14 +29,16 @@ public:
     bool trace(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
                const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
 
-    std::uint64_t budget() const { return budget_; }
+    /// Puts the rows of rays [first, end) of a list, a batch after the other. Any thread. Throws Error (out_of_memory,
+    /// interrupted).
+    void trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
+               const std::atomic<bool>* stop, RowSink& sink, PipelineCounts& counts) const;
 
 private:
     struct Scratch;
     struct Run;
     void trace_deep_rays(Run& run) const;
     void write_rows(Run& run, Fields fields, RowMemory& rows) const;
-    const StatusTree& status_tree() const;
 
     const CompiledScene& scene_;
     const std::uint64_t budget_;
@@ -45,8 +46,6 @@ private:
         *count_segments_, *count_in_faces_, *sum_segments_, *store_segments_, *store_in_faces_, *order_ends_, *weave_,
         *evaluate_, *sort_deep_blocks_, *merge_deep_runs_, *clear_status_, *sweep_deep_rays_, *count_rows_,
         *write_rows_, *describe_rows_;
-    mutable std::once_flag has_status_tree_;
-    mutable std::optional<StatusTree> status_tree_;
 };
 
 }  // namespace csgrt

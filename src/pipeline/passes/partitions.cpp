@@ -24,7 +24,7 @@ std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
 // Another evaluation takes all rays: none is deep. Bit arrays of more segments have more words than can be counted.
 std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings,
                                      bool other) {
-    std::vector<std::string> options = program_options(device, scene, settings);
+    std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
     if (other) options.push_back("DEEP_SEGMENTS=0x3ffffu");
     return options;
 }
@@ -34,7 +34,8 @@ std::vector<std::string> options_for(const Device& device, const CompiledScene& 
 PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels,
                              const Settings& settings, const Evaluation* other)
     : device_(device),
-      kernels_(kernels),
+      scene_(&scene),
+      kernels_(&kernels),
       other_evaluation_(other),
       program_(device,
                program_source(device.info(), settings, "partitions",
@@ -63,6 +64,14 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
     if (traces_packets(device, settings))
         packet_candidates_ = {program_.kernel("count_packet_candidates"), program_.kernel("list_packet_candidates")};
     if (has_flat_faced(scene)) rays_in_faces_ = {program_.kernel("count_in_faces"), program_.kernel("store_in_faces")};
+}
+
+void PartitionPass::set_scene(const CompiledScene& scene, const HostKernels& kernels) {
+    scene_ = &scene;
+    kernels_ = &kernels;
+    deep_rays_.set_scene(scene);
+    rows_.set_scene(scene, kernels);
+    average_ = average_before_ = {};
 }
 
 // The first step of a scan: the entries become sums within their block, and each block's sum is written.
@@ -180,7 +189,7 @@ void PartitionPass::count_segments(const Input& input, std::uint32_t candidates,
     device_.flush();
     add(count_segments_.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays, numbers,
                                memory_.candidate_places(), memory_.candidates(), memory_.found()));
-    if (rays_in_faces_)
+    if (rays_in_faces_ && has_flat_faced(*scene_))
         add(rays_in_faces_->count.launch(candidates, work_group, batch.frame, input.scene.geometry(), batch.rays,
                                          numbers, memory_.candidate_places(), memory_.candidates()));
     sum_segments(input, DEEP_WORDS, timed);
@@ -205,7 +214,7 @@ void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates
         store_segments_.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(), batch.rays,
                                numbers, memory_.candidate_places(), memory_.candidates(), memory_.found(),
                                memory_.offsets(), memory_.ends(), memory_.bits()));
-    if (rays_in_faces_)
+    if (rays_in_faces_ && has_flat_faced(*scene_))
         add(&PipelineCounts::store_segments,
             rays_in_faces_->store.launch(segments ? candidates : 0, work_group, batch.frame, input.scene.geometry(),
                                          batch.rays, numbers, memory_.candidate_places(), memory_.candidates(),
@@ -235,7 +244,7 @@ TracedBatch PartitionPass::read(std::uint32_t rays) {
     TracedBatch traced;
     traced.offsets = memory_.offsets().read<kernel::RayCount>(std::size_t{rays} + 1);
     const std::size_t ends = 2 * std::size_t{traced.offsets.back().segments};
-    traced.ends = kernels_.ends(memory_.ends().read<std::byte>(ends * kernels_.end_bytes()));
+    traced.ends = kernels_->ends(memory_.ends().read<std::byte>(ends * kernels_->end_bytes()));
     traced.nodes = memory_.partitions().read<kernel::PartitionNode>(ends);
     return traced;
 }
@@ -267,8 +276,8 @@ void PartitionPass::add_sizes(const PartitionSizes& needed, std::uint32_t rays, 
     counts.segments += needed.total.segments;
     counts.ends += nodes;
     counts.partitions_allocated += nodes;
-    counts.segment_bytes += nodes * kernels_.end_bytes() +
-                            needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_.end_bytes()});
+    counts.segment_bytes += nodes * kernels_->end_bytes() +
+                            needed.candidates * (sizeof(kernel::Candidate) + 2 * std::uint64_t{kernels_->end_bytes()});
     counts.partition_bytes +=
         nodes * sizeof(kernel::PartitionNode) + std::uint64_t{needed.total.words} * sizeof(std::uint32_t);
     average_before_ = std::exchange(average_, {.candidates = double(needed.candidates) / rays,

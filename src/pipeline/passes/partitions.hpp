@@ -42,6 +42,9 @@ public:
     PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
                   const Evaluation* other = nullptr);
 
+    /// From now on rays meet another scene, which the pass's programs draw (see draws()). Both must outlive this.
+    void set_scene(const CompiledScene& scene, const HostKernels& kernels);
+
     /// Kernels 1 to 4. The frame's capacities are COUNT_MAX. Waits for the counts only. Returns what the rays need;
     /// nothing if that does not fit the memory: then the caller takes a smaller batch.
     std::optional<PartitionSizes> trace_counted(const Input& input, TimedKernels& timed);
@@ -107,7 +110,8 @@ private:
     }
 
     Device& device_;
-    const HostKernels& kernels_;
+    const CompiledScene* scene_;
+    const HostKernels* kernels_;
     const Evaluation* other_evaluation_;
     Program program_;
     CullPass cull_;

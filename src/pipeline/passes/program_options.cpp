@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "device/discovery.hpp"
+
 namespace csgrt {
 namespace {
 
@@ -22,14 +24,21 @@ bool traces_packets(const Device& device, const Settings& settings) {
     return device.info().type == "cpu" && settings.precision == Precision::double_;
 }
 
-std::vector<std::string> program_options(const Device& device, const CompiledScene& scene, const Settings& settings) {
-    std::vector<std::string> options = {"CSGRT_SOLIDS=" + std::to_string(scene.solid_types) + "u",
+ProgramNeeds::ProgramNeeds(const CompiledScene& scene)
+    : solid_types(scene.solid_types), large_terms(scene.has_large_terms), shaped_lights(has_shaped_lights(scene)) {}
+
+bool draws(const Device& device, const ProgramNeeds& one, const ProgramNeeds& other) {
+    return is_native(device.info()) || one.covers(other);
+}
+
+std::vector<std::string> program_options(const Device& device, const ProgramNeeds& needs, const Settings& settings) {
+    std::vector<std::string> options = {"CSGRT_SOLIDS=" + std::to_string(needs.solid_types) + "u",
                                         "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
     if (settings.precision == Precision::single) options.push_back("CSGRT_EYE_RELATIVE");
     if (settings.contraction) options.push_back("CSGRT_CONTRACT");
     if (traces_packets(device, settings)) options.push_back("CSGRT_PACKETS");
-    if (scene.has_large_terms) options.push_back("CSGRT_LARGE_TERMS");
-    if (has_shaped_lights(scene)) options.push_back("CSGRT_SHAPED_LIGHTS");
+    if (needs.large_terms) options.push_back("CSGRT_LARGE_TERMS");
+    if (needs.shaped_lights) options.push_back("CSGRT_SHAPED_LIGHTS");
     return options;
 }
 

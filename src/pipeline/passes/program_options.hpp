@@ -20,7 +20,22 @@ std::size_t divergent_group(const Device& device);
 bool traces_packets(const Device& device, const Settings& settings);
 inline constexpr std::uint32_t packet_rays = 8;  // PACKET of kernels/packet/packet.h
 
-/// The options (-D) that a program for this scene is compiled with.
-std::vector<std::string> program_options(const Device& device, const CompiledScene& scene, const Settings& settings);
+/// What a scene asks of its programs. A program that has more gives the same bits.
+struct ProgramNeeds {
+    std::uint32_t solid_types;
+    bool large_terms, shaped_lights;
+
+    explicit ProgramNeeds(const CompiledScene& scene);
+    bool covers(const ProgramNeeds& other) const {
+        return (other.solid_types & ~solid_types) == 0 && large_terms >= other.large_terms &&
+               shaped_lights >= other.shaped_lights;
+    }
+};
+
+/// Can a program of this device that was made for `one` draw `other`? The native device's can draw all.
+bool draws(const Device& device, const ProgramNeeds& one, const ProgramNeeds& other);
+
+/// The options (-D) that a program for such scenes is compiled with.
+std::vector<std::string> program_options(const Device& device, const ProgramNeeds& needs, const Settings& settings);
 
 }  // namespace csgrt

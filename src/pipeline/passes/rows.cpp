@@ -10,8 +10,8 @@ namespace csgrt {
 
 RowPass::RowPass(Device& device, const Program& program, const CompiledScene& scene, const HostKernels& kernels)
     : device_(device),
-      scene_(scene),
-      kernels_(kernels),
+      scene_(&scene),
+      kernels_(&kernels),
       count_rows_(program.kernel("count_rows")),
       write_rows_(program.kernel("write_rows")),
       describe_rows_(program.kernel("describe_rows")),
@@ -26,7 +26,7 @@ RowPass::RowPass(Device& device, const Program& program, const CompiledScene& sc
 
 std::size_t RowPass::row_bytes(std::size_t column) const {
     if (column == regions || column == in_solids || column == out_solids) return sizeof(std::int32_t);
-    return (column == in || column == out ? 1 : 3) * kernels_.wide_bytes();
+    return (column == in || column == out ? 1 : 3) * kernels_->wide_bytes();
 }
 
 bool RowPass::is_wanted(std::size_t column, Fields fields) const {
@@ -65,7 +65,7 @@ bool RowPass::write(const Input& input, const kernel::RayCount& total, Fields fi
     bounds_.release();
     pieces_.release();
     if (is_described) wanted.emplace_back(&bounds_, std::uint64_t{total.segments} * sizeof(kernel::RowEnds));
-    if (fields.overlaps) wanted.emplace_back(&pieces_, std::uint64_t{total.words} * kernels_.piece_bytes());
+    if (fields.overlaps) wanted.emplace_back(&pieces_, std::uint64_t{total.words} * kernels_->piece_bytes());
     if (!reserve(wanted)) return false;
     const auto add = [&](Event event) { timed.emplace_back(&PipelineCounts::rows, std::move(event)); };
     add(write_rows_.launch(total.segments + total.words ? input.count : 0, work_group, input.frame, input.rays,
@@ -105,8 +105,8 @@ void RowPass::start_copy() {
 }
 
 void RowPass::read_overlaps(const TracedBatch& traced) {
-    const auto pieces = kernels_.pieces(pieces_.read<std::byte>(total_.words * kernels_.piece_bytes()));
-    append_overlaps(scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
+    const auto pieces = kernels_->pieces(pieces_.read<std::byte>(total_.words * kernels_->piece_bytes()));
+    append_overlaps(*scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
 }
 
 /// A column in the host's numbers.

@@ -21,6 +21,11 @@ public:
 
     ~RowPass() { cancel(); }
 
+    void set_scene(const CompiledScene& scene, const HostKernels& kernels) {
+        scene_ = &scene;
+        kernels_ = &kernels;
+    }
+
     /// What the kernels read: of the batch that was traced last.
     struct Input {
         const Buffer &frame, &rays, &offsets, &ends, &nodes;
@@ -61,8 +66,8 @@ private:
     const T* column(std::size_t number, std::vector<T>& converted) const;
 
     Device& device_;
-    const CompiledScene& scene_;
-    const HostKernels& kernels_;
+    const CompiledScene* scene_;
+    const HostKernels* kernels_;
     Kernel count_rows_, write_rows_, describe_rows_;
     Buffer places_, bounds_, pieces_;
     std::vector<Buffer> columns_;          ///< by Column

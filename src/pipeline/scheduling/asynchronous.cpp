@@ -143,7 +143,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
     batch.culling.clear();
     batch.drawing.clear();
     if (!every && !acquire_picture(batch, job)) return false;
-    const std::vector<std::byte> frame = passes_.kernels.frame(batch.frame);
+    const std::vector<std::byte> frame = passes_.kernels().frame(batch.frame);
     if (batch_bytes(job.shape(), rays, frame.size()) > passes_.device.available() + batch.buffers.held()) {
         cancel(batch);
         return false;
@@ -151,7 +151,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
     const Device::OnQueue queue(passes_.device, queue_of(batch, every));
     batch.state = State::culled;
     batch.frame_upload.start<std::byte>(batch.buffers.frame, frame);
-    batch.culling.push_back(passes_.cull(batch.frame).launch(passes_.tables, batch.buffers, batch.frame));
+    batch.culling.push_back(passes_.cull(batch.frame).launch(*passes_.tables, batch.buffers, batch.frame));
     const std::uint32_t most_in_parts = every ? 0 : TileListPass::most_in_parts(passes_.device);
     for (Event& event : passes_.tile_list().list(rays, batch.buffers, most_in_parts))
         batch.culling.push_back(std::move(event));
@@ -160,7 +160,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
     if (!every) {
         ReadbackRing::wait(*batch.picture);
         write_background(batch, job);
-        batch.drawing = passes_.first_hits().launch(passes_.tables, batch.buffers, batch.picture->buffer, rays.rays);
+        batch.drawing = passes_.first_hits().launch(*passes_.tables, batch.buffers, batch.picture->buffer, rays.rays);
         batch.state = State::shaded;
     }
     passes_.device.flush();
@@ -168,7 +168,7 @@ bool AsynchronousSchedule::start(Batch& batch, const FrameJob& job, const RayBat
 }
 
 PartitionPass::Input AsynchronousSchedule::input_of(const Batch& batch) const {
-    return {passes_.tables, batch.buffers, Work::tiles, batch.frame.ray_count};
+    return {*passes_.tables, batch.buffers, Work::tiles, batch.frame.ray_count};
 }
 
 void AsynchronousSchedule::upload_frame(Batch& batch, const PartitionSizes& capacity) {
@@ -176,7 +176,7 @@ void AsynchronousSchedule::upload_frame(Batch& batch, const PartitionSizes& capa
     batch.frame.candidate_capacity = capacity.candidates;
     batch.frame.segment_capacity = capacity.total.segments;
     batch.frame.word_capacity = capacity.total.words;
-    batch.frame_upload.start<std::byte>(batch.buffers.frame, passes_.kernels.frame(batch.frame));
+    batch.frame_upload.start<std::byte>(batch.buffers.frame, passes_.kernels().frame(batch.frame));
 }
 
 bool AsynchronousSchedule::acquire_picture(Batch& batch, const FrameJob& job) {

@@ -1,9 +1,6 @@
 #include "pipeline/scheduling/batch_source.hpp"
 
 #include <algorithm>
-#include <string>
-
-#include <csgrt/error.hpp>
 
 namespace csgrt {
 namespace {
@@ -21,12 +18,6 @@ std::uint64_t end_of_batch(const RayNumbers& range, std::uint64_t most, std::uin
 }
 
 }  // namespace
-
-void throw_too_long_ray(std::uint64_t budget) {
-    throw Error(Status::out_of_memory, "the segments of one ray do not fit the device's memory (" +
-                                           std::to_string(budget >> 20) +
-                                           " MiB): raise --max-memory, or use --reference");
-}
 
 bool BatchSource::is_empty() {
     while (!has_ended_ && left_.empty()) {

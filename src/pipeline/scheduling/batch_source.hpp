@@ -15,9 +15,6 @@ namespace csgrt {
 /// The next rays; empty: there are none left.
 using TakeRays = std::function<RayNumbers()>;
 
-/// Throws Error (out_of_memory).
-[[noreturn]] void throw_too_long_ray(std::uint64_t budget);
-
 class BatchSource {
 public:
     /// `most`: rays of a batch, asked for when a range is taken. `row`: of a row of the screen's tiles, so that a batch

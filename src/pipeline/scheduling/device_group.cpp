@@ -91,6 +91,12 @@ void DeviceGroup::share(std::uint64_t rays, std::uint64_t row, bool every_partit
         if (error) std::rethrow_exception(error);
 }
 
+void DeviceGroup::set_scene(const CompiledScene& scene, const HostKernels& kernels, std::shared_ptr<const void> owner) {
+    start_call();
+    for (const auto& pipeline : pipelines_) pipeline->set_scene(scene, kernels);
+    owner_ = std::move(owner);
+}
+
 void DeviceGroup::prepare(bool every_partition) {
     start_call();
     for_chunks(pipelines_.size(), 1, static_cast<unsigned>(pipelines_.size()),

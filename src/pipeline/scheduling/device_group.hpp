@@ -23,6 +23,11 @@ public:
     /// No two in a process have the same, which is not 0.
     std::uint64_t number() const noexcept { return number_; }
 
+    /// From now on another scene is drawn. `owner`: keeps it and its kernels.
+    void set_scene(const CompiledScene& scene, const HostKernels& kernels, std::shared_ptr<const void> owner);
+    /// As set_scene() was given it, or keep(); null: neither was called.
+    const std::shared_ptr<const void>& owner() const { return owner_; }
+    void keep(std::shared_ptr<const void> owner) { owner_ = std::move(owner); }
     void prepare(bool every_partition);
     /// Registers the memory of a picture that will be drawn into again with those GPUs that have room for it: `pixels`
     /// floats of each channel, one channel after the other. It must outlive what is returned; this group need not.
@@ -51,6 +56,7 @@ private:
         Device* device;
         std::uint64_t bytes;
     };
+    std::shared_ptr<const void> owner_;  ///< of the scene
     std::uint64_t number_;
     double setup_ms_ = 0;
     std::vector<Claim> claims_;

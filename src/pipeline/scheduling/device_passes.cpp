@@ -6,12 +6,24 @@ namespace csgrt {
 
 DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const HostKernels& host_kernels,
                            const Settings& settings)
-    : device(on),
-      scene(compiled),
-      kernels(host_kernels),
-      tables(on, compiled, host_kernels.tables()),
-      settings_(settings),
-      tile_list_(on) {}
+    : device(on), scene_(&compiled), kernels_(&host_kernels), needs_(compiled), settings_(settings), tile_list_(on) {
+    tables.emplace(on, compiled, host_kernels.tables());
+}
+
+void DevicePasses::set_scene(const CompiledScene& compiled, const HostKernels& host_kernels) {
+    tables.reset();  // there may be no room for both
+    scene_ = &compiled;
+    kernels_ = &host_kernels;
+    const ProgramNeeds needs(compiled);
+    if (!draws(device, needs_, needs)) {
+        first_hits_.reset();
+        partitions_.reset();
+        needs_ = needs;
+    } else if (partitions_) {
+        partitions_->set_scene(compiled, host_kernels);
+    }
+    tables.emplace(device, compiled, host_kernels.tables());
+}
 
 template <class Build>
 void DevicePasses::timed_build(const Build& build) {
@@ -21,12 +33,12 @@ void DevicePasses::timed_build(const Build& build) {
 }
 
 FirstHitPass& DevicePasses::first_hits() {
-    if (!first_hits_) timed_build([&] { first_hits_.emplace(device, scene, settings_); });
+    if (!first_hits_) timed_build([&] { first_hits_.emplace(device, *scene_, settings_); });
     return *first_hits_;
 }
 
 PartitionPass& DevicePasses::partitions() {
-    if (!partitions_) timed_build([&] { partitions_.emplace(device, scene, kernels, settings_); });
+    if (!partitions_) timed_build([&] { partitions_.emplace(device, *scene_, *kernels_, settings_); });
     return *partitions_;
 }
 

@@ -39,10 +39,13 @@ class DevicePasses {
 public:
     DevicePasses(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
+    /// From now on another scene is drawn. Passes whose programs cannot draw it go; so do buffers that hold the last
+    /// scene. Throws Error (out_of_memory, device_fault).
+    void set_scene(const CompiledScene& scene, const HostKernels& kernels);
+
     Device& device;
-    const CompiledScene& scene;
-    const HostKernels& kernels;
-    SceneTables tables;
+    const HostKernels& kernels() const { return *kernels_; }
+    std::optional<SceneTables> tables;
 
     FirstHitPass& first_hits();
     PartitionPass& partitions();
@@ -64,6 +67,9 @@ private:
     template <class Build>
     void timed_build(const Build& build);
 
+    const CompiledScene* scene_;
+    const HostKernels* kernels_;
+    ProgramNeeds needs_;  ///< of the passes' programs
     Settings settings_;
     std::optional<FirstHitPass> first_hits_;
     std::optional<PartitionPass> partitions_;

@@ -1,7 +1,6 @@
 #include "pipeline/scheduling/native_lists.hpp"
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 
 #include "base/clock.hpp"
@@ -15,23 +14,9 @@ void NativeLists::trace(const kernel::Frame& frame, const RayList& rays, const R
     const auto start = Clock::now();
     std::mutex mutex;
     const auto trace_batch = [&](std::size_t first, std::size_t last) {
-        std::array<kernel::RayRecord, most> memory;
         PipelineCounts own;
-        RowMemory rows;
-        std::size_t size = last - first;
-        while (first < last) {
-            const std::span records = std::span(memory).first(std::min(size, last - first));
-            rays.fill(first, records);
-            if (!tracer_.trace(frame, records, sink.fields(), device_.stop(), rows, own)) {
-                if (records.size() == 1) throw_too_long_ray(tracer_.budget());
-                size = records.size() / 2;
-                continue;
-            }
-            sink.put(rows.view(first, records.size(), sink.fields()));
-            own.done.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(records.size())});
-            first += records.size();
-            if (told) told(records.size());
-        }
+        tracer_.trace(frame, rays, first, last, device_.stop(), sink, own);
+        if (told) told(last - first);
         const std::lock_guard lock(mutex);
         counts += own;
     };

@@ -12,11 +12,16 @@ Pipeline::Pipeline(Device& device, const CompiledScene& scene, const HostKernels
       most_rays_(most_rays),
       synchronous_(
           passes_, [this] { return memory(); }, [this] { return asynchronous_ && asynchronous_->reclaim(); }) {
-    if (const native::Level* const level = native::level_of(device.cl().table, device.id());
-        level && settings.precision == Precision::double_)
-        native_.emplace(*level, scene, device);
+    if (settings.precision == Precision::double_) native_level_ = native::level_of(device.cl().table, device.id());
+    if (native_level_) native_.emplace(*native_level_, scene, device);
     // A processor shares the host's memory, and has no time beside its kernels.
     if (readback == Readback::asynchronous || !is_processor()) asynchronous_.emplace(passes_, synchronous_);
+}
+
+void Pipeline::set_scene(const CompiledScene& scene, const HostKernels& kernels) {
+    abandon();
+    passes_.set_scene(scene, kernels);
+    if (native_level_) native_.emplace(*native_level_, scene, passes_.device);
 }
 
 void Pipeline::prepare(bool every_partition) {
@@ -34,7 +39,7 @@ DeviceMemory Pipeline::memory() const {
 void Pipeline::render(const PreparedFrame& prepared, const TakeRays& take, const RenderTarget& target, const Told& told,
                       PipelineCounts& counts) {
     const kernel::Frame& frame = prepared.frame;
-    passes_.tables.set_lights(passes_.kernels.lights(prepared.lights));
+    passes_.tables->set_lights(passes_.kernels().lights(prepared.lights));
     prepare(frame.every_partition);
     const FrameShape shape = shape_of(frame, target.channels.size());
     const std::uint32_t underway = asynchronous_ ? 2 : 1;

@@ -29,6 +29,9 @@ public:
     Pipeline(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
              Readback readback = Readback::by_device, std::uint64_t most_rays = most_rays_drawn);
 
+    /// From now on another scene is drawn and traced; both must outlive the pipeline. Programs that can draw it stay,
+    /// and buffers. Throws Error (out_of_memory, device_fault).
+    void set_scene(const CompiledScene& scene, const HostKernels& kernels);
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition);
     /// Draws the frame's rays, so far as `take` gives them; each range begins with a tile. Some pixels may come into
@@ -54,7 +57,8 @@ private:
     std::uint64_t most_rays_;
     SynchronousSchedule synchronous_;
     std::optional<AsynchronousSchedule> asynchronous_;
-    std::optional<NativeLists> native_;  ///< if the device is a native one
+    const native::Level* native_level_ = nullptr;  ///< of a native device
+    std::optional<NativeLists> native_;            ///< with its kernels
 };
 
 }  // namespace csgrt

@@ -93,7 +93,7 @@ bool SynchronousSchedule::draw_tiles(const FrameJob& job, const RayBatch& batch)
     frame.ray_count = batch.rays;
     make_room(CullPass::bytes(batch.rays), batch_.costs.size() + batch_.tile_nodes.size());
     upload(frame);
-    const Event culled = passes_.cull(frame).launch(passes_.tables, batch_, frame);
+    const Event culled = passes_.cull(frame).launch(*passes_.tables, batch_, frame);
     const std::vector<std::uint32_t> seen = CullPass::seen(batch, batch_);
     add_time(&PipelineCounts::cull_tiles, culled, job.counts);
 
@@ -121,14 +121,14 @@ void SynchronousSchedule::draw_first_hits(const FrameJob& job, std::uint32_t ray
                                           std::vector<std::uint32_t>& overflown) {
     batch_.report.reserve(sizeof(kernel::BatchReport));
     batch_.report.queue_fill(0, sizeof(kernel::BatchReport));
-    const TimedKernels timed = passes_.first_hits().launch(passes_.tables, batch_, picture_, rays);
+    const TimedKernels timed = passes_.first_hits().launch(*passes_.tables, batch_, picture_, rays);
     overflown = batch_.overflown.read<std::uint32_t>(batch_.report.read<kernel::BatchReport>(1).front().overflows);
     add_times(timed, job.counts);
 }
 
 bool SynchronousSchedule::draw_partitions(const FrameJob& job, Work work, std::uint32_t rays, bool are_tallied) {
     PartitionPass& pass = passes_.partitions();
-    const PartitionPass::Input input{passes_.tables, batch_, work, rays};
+    const PartitionPass::Input input{*passes_.tables, batch_, work, rays};
     TimedKernels timed;
     const auto sizes = trace(input, timed);
     if (!sizes) return false;
@@ -162,7 +162,7 @@ void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch&
 }
 
 void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch) {
-    const std::size_t bytes = passes_.kernels.ray_bytes();
+    const std::size_t bytes = passes_.kernels().ray_bytes();
     wait_until_done(rays_upload_);  // of a call that threw
     if (!staged_rays_ || staged_rays_->size() < batch.rays * bytes) {
         staged_rays_.reset();
@@ -174,8 +174,8 @@ void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch
         for (; first < last; first += records.size()) {
             const std::span some = std::span(records).first(std::min(records.size(), last - first));
             rays.fill(batch.first + first, some);
-            passes_.kernels.check(some, batch.first + first);
-            passes_.kernels.write_rays(some, staged + first * bytes);
+            passes_.kernels().check(some, batch.first + first);
+            passes_.kernels().write_rays(some, staged + first * bytes);
         }
     });
     batch_.rays.reserve(batch.rays * bytes);
@@ -201,7 +201,7 @@ void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& r
         frame.ray_count = batch.rays;
         upload(frame);
         TimedKernels timed;
-        const PartitionPass::Input input{passes_.tables, batch_, Work::rays, batch.rays};
+        const PartitionPass::Input input{*passes_.tables, batch_, Work::rays, batch.rays};
         const auto sizes = trace(input, timed);
         take_copied();
         if (!sizes || !pass.write_rows(input, batch.first, sink.fields(), timed)) return false;

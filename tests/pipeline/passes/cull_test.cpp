@@ -41,7 +41,8 @@ Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame)
     const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
     Device device(settings.device);
     const SceneTables scene(device, compiled, kernels->tables());
-    const Program program(device, assemble_program({CullPass::file}), program_options(device, compiled, settings));
+    const Program program(device, assemble_program({CullPass::file}),
+                          program_options(device, ProgramNeeds(compiled), settings));
     CullPass kernel_0(device, program);
     BatchBuffers batch(device);
     batch.frame = Buffer(device, "frame", kernels->frame(frame));

@@ -1,0 +1,68 @@
+// A scene, compiled: what Renderers draw, and what single rays meet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <csgrt/partitions.hpp>
+#include <csgrt/scene.hpp>
+#include <csgrt/settings.hpp>
+
+namespace csgrt {
+
+/// One region of the compiled model.
+struct RegionInfo {
+    std::string path = {};  ///< "/top/.../region"
+    Fastgen fastgen = Fastgen::none;
+    int region_id = 0, air = 0, material_id = 0, los = 0;  ///< as in Combination
+    Vec3 color{1, 1, 1};                                   ///< display values: red, green, blue; 0 to 1
+    Finish finish = {};
+    Box bounds = {};  ///< millimetres; as BRL-CAD computes it, so not always tight
+};
+
+/// One solid of the compiled model.
+struct SolidInfo {
+    std::string name = {};
+    std::string type = {};    ///< as type_name() has it
+    std::uint32_t piece = 0;  ///< csgrt cuts a pipe into several solids: which of them this is, from 0
+};
+
+/// A compiled scene. It never changes: any number of threads may use it, and any number of Renderers draw it. A copy is
+/// the same model. A child of fork() may use its parent's.
+class CSGRT_API Model {
+public:
+    /// Validates and compiles `scene`, which is not needed afterwards. `objects` are names, or paths such as
+    /// "all.g/tor.r", which give an object the place and the attributes that it has there; none: the scene's top
+    /// objects. Of the settings those of the scene count (air, skip_unsupported, display_shading, max_instances), the
+    /// tolerance and `threads`. Throws Error: scene, usage.
+    explicit Model(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
+
+    // The references are valid as long as any copy of the Model.
+
+    /// The box around all regions' boxes, millimetres; low > high if no region is bounded.
+    const Box& bounds() const;
+    /// By the index that Partitions::region_ids has.
+    const std::vector<RegionInfo>& regions() const;
+    /// By the index that Partitions::in_solids has.
+    const std::vector<SolidInfo>& solids() const;
+    /// What the scene's reader tolerated, what was left out and other notes, each once per object and reason.
+    const std::vector<Warning>& warnings() const;
+    /// Millimetres, in double precision by the settings' rule.
+    double tolerance() const;
+
+    /// As Renderer::partitions(), on the calling thread alone: for single rays and short lists. The bits are those of a
+    /// Renderer in double precision, with the settings that the Model was given. The native device's kernels trace, or
+    /// the reference where there are none. Throws Error: usage, out_of_memory.
+    void partitions(std::span<const Ray> rays, Partitions& answer, Fields fields = {},
+                    const RayRanges& ranges = {}) const;
+
+private:
+    friend class Renderer;
+    struct Impl;
+    std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace csgrt
