@@ -10,8 +10,6 @@ using namespace csgrt;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Two balls in a row along x: from 0 to 2 and from 2 to 4, and a third that overlaps the second, from 3 to 5.
 Scene balls() {
     Scene scene;
