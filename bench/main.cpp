@@ -6,7 +6,9 @@
 //
 // --floors: also what a frame of every partition must do at least, counted, beside what was measured of it (nothing is
 // measured with --frames 0).
-// --lists: in place of pictures the partitions along their rays, as arrays: regions and distances.
+// --lists: in place of pictures what is asked of their rays: partitions (regions and distances) of a list and of a
+// grid, the same with all fields, first hits, `shoot`, and of as many points and pixels of a slice through the model's
+// middle which regions hold them.
 // --color: pictures of colours alone, as a viewer shows them, in place of all channels.
 // --orbit N: a frame at each of N azimuths around the model, as a viewer draws them, in place of --frames from one
 // side. Afterwards the orbit is drawn again, and its pictures must be those that are drawn into new memory, bit by bit;
@@ -16,6 +18,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <random>
 #include <tuple>
 
 #include <csgrt/csgrt.hpp>
@@ -67,32 +72,81 @@ void check_orbit(const std::string& workload, Renderer& renderer, bool every_par
     }
 }
 
-Figures measure(const Workload& workload, Renderer& renderer, bool every_partition, const Options& options) {
+/// What is measured: once per frame.
+struct Task {
+    std::string mode;
+    std::function<void(Renderer&, int frame)> work;
+    bool every_partition = true;
+};
+
+/// Rays, points and answers that tasks share.
+struct ListData {
+    std::vector<Ray> rays;
+    std::vector<Vec3> points;
+    RayGrid grid;
+    Slice slice;
+    Partitions partitions;
+    Hits hits;
+    Array<std::int32_t> ids;
+};
+
+std::vector<Task> picture_tasks(const Options& options) {
+    std::vector<Task> tasks;
+    for (const bool every_partition : {true, false}) {
+        if (!(every_partition ? options.every_partition : options.first_hits)) continue;
+        const auto framebuffer = std::make_shared<Framebuffer>();
+        tasks.push_back({every_partition ? "every partition" : "first hits",
+                         [&options, every_partition, framebuffer](Renderer& renderer, int frame) {
+                             renderer.render(view_of(options, every_partition, frame), *framebuffer);
+                         },
+                         every_partition});
+    }
+    return tasks;
+}
+
+std::vector<Task> list_tasks(const Model& model, const Options& options) {
+    const View view = view_of(options, true, 0);
+    const Box& box = model.bounds();
+    const auto d = std::make_shared<ListData>();
+    d->grid = model.grid_of(view);
+    for (int row = 0; row < options.size; ++row)
+        for (int column = 0; column < options.size; ++column) d->rays.push_back(d->grid.ray(column, row));
+    d->slice = slice_of(box, {0, 0, 1}, 0.5 * (box.low.z + box.high.z), options.size, options.size);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto between = [&](double low, double high) { return low + unit(random) * (high - low); };
+    for (std::size_t i = 0; i < d->rays.size(); ++i)
+        d->points.push_back(
+            {between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)});
+    constexpr Fields all{.solids = true, .normals = true, .overlaps = true};
+    return {{"lists", [d](Renderer& renderer, int) { renderer.partitions(d->rays, d->partitions); }},
+            {"lists, all fields", [d](Renderer& renderer, int) { renderer.partitions(d->rays, d->partitions, all); }},
+            {"lists, grids", [d](Renderer& renderer, int) { renderer.partitions(d->grid, d->partitions); }},
+            {"lists, first hits", [d](Renderer& renderer, int) { renderer.cast_rays(d->rays, d->hits); }},
+            {"lists, shoot", [d](Renderer& renderer, int) { renderer.shoot(d->rays); }},
+            {"points", [d](Renderer& renderer, int) { renderer.region_at(d->points, d->ids); }},
+            {"slice", [d](Renderer& renderer, int) { renderer.slice(d->slice, d->ids); }}};
+}
+
+Figures measure(const Workload& workload, Renderer& renderer, const Task& task, const Options& options) {
     const double setup = renderer.statistics().ms.build;
     const auto start = Clock::now();
-    Framebuffer framebuffer;
-    renderer.render(view_of(options, every_partition, 0), framebuffer);  // compiles kernels and takes memory
+    task.work(renderer, 0);  // compiles kernels and takes memory
     Figures f;
     f.ms = {{"compile", renderer.statistics().ms.compile}, {"build", renderer.statistics().ms.build}};
     f.ms.emplace_back("first", renderer.statistics().ms.compile + setup + milliseconds_since(start));
     std::vector<Statistics> frames;
     const int count = options.orbit > 0 ? options.orbit : options.frames;
-    const std::vector<Ray> rays =
-        options.lists ? renderer.rays_of(view_of(options, every_partition, 0)) : std::vector<Ray>();
-    Partitions answer;
-    if (options.lists) renderer.partitions(rays, answer);
     for (int i = 0; i < count; ++i) {
-        if (options.lists)
-            renderer.partitions(rays, answer);
-        else
-            renderer.render(view_of(options, every_partition, i), framebuffer);
+        const auto begin = Clock::now();
+        task.work(renderer, i);
         frames.push_back(renderer.statistics());
+        if (options.lists) frames.back().ms.frame = milliseconds_since(begin);  // all that the caller waits for
     }
     const Statistics& s = frames.front();
     f.workload = workload.name;
     f.device = s.device;
-    f.mode = every_partition ? "every partition" : "first hits";
-    if (options.lists) f.mode = "lists";
+    f.mode = task.mode;
     if (options.color) f.mode += ", colors alone";
     f.size = options.size;
     f.frames = count;
@@ -200,14 +254,14 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
         if (options.floors) floors.push_back(count_floor(workload.name, scene, workload.objects));
         if (options.frames == 0 && options.orbit == 0) continue;
         for (const std::string& device : options.devices) {
-            for (const bool every_partition : {true, false}) {
-                if (!(every_partition ? options.every_partition : options.first_hits)) continue;
-                Settings settings;
-                settings.device = device;
-                settings.wait_for_device = true;
+            Settings settings;
+            settings.device = device;
+            settings.wait_for_device = true;
+            for (const Task& task :
+                 options.lists ? list_tasks(Model(scene, workload.objects), options) : picture_tasks(options)) {
                 Renderer renderer(scene, workload.objects, settings);
-                all.push_back(measure(workload, renderer, every_partition, options));
-                check_orbit(workload.name, renderer, every_partition, options);
+                all.push_back(measure(workload, renderer, task, options));
+                check_orbit(workload.name, renderer, task.every_partition, options);
                 all.back().ms.emplace(all.back().ms.begin(), "load", load);
                 std::fprintf(stderr, "%s, %s: frame %.2f ms\n", workload.name.c_str(), all.back().mode.c_str(),
                              all.back().time("frame"));

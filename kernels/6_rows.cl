@@ -2,10 +2,12 @@
 // stand together, in order of distance.
 //
 //   count rows -> (scan) -> write rows -> describe rows
+//                                      -> count claimants -> (scan) -> list claimants
 //
 // Each array is optional: its argument is 0 if nobody asked for it.
 #include "shared/scene_args.h"
 #include "geometry/solid.h"
+#include "boolean/claimants.h"
 #include "boolean/rows.h"
 
 static ray_rows rows_at(__global const Frame* frame, __global const RayRecord* rays, u32 ray,
@@ -98,4 +100,42 @@ __kernel void describe_rows(__global const Frame* frame, GEOMETRY_ARGS, __global
     b = bounds[id];
     describe_end(frame, g, rays, ends, b.ray, b.in_end, 0, id, in_solids, in_normals);
     describe_end(frame, g, rays, ends, b.ray, b.out_end, 1, id, out_solids, out_normals);
+}
+
+// The partition of a piece that no deep ray has; kernel 4 evaluated it.
+static cover cover_of(OverlapPiece piece, __global const SolidRecord* solids, REGION_ARGS,
+                      __global const RayCount* offsets, __global const End* ends, __global const u32* bits) {
+    const RayCount offset = offsets[piece.ray];
+    cover c;
+    c.segments = offsets[piece.ray + 1].segments - offset.segments;
+    c.ends = ends + 2 * (size_t)offset.segments;
+    c.bits = bits + offset.words + piece.node * words_of(c.segments);
+    c.missed = 0;
+    c.marked = 1;
+    c.solids = solids;
+    c.starts = starts;
+    c.trees = trees;
+    return c;
+}
+
+// One work-item a piece: how many claims list_claimants stores on the way.
+__kernel void count_claimants(EVALUATION_ARGS, __global const RayCount* offsets, __global const End* ends,
+                              __global const u32* bits, __global const OverlapPiece* pieces, u32 piece_count,
+                              __global RayCount* places) {
+    const u32 id = (u32)get_global_id(0);
+    RayCount count;
+    if (id >= piece_count) return;
+    count.words = 0;
+    count.segments = claims_at_most(cover_of(pieces[id], solids, starts, trees, offsets, ends, bits));
+    places[id] = count;
+}
+
+__kernel void list_claimants(__global const Frame* frame, EVALUATION_ARGS, __global const RayCount* offsets,
+                             __global const End* ends, __global const u32* bits, __global const OverlapPiece* pieces,
+                             u32 piece_count, __global const RayCount* places, __global u32* claimants,
+                             __global u32* counts) {
+    const u32 id = (u32)get_global_id(0);
+    if (id >= piece_count) return;
+    counts[id] = all_claimants(cover_of(pieces[id], solids, starts, trees, offsets, ends, bits), frame->rank_ends,
+                               claimants + places[id].segments);
 }

@@ -147,7 +147,7 @@ private:
         frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
         batch_.frame = Buffer(device_, "frame", kernels_->frame(frame));
         std::vector<kernel::RayRecord> records(rays.size());
-        RayList(rays, {}).fill(0, records);
+        RayList(rays).fill(0, records);
         batch_.rays = Buffer(device_, "list of rays", kernels_->rays(records));
         TimedKernels timed;
         if (!pass_.trace_counted({scene_tables_, batch_, Work::rays, count}, timed)) return false;

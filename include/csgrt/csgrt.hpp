@@ -30,6 +30,7 @@
 #include <csgrt/method.hpp>
 #include <csgrt/model.hpp>
 #include <csgrt/partitions.hpp>
+#include <csgrt/rays.hpp>
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>
 #include <csgrt/scene_io.hpp>

@@ -10,6 +10,7 @@
 #include <csgrt/partitions.hpp>
 #include <csgrt/scene.hpp>
 #include <csgrt/settings.hpp>
+#include <csgrt/view.hpp>
 
 namespace csgrt {
 
@@ -53,11 +54,20 @@ public:
     /// Millimetres, in double precision by the settings' rule.
     double tolerance() const;
 
-    /// As Renderer::partitions(), on the calling thread alone: for single rays and short lists. The bits are those of a
-    /// Renderer in double precision, with the settings that the Model was given. The native device's kernels trace, or
-    /// the reference where there are none. Throws Error: usage, out_of_memory.
-    void partitions(std::span<const Ray> rays, Partitions& answer, Fields fields = {},
-                    const RayRanges& ranges = {}) const;
+    /// The rays of a picture, one a pixel, as Renderer::rays_of() lists them in double precision. Throws Error (usage).
+    RayGrid grid_of(const View& view) const;
+    /// The one of a pixel, counted from the top left. Throws Error (usage).
+    Ray ray_of(const View& view, int column, int row) const { return grid_of(view).ray(column, row); }
+
+    // The next five do what a Renderer's do, on the calling thread alone: for single rays and short lists. The bits are
+    // those of a Renderer in double precision, with the settings that the Model was given. The native device's kernels
+    // trace, or the reference where there are none. They throw Error: usage, out_of_memory.
+
+    void partitions(const Rays& rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {}) const;
+    void cast_rays(const Rays& rays, Hits& answer, Fields fields = {}, const RayRanges& ranges = {}) const;
+    void occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges = {}) const;
+    void region_at(std::span<const Vec3> points, Array<std::int32_t>& answer) const;
+    void slice(const Slice& slice, Array<std::int32_t>& answer) const;
 
 private:
     friend class Renderer;

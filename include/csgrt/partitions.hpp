@@ -1,26 +1,18 @@
-// Rays, and what they meet: which region holds which part of a ray.
+// What rays meet: which region holds which part of a ray.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <new>
-#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <csgrt/rays.hpp>
 #include <csgrt/vector.hpp>
 
 namespace csgrt {
-
-/// The ray origin + t x direction, t >= 0. Distances t along it are in units of the direction's length, which may be
-/// any but 0: millimetres if the direction is a unit vector. Limits has the range of both.
-struct Ray {
-    Vec3 origin = {};  ///< millimetres
-    Vec3 direction = {};
-};
 
 /// A part of a ray that one region holds.
 struct Partition {
@@ -44,18 +36,6 @@ struct Overlap {
 struct RayPartitions {
     std::vector<Partition> partitions = {};
     std::vector<Overlap> overlaps = {};
-};
-
-/// What of a ray is asked for: t_near <= t <= t_far, in lengths of the ray's direction. From -infinity to infinity it
-/// is the whole line.
-struct RayRange {
-    double t_near = 0, t_far = std::numeric_limits<double>::infinity();
-};
-
-/// The ranges of a list of rays.
-struct RayRanges {
-    RayRange all = {};
-    std::span<const RayRange> each = {};  ///< one a ray, in place of `all`; empty: `all` counts
 };
 
 /// What a list of rays is asked for besides rays, regions and distances.
@@ -126,6 +106,16 @@ struct Partitions {
     Array<double> overlap_t_in = {}, overlap_t_out = {};  ///< (overlaps)
     Array<std::int64_t> overlap_region_splits = {};       ///< (overlaps + 1)
     Array<std::int32_t> overlap_region_ids = {};          ///< all claimants of an overlap, ascending
+};
+
+/// Where a list of rays first meets a region: of each ray the first row that Partitions would have.
+struct Hits {
+    Array<double> t_hit = {};             ///< (rays), distances in lengths of the ray's direction; infinity: a miss
+    Array<std::int32_t> region_ids = {};  ///< (rays), indices into Renderer::regions(); -1: a miss
+    /// (rays), if asked for: whose surface it is, index into Renderer::solids(); -1: a miss, or the range begins inside
+    /// the region.
+    Array<std::int32_t> solid_ids = {};
+    Array<Vec3> normals = {};  ///< (rays), if asked for: unit vectors, outward from the region; zeros where solid is -1
 };
 
 }  // namespace csgrt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -57,9 +58,25 @@ public:
     /// its index), out_of_memory, device_fault, interrupted.
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
-    /// The same as arrays, whose memory is used again: only those that are asked for are computed. `ranges`: what of
-    /// the rays is wanted. Throws as shoot().
-    void partitions(std::span<const Ray> rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {});
+    // Lists in arrays, whose memory is used again. All throw as shoot().
+
+    /// Everything along each ray, within its range: the arrays that `fields` asks for.
+    void partitions(const Rays& rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {});
+    /// The same in batches of at most `most` rays, one after the other in the same arrays. `take` gets each with the
+    /// number of its first ray, on one thread at a time, and returns false to end the call. statistics() is of the last
+    /// batch.
+    void partitions(const Rays& rays, const std::function<bool(const Partitions&, std::uint64_t)>& take,
+                    Fields fields = {}, const RayRanges& ranges = {}, std::uint64_t most = 1'000'000);
+    /// Where each ray first meets a region, within its range. Of the fields, `overlaps` counts for nothing.
+    void cast_rays(const Rays& rays, Hits& answer, Fields fields = {}, const RayRanges& ranges = {});
+    /// 1 for each ray that meets any region within its range, else 0.
+    void occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges = {});
+    /// The region that holds each point, in millimetres, or -1: what a ray along x meets there, so of two regions that
+    /// touch at the point the one that begins, and of several that overlap the first.
+    void region_at(std::span<const Vec3> points, Array<std::int32_t>& answer);
+    /// The region that holds each pixel's middle, row by row: what a ray along its row meets there. -1: none, -2:
+    /// several, which overlap.
+    void slice(const Slice& slice, Array<std::int32_t>& answer);
 
     /// The rays of a picture, one a pixel, row by row from the top left. Throws Error (usage).
     std::vector<Ray> rays_of(const View& view) const;

@@ -9,8 +9,8 @@
 typedef struct {
     GLOBAL const End* ends;
     GLOBAL const PartitionNode* nodes;
-    u32 node;  // of the next partition; NONE: no more
-    u32 cuts;  // see Frame
+    u32 node;    // of the next partition; NONE: no more
+    u32 answer;  // see Frame
     wide near, far;
 #ifdef CSGRT_EYE_RELATIVE
     wide start, unit;  // a distance is (start + t) / unit
@@ -30,7 +30,7 @@ FN ray_rows rows_of(GLOBAL const Frame* f, RayRecord record, GLOBAL const End* e
     w.ends = ends;
     w.nodes = nodes;
     w.node = first_partition(nodes, segment_count);
-    w.cuts = f->cuts;
+    w.answer = f->answer;
     w.near = record.t_near;
     w.far = record.t_far;
 #ifdef CSGRT_EYE_RELATIVE
@@ -52,7 +52,7 @@ FN wide row_distance(ray_rows w, real t) {
 // Cuts it. 0: the range holds nothing of it. A range that is one point holds what begins there, not what ends there.
 FN int cut_row(ray_rows w, ray_row* row) {
     const wide in = row->in, out = row->out;
-    if (!w.cuts) return !(out < w.near);
+    if (!(w.answer & ANSWER_CUT)) return !(out < w.near);
     if (in < w.near) {
         row->in = w.near;
         row->in_end = NONE;
@@ -85,7 +85,10 @@ FN int next_row(ray_rows* w, ray_row* row) {
         row->out_end = last.out_end;
         row->in = row_distance(*w, w->ends[row->in_end].t);
         row->out = row_distance(*w, w->ends[row->out_end].t);
-        if (cut_row(*w, row)) return 1;
+        if (cut_row(*w, row)) {
+            if (w->answer & ANSWER_FIRST) w->node = NONE;
+            return 1;
+        }
     }
     return 0;
 }
@@ -100,7 +103,7 @@ FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
         if (!(n.owner & OVERLAP)) continue;
         row->in = row_distance(*w, w->ends[n.in_end].t);
         row->out = row_distance(*w, w->ends[n.out_end].t);
-        if (cut_row(*w, row) || !w->cuts) return 1;
+        if (cut_row(*w, row) || !(w->answer & ANSWER_CUT)) return 1;
     }
     return 0;
 }

@@ -118,7 +118,7 @@ FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
     wanted.t_min = record.t_near - slack;
     wanted.t_max = record.t_far + slack;
 #endif
-    if (!f->cuts) wanted.t_min = -REAL_INFINITY;
+    if (!(f->answer & ANSWER_CUT)) wanted.t_min = -REAL_INFINITY;
     return wanted;
 }
 

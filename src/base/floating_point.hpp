@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cfenv>
-
-#include "base/watch.hpp"
+#include <functional>
+#include <utility>
 
 namespace csgrt {
 
@@ -19,11 +19,12 @@ public:
     ~FloatingPoint() { std::fesetenv(&before_); }
 
     /// The host's function, which computes as the host did before this; on whatever thread. Both must outlive it.
-    Progress of_host(const Progress& progress) const {
-        if (!progress) return {};
-        return [this, &progress](double done) {
+    template <class Result, class... Arguments>
+    std::function<Result(Arguments...)> of_host(const std::function<Result(Arguments...)>& function) const {
+        if (!function) return {};
+        return [this, &function](Arguments... arguments) {
             const FloatingPoint hosts(&before_);
-            return progress(done);
+            return function(std::forward<Arguments>(arguments)...);
         };
     }
 

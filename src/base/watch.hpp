@@ -24,7 +24,14 @@ public:
     static void over(const Progress& progress, const std::function<void(Watch&)>& work);
 
     /// From now on, done() is a part of so many steps. 0: there are none.
-    void begin(std::uint64_t steps) { steps_ = steps; }
+    void begin(std::uint64_t steps) {
+        if (!is_all_) steps_ = steps;
+    }
+    /// The same, of several pieces of work, each of which calls begin() for its own.
+    void begin_all(std::uint64_t steps) {
+        steps_ = steps;
+        is_all_ = true;
+    }
     /// So many more are done. Throws Error (interrupted) if the work is to end, and some are left.
     void add(std::uint64_t steps) {
         if (done_.fetch_add(steps) + steps < steps_) check();
@@ -39,7 +46,7 @@ public:
 private:
     std::atomic<std::uint64_t> steps_{0}, done_{0};
     std::atomic<bool> stop_{false};
-    bool is_followed_ = false;
+    bool is_followed_ = false, is_all_ = false;
 };
 
 }  // namespace csgrt

@@ -18,6 +18,8 @@ constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", fa
 constexpr const char* scene_help =
     "scene file: .json, .g or .asc; - is standard input, whose first bytes tell the format";
 constexpr std::pair<std::string_view, const char*> formats[] = {{"exr", "exr"}, {"png", "png"}};
+constexpr std::pair<std::string_view, RowFormat> row_formats[] = {
+    {"text", RowFormat::text}, {"csv", RowFormat::csv}, {"binary", RowFormat::binary}, {"npy", RowFormat::npy}};
 constexpr std::uint64_t most_sampled = 10'000'000;  ///< rays are kept in memory; a file may hold more
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -118,6 +120,17 @@ void define_either(Options& options, Settings& settings) {
         .excludes = "--reference";
 }
 
+Option& define_size(Options& options, int& width, int& height) {
+    auto parse_sides = [&height](const std::string& text) {
+        auto size = parse_size(text);
+        if (size) height = size->second;
+        return size ? std::optional(size->first) : std::nullopt;
+    };
+    return options.value("--size", "N|WxH", "pixels, one side or width and height; 1024 if not given", width,
+                         parse_sides,
+                         "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
+}
+
 void define(Options& options, RenderArguments& arguments) {
     define_scene(options, arguments);
     auto& output = options.list(
@@ -127,13 +140,7 @@ void define(Options& options, RenderArguments& arguments) {
     output.letter = 'o';
     options.choice("--format", "format on standard output, a device or a pipe; exr if not given", arguments.format,
                    formats);
-    auto parse_sides = [&arguments](const std::string& text) {
-        auto size = parse_size(text);
-        if (size) arguments.height = size->second;
-        return size ? std::optional(size->first) : std::nullopt;
-    };
-    options.value("--size", "N|WxH", "pixels, one side or width and height; 1024 if not given", arguments.width,
-                  parse_sides, "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
+    define_size(options, arguments.width, arguments.height);
     options.number("--azimuth", "DEG", "direction of the eye, from +x about z; the scene's, or 35, if not given",
                    arguments.azimuth, -unlimited, unlimited, "an angle in degrees");
     options.number("--elevation", "DEG", "direction of the eye, upward; the scene's, or 25, if not given",
@@ -187,11 +194,44 @@ void define(Options& options, RenderArguments& arguments) {
 
 void define(Options& options, ShootArguments& arguments) {
     define_scene(options, arguments);
-    auto& rays = options.text("--rays", "FILE",
-                              "file of rays, one a line: ox oy oz dx dy dz (# begins a comment); - is standard input",
-                              arguments.rays);
-    rays.required = true;
+    auto parse_rays = [&arguments](const std::string& text) {
+        constexpr std::string_view grid = "grid:";
+        if (!text.starts_with(grid)) return text.empty() ? std::nullopt : std::optional(text);
+        arguments.grid = parse_grid(std::string_view(text).substr(grid.size()));
+        return arguments.grid ? std::optional(std::string()) : std::nullopt;
+    };
+    options
+        .value("--rays", "FILE|grid:AXIS:N",
+               "file of rays, one a line: ox oy oz dx dy dz (# begins a comment); - is standard input; or N by N rays "
+               "along the axis x, y or z that cover the model's box",
+               arguments.rays, parse_rays,
+               "a file, or a grid such as grid:x:512, of 1 to " + std::to_string(max_side) + " rays each way")
+        .required = true;
+    const auto bound = [&options](const char* name, const char* help, std::optional<double>& target) {
+        options.value(name, "T", help, target, parse_bound, "a number, inf or -inf");
+    };
+    bound("--near", "where rays begin, in lengths of their directions, as in and out; 0 if not given", arguments.near);
+    bound("--far", "where rays end; inf if not given", arguments.far);
+    options.choice("--format", "format of the partitions; text if not given", arguments.format, row_formats);
     auto& output = options.text("--output", "FILE", "where to write the partitions; standard output if not given",
+                                arguments.output);
+    output.letter = 'o';
+    define_either(options, arguments.settings);
+}
+
+void define(Options& options, SampleArguments& arguments) {
+    define_scene(options, arguments);
+    options.text("--points", "FILE", "file of points, one a line: x y z (# begins a comment); - is standard input",
+                 arguments.points);
+    options
+        .value("--plane", "AXIS:OFFSET",
+               "plane across the axis x, y or z at OFFSET mm; NX,NY,NZ:OFFSET: the points p with n . p = OFFSET, n "
+               "being the unit vector of NX,NY,NZ",
+               arguments.plane, parse_plane, "a plane such as z:2.5 or 1,0,1:2.5")
+        .excludes = "--points";
+    define_size(options, arguments.width, arguments.height).excludes = "--points";
+    auto& output = options.text("--output", "FILE",
+                                "FILE.npy, FILE.csv, or of a plane FILE.png; CSV on standard output if not given",
                                 arguments.output);
     output.letter = 'o';
     define_either(options, arguments.settings);
@@ -237,6 +277,7 @@ void define(Options&, TextArguments& arguments) { arguments.text = methods_notes
 void define(Options& options, InfoArguments& arguments) {
     define_scene(options, arguments);
     options.count("--depth", "levels of the tree to show; 2 if not given", arguments.depth, 0, Limits::nesting);
+    options.flag("--json", "print one JSON object instead, without the tree", arguments.json);
 }
 
 void define(Options& options, ConvertArguments& arguments) {
@@ -286,6 +327,8 @@ constexpr Entry entries[] = {
                            "render a scene, as FILE.exr or FILE.png", render_notes),
     entry<ShootArguments>("shoot", "csgrt shoot SCENE [OBJECT...] --rays FILE", "list the partitions along given rays",
                           shoot_notes),
+    entry<SampleArguments>("sample", "csgrt sample SCENE [OBJECT...] --plane z:0", "tell which region holds points",
+                           sample_notes),
     entry<VerifyArguments>("verify", "csgrt verify SCENE [OBJECT...]", "judge a scene's answers by 113-bit ones",
                            verify_notes),
     entry<CompareArguments>("compare", "csgrt compare A B", "compare two pictures, or two files of partitions",

@@ -34,10 +34,10 @@ A ray is a line of six numbers, separated by blanks: ox oy oz dx dy dz. Blank li
   dx dy dz       direction of any length; its largest component is from 1e-250 to 1e250
 A number too small for a double is read as 0; one too large is an error.
 
-The output begins with lines that start with #: version and model; counts of rays, solids and
-regions, whether air is kept (useair), the tolerance (tol.dist, mm); the box of the model (box, low
-and high corner in mm, or 'unbounded' or 'empty'). Then each ray, in the order of the input, has a
-line of four words:
+The text begins with lines that start with #: version and model; counts of rays, solids and regions,
+whether air is kept (useair), the tolerance (tol.dist, mm); the box of the model (box, low and high
+corner in mm, or 'unbounded' or 'empty'). Then each ray, in the order of the input, has a line of
+four words:
   ray            this word
   INDEX          the ray's number, from 0
   PARTITIONS     how many lines of partitions follow
@@ -63,6 +63,36 @@ Numbers have 17 digits, so that they read back to the same bits. A blank or a ba
 is written as \ooo, its byte in octal. Ends closer than the tolerance are one. Regions that only
 touch do not overlap. If any line of the input is wrong, all wrong lines are reported, no ray is
 shot, and the exit status is 6.
+
+With --near or --far what lies outside of that range is cut off. A cut end has the bound as its
+distance, the normal 0 0 0, and - as its solid and type.
+
+The other formats have a row for each partition, cut at the range, and no overlaps. A ray that meets
+nothing has no row.
+  csv            a line of names, then a line a row: ray, the ray's number; reg_name, path_name and
+                 reg_id, the region's name, path and number; x y z and d of each end in mm, d being
+                 BRL-CAD's: it decreases along the ray; los, the length in mm; scaled_los, los times
+                 the region's los / 100; obliq of each end, the angle between ray and normal in
+                 degrees, empty where the range cuts the row
+  npy            an array for NumPy, of records: ray <i8; region_id, in_solid, out_solid <i4; t_in,
+                 t_out <f8; in_normal, out_normal 3 x <f8. region_id is the region's index as in
+                 'csgrt info --json'; a solid is -1 where the range cuts the row
+  binary         the same records, of 84 bytes each, and nothing else
+)";
+
+inline constexpr const char* sample_notes = R"(
+Methods that are kept for comparison have options of their own: 'csgrt help methods'.
+
+Lengths are millimetres. A region is given by its index as in 'csgrt info --json'; -1: no region
+holds the point; -2, of a pixel: several do, which overlap. Of regions that overlap at a point of
+--points the first counts. A plane is seen from the side to which its normal points, z up, or y
+where z is the normal; its pixels are square, and it shows the model's box.
+  npy            an array of int32: of points (N,), of a plane (H, W), from the top left
+  csv            of points x,y,z,region_id,path; of a plane column,row,region_id,path for each pixel
+                 that is not -1
+  png            each region in its colour, overlaps red, nothing transparent
+
+If any line of the points is wrong, all wrong lines are reported, and the exit status is 6.
 )";
 
 inline constexpr const char* verify_notes = R"(
@@ -114,6 +144,11 @@ inline constexpr const char* info_notes = R"(
 'units' is the unit that the file names. 'bounds' is the box of the regions in millimetres, or
 'unbounded' or 'empty'. The operators of a tree: u union, - difference, + intersection, ^ exclusive
 or, ! complement.
+
+The object that --json prints has the keys title, units, bounds (low and high corner), solids (how
+many), regions (each with index, path, region_id, air, material_id, los, color, bounds) and warnings
+(each with object, place, reason). Bounds are millimetres; a box that is empty and a number
+that is infinite are null.
 )";
 
 inline constexpr const char* convert_notes = R"(

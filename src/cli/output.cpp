@@ -11,6 +11,7 @@
 
 #include <csgrt/error.hpp>
 
+#include "base/letters.hpp"
 #include "interrupt.hpp"
 
 namespace csgrt::cli {
@@ -58,6 +59,8 @@ Diagnostic finding(const NamedFile& output, std::string message) {
 }
 
 }  // namespace
+
+std::string extension_of(const std::string& path) { return lower(fs::path(path).extension().string()); }
 
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
     std::vector<Diagnostic> findings;

@@ -15,6 +15,9 @@ struct NamedFile {
     std::string option, path;
 };
 
+/// ".png", whichever case it has in the name.
+std::string extension_of(const std::string& path);
+
 /// Throws Error with every finding: usage, if an output is also an input or another output, or if standard output or
 /// standard input is named twice; file, if an output cannot be written at its place. "-" is standard output.
 void check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);

@@ -18,6 +18,15 @@ std::string_view without_blanks(std::string_view text) {
     return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
+constexpr std::pair<std::string_view, Axis> axis_names[] = {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}};
+
+/// What stands before the last colon and behind it.
+std::optional<std::pair<std::string_view, std::string_view>> parts_of(std::string_view text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == text.npos) return std::nullopt;
+    return std::pair{text.substr(0, colon), text.substr(colon + 1)};
+}
+
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) { return finite_decimal(text); }
@@ -33,6 +42,32 @@ std::optional<Vec3> parse_vector(std::string_view text) {
         text.remove_prefix(comma == text.npos ? text.size() : comma + 1);
     }
     return Vec3{numbers[0], numbers[1], numbers[2]};
+}
+
+std::optional<double> parse_bound(std::string_view text) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (same_word(text, "inf") || same_word(text, "+inf")) return infinity;
+    return same_word(text, "-inf") ? -infinity : parse_number(text);
+}
+
+std::optional<Plane> parse_plane(std::string_view text) {
+    const auto parts = parts_of(text);
+    if (!parts) return std::nullopt;
+    const auto axis = find_name(axis_names, parts->first);
+    const auto normal = axis ? Vec3{double(*axis == Axis::x), double(*axis == Axis::y), double(*axis == Axis::z)}
+                             : parse_vector(parts->first);
+    const auto offset = parse_number(parts->second);
+    if (!normal || *normal == Vec3{} || !offset) return std::nullopt;
+    return Plane{*normal, *offset};
+}
+
+std::optional<std::pair<Axis, int>> parse_grid(std::string_view text) {
+    const auto parts = parts_of(text);
+    if (!parts) return std::nullopt;
+    const auto axis = find_name(axis_names, parts->first);
+    const auto count = parse_count(parts->second);
+    if (!axis || !count || *count < 1 || *count > max_side) return std::nullopt;
+    return std::pair{*axis, static_cast<int>(*count)};
 }
 
 std::string number_fault(std::string_view text) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <csgrt/solids.hpp>
+#include <csgrt/rays.hpp>
 
 namespace csgrt::cli {
 
@@ -23,6 +23,21 @@ std::string number_fault(std::string_view text);
 
 /// "X,Y,Z": three finite numbers.
 std::optional<Vec3> parse_vector(std::string_view text);
+
+/// A finite number, "inf" or "-inf".
+std::optional<double> parse_bound(std::string_view text);
+
+/// The points p with normal . p = offset, the normal being made a unit vector.
+struct Plane {
+    Vec3 normal = {};
+    double offset = 0;  ///< millimetres
+};
+
+/// "z:2.5" or "1,0,1:2.5": a normal other than 0, and an offset.
+std::optional<Plane> parse_plane(std::string_view text);
+
+/// "x:512": an axis, and a number from 1 to max_side.
+std::optional<std::pair<Axis, int>> parse_grid(std::string_view text);
 
 /// A decimal whole number, the whole of `text`.
 std::optional<std::uint64_t> parse_count(std::string_view text);

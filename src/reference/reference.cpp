@@ -252,7 +252,7 @@ void Reference::append_rows(const kernel::Frame& frame, const kernel::RayRecord&
         append_overlap(ray, piece.in, piece.out, claims.partitions[piece.node].claimants, rows);
 }
 
-void Reference::trace(const kernel::Frame& frame, const RayList& list, RowSink& sink, Watch* watch,
+void Reference::trace(const kernel::Frame& frame, const RayList& list, RowTaker& sink, Watch* watch,
                       ReferenceCounts& counts) const {
     const auto trace_some = [&](std::size_t begin, std::size_t end, Claims& claims, std::mutex& mutex) {
         ReferenceCounts sum;

@@ -27,7 +27,7 @@ public:
     std::vector<kernel::Pixel> render(const PreparedFrame& prepared, Watch* watch, ReferenceCounts& counts,
                                       const std::vector<std::uint32_t>* some = nullptr) const;
     /// Every ray of a list.
-    void trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch* watch,
+    void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
                ReferenceCounts& counts) const;
 
 private:

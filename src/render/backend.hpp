@@ -49,9 +49,9 @@ public:
     virtual void prepare(bool every_partition) = 0;
     virtual void render(const PreparedFrame& frame, const FrameMemory& memory, Watch& watch) = 0;
     /// Puts the rows of every ray into the sink.
-    virtual void trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) = 0;
+    virtual void trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) = 0;
     /// Before the call ends: are the rows those of the reference? See SpotCheck.
-    virtual void check(const kernel::Frame&, const RayList&, const Partitions&, Fields, Watch&) {}
+    virtual void check(const kernel::Frame&, const RayList&, const RowTaker&, Watch&) {}
 
     /// Who answers the next call: a device's name, or several.
     virtual std::string name() const = 0;

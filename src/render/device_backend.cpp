@@ -63,13 +63,12 @@ void DeviceBackend::render(const PreparedFrame& frame, const FrameMemory& memory
     }
 }
 
-void DeviceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) {
+void DeviceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) {
     counted([&] { drawer_->trace_list(frame, rays, sink, &watch, counts_); });
 }
 
-void DeviceBackend::check(const kernel::Frame& frame, const RayList& rays, const Partitions& answer, Fields fields,
-                          Watch& watch) {
-    spot_check_.look_at(model_->scene, frame, rays, answer, fields, counts_.done, drawer_->name(), watch);
+void DeviceBackend::check(const kernel::Frame& frame, const RayList& rays, const RowTaker& taker, Watch& watch) {
+    spot_check_.look_at(model_->scene, frame, rays, taker, counts_.done, drawer_->name(), watch);
 }
 
 std::string DeviceBackend::method(bool every_partition) const {

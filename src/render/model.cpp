@@ -8,8 +8,7 @@
 #include "base/thread.hpp"
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
-#include "compile/lists/ray_list.hpp"
-#include "compile/lists/sink.hpp"
+#include "compile/lists/grid.hpp"
 #include "device/host_memory.hpp"
 #include "render/model_impl.hpp"
 
@@ -72,21 +71,43 @@ const Reference& Model::Impl::reference() const {
     return *reference_;
 }
 
-void Model::partitions(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges) const {
-    const FloatingPoint own;
-    const AllowedThreads alone(1);
-    const RayList list(rays, ranges);
-    kernel::Frame frame = prepare_rays(impl_->scene, static_cast<std::uint32_t>(rays.size()), impl_->tolerance).frame;
-    frame.cuts = 1;
-    RowSink sink(answer, fields, rays.size());
-    if (const NativeTracer* const tracer = impl_->tracer()) {
+/// Puts the rows of a list, on this thread.
+void Model::Impl::trace(const RayList& list, RowTaker& taker) const {
+    kernel::Frame frame = prepare_rays(scene, static_cast<std::uint32_t>(list.size()), tolerance).frame;
+    frame.answer = taker.answer();
+    if (list.is_grid()) list.put_camera(frame);
+    if (const NativeTracer* const native = tracer()) {
         PipelineCounts counts;
-        tracer->trace(frame, list, 0, rays.size(), nullptr, sink, counts);
+        native->trace(frame, list, 0, list.size(), nullptr, taker, counts);
     } else {
         ReferenceCounts counts;
-        impl_->reference().trace(frame, list, sink, nullptr, counts);
+        reference().trace(frame, list, taker, nullptr, counts);
     }
-    list.restore_lengths(answer);
+}
+
+RayGrid Model::grid_of(const View& view) const {
+    const FloatingPoint own;
+    return csgrt::grid_of(prepare_frame(impl_->scene, view, impl_->tolerance).frame);
+}
+
+void Model::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) const {
+    impl_->call([&](const TraceList& trace) { find_partitions(RayList(rays, ranges), answer, fields, trace); });
+}
+
+void Model::cast_rays(const Rays& rays, Hits& answer, Fields fields, const RayRanges& ranges) const {
+    impl_->call([&](const TraceList& trace) { find_hits(RayList(rays, ranges), answer, fields, trace); });
+}
+
+void Model::occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges) const {
+    impl_->call([&](const TraceList& trace) { find_occluded(RayList(rays, ranges), answer, trace); });
+}
+
+void Model::region_at(std::span<const Vec3> points, Array<std::int32_t>& answer) const {
+    impl_->call([&](const TraceList& trace) { find_regions(points, answer, trace); });
+}
+
+void Model::slice(const Slice& slice, Array<std::int32_t>& answer) const {
+    impl_->call([&](const TraceList& trace) { find_pixels(slice, answer, trace); });
 }
 
 }  // namespace csgrt

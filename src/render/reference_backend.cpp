@@ -18,7 +18,7 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
     });
 }
 
-void ReferenceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch& watch) {
+void ReferenceBackend::trace(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch& watch) {
     counts_ = {};
     reference_->trace(frame, rays, sink, &watch, counts_);
 }

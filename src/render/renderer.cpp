@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -44,8 +43,10 @@ struct Renderer::Impl {
     void prepare(bool every_partition);
     void end_call(Clock::time_point start);
     void render(const View& view, Framebuffer& framebuffer, Watch& watch);
-    void trace(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges, bool cuts,
-               Watch& watch);
+    void trace(const RayList& list, RowTaker& taker, Watch& watch);
+    /// Calls work(trace, watch) as a call of the host's.
+    template <class Work>
+    void call(const Work& work);
 };
 
 namespace {
@@ -251,41 +252,79 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
     end_call(start);
 }
 
-void Renderer::partitions(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges) {
+template <class Work>
+void Renderer::Impl::call(const Work& work) {
     const FloatingPoint own;
-    Impl& impl = this->impl();
-    const AllowedThreads allowed(impl.settings.threads);
-    Watch::over(own.of_host(impl.settings.progress),
-                [&](Watch& watch) { impl.trace(rays, answer, fields, ranges, true, watch); });
+    const AllowedThreads allowed(settings.threads);
+    Watch::over(own.of_host(settings.progress), [&](Watch& watch) {
+        work([&](const RayList& list, RowTaker& taker) { trace(list, taker, watch); }, watch, own);
+    });
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
-    const FloatingPoint own;
-    Impl& impl = this->impl();
-    const AllowedThreads allowed(impl.settings.threads);
-    Partitions answer;
     std::vector<RayPartitions> answers;
-    Watch::over(own.of_host(impl.settings.progress), [&](Watch& watch) {
-        impl.trace(rays, answer, {.solids = true, .normals = true, .overlaps = true}, {}, false, watch);
-        answers = along_rays(answer);
+    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
+        const RayList list(rays);
+        Partitions all;
+        RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, list.size(), 0);
+        trace(list, sink);
+        list.restore_lengths(all);
+        answers = along_rays(all);
     });
     return answers;
 }
 
-void Renderer::Impl::trace(std::span<const Ray> rays, Partitions& answer, Fields fields, const RayRanges& ranges,
-                           bool cuts, Watch& watch) {
+void Renderer::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) {
+    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
+        find_partitions(RayList(rays, ranges), answer, fields, trace);
+    });
+}
+
+void Renderer::partitions(const Rays& rays, const std::function<bool(const Partitions&, std::uint64_t)>& take,
+                          Fields fields, const RayRanges& ranges, std::uint64_t most) {
+    if (most == 0) throw Error(Status::usage, "a batch must have one ray at least");
+    impl().call([&](const TraceList& trace, Watch& watch, const FloatingPoint& own) {
+        const RayList list(rays, ranges);
+        const auto takes = own.of_host(take);
+        watch.begin_all(list.size());
+        Partitions answer;
+        bool goes_on = true;
+        for (std::uint64_t first = 0; first < list.size() && goes_on; first += most) {
+            find_partitions(list.part(first, std::min(most, list.size() - first)), answer, fields, trace);
+            goes_on = takes(answer, first);
+        }
+    });
+}
+
+void Renderer::cast_rays(const Rays& rays, Hits& answer, Fields fields, const RayRanges& ranges) {
+    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
+        find_hits(RayList(rays, ranges), answer, fields, trace);
+    });
+}
+
+void Renderer::occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges) {
+    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
+        find_occluded(RayList(rays, ranges), answer, trace);
+    });
+}
+
+void Renderer::region_at(std::span<const Vec3> points, Array<std::int32_t>& answer) {
+    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) { find_regions(points, answer, trace); });
+}
+
+void Renderer::slice(const Slice& slice, Array<std::int32_t>& answer) {
+    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) { find_pixels(slice, answer, trace); });
+}
+
+void Renderer::Impl::trace(const RayList& list, RowTaker& taker, Watch& watch) {
     const auto start = Clock::now();
-    if (rays.size() > std::numeric_limits<std::uint32_t>::max() / 2)
-        throw Error(Status::usage, "too many rays in one call: shoot them in parts of less than 2^31");
-    const RayList list(rays, ranges);
-    kernel::Frame frame = prepare_rays(scene(), static_cast<std::uint32_t>(rays.size()), tolerance).frame;
-    frame.cuts = cuts;
-    start_call(rays.size(), true, 0, 0);
+    kernel::Frame frame = prepare_rays(scene(), static_cast<std::uint32_t>(list.size()), tolerance).frame;
+    frame.answer = taker.answer();
+    if (list.is_grid()) list.put_camera(frame);
+    start_call(list.size(), true, 0, 0);
     prepare(true);
-    RowSink sink(answer, fields, rays.size());
-    backend->trace(frame, list, sink, watch);
-    backend->check(frame, list, answer, fields, watch);
-    list.restore_lengths(answer);
+    backend->trace(frame, list, taker, watch);
+    backend->check(frame, list, taker, watch);
     end_call(start);
 }
 

@@ -3,7 +3,6 @@
 #include <bit>
 #include <charconv>
 
-#include "base/identical.hpp"
 #include "kernel_host/geometry.hpp"
 
 namespace csgrt {
@@ -60,17 +59,17 @@ void SpotCheck::look_at(const CompiledScene& scene, const PreparedFrame& frame, 
 }
 
 void SpotCheck::look_at(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays,
-                        const Partitions& answer, Fields fields, const std::vector<RayBatch>& batches,
-                        const std::string& device, Watch& watch) {
+                        const RowTaker& taker, const std::vector<RayBatch>& batches, const std::string& device,
+                        Watch& watch) {
     const std::vector<std::uint32_t> numbers = rays_of(batches);
     if (numbers.empty()) return;
     const RayList some = rays.some(numbers);
     ReferenceCounts counts;
     Partitions right;
-    RowSink sink(right, fields, numbers.size());
+    RowSink sink(right, taker.fields(), numbers.size());
     reference(scene).trace(frame, some, sink, &watch, counts);
     for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (!same_rows(answer, numbers[i], right, i))
+        if (!taker.has(numbers[i], right, i))
             fail(device, "the partitions of ray " + std::to_string(numbers[i]) + " are not the reference's");
 }
 

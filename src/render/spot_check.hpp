@@ -23,8 +23,8 @@ public:
     /// (interrupted) if `watch` says so. `batches`: those of a call that `device` has answered.
     void look_at(const CompiledScene& scene, const PreparedFrame& frame, const FrameMemory& memory,
                  const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
-    void look_at(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays, const Partitions& answer,
-                 Fields fields, const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
+    void look_at(const CompiledScene& scene, const kernel::Frame& frame, const RayList& rays, const RowTaker& taker,
+                 const std::vector<RayBatch>& batches, const std::string& device, Watch& watch);
 
 private:
     std::vector<std::uint32_t> rays_of(const std::vector<RayBatch>& batches);

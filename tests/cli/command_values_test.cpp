@@ -53,6 +53,25 @@ TEST_CASE("numbers") {
     }
 }
 
+TEST_CASE("bounds, planes and grids") {
+    CHECK(parse_bound("INF") == std::numeric_limits<double>::infinity());
+    CHECK(parse_bound("-inf") == -std::numeric_limits<double>::infinity());
+    CHECK(parse_bound("-2.5") == -2.5);
+    CHECK(!parse_bound("nan"));
+    CHECK(parse_plane("Y:-3")->normal == csgrt::Vec3{0, 1, 0});
+    CHECK(parse_plane("1,0,2:4")->normal == csgrt::Vec3{1, 0, 2});
+    CHECK(parse_plane("1,0,2:4")->offset == 4);
+    for (const char* wrong : {"", "z", ":", "z:", ":1", "w:1", "0,0,0:1", "1,2:3", "z:1:2", "z:inf"}) {
+        CAPTURE(wrong);
+        CHECK(!parse_plane(wrong));
+    }
+    CHECK(parse_grid("z:32768") == std::pair{csgrt::Axis::z, 32768});
+    for (const char* wrong : {"", "z", "z:", "z:0", "z:32769", "w:1", "z:1x1", "z:-1"}) {
+        CAPTURE(wrong);
+        CHECK(!parse_grid(wrong));
+    }
+}
+
 TEST_CASE("numbers are written so that they read back") {
     std::string text;
     append_number(text, 0.1);

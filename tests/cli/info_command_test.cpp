@@ -1,4 +1,6 @@
 // csgrt info and csgrt convert.
+#include <nlohmann/json.hpp>
+
 #include "cli/command.hpp"
 
 using namespace command_test;
@@ -61,6 +63,48 @@ TEST_CASE("info shows the tree of a scene that cannot be rendered, and says why 
     CHECK(contains(lenient.out, "    gone.s  (missing)\n"));
     CHECK(contains(lenient.out, "gone.s: left out: there is no such object; used by 'lost.r'"));
     CHECK(run({"info", folder / "absent.asc"}).status == 6);
+}
+
+TEST_CASE("info writes the model as JSON") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string scene =
+        folder.write("odd.asc", std::string(two_balls) +
+                                    "put half.s half N {0 0 1} d 3\n"
+                                    "put \"a\\\"b.r\" comb region yes id 7 air 2 los 50 GIFTmater 4 rgb 255/0/51 "
+                                    "tree {u {l half.s} {l gone.s}}\n");
+    const Result result = run({"info", scene, "all.g", "a\"b.r", "--air", "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const auto info = nlohmann::json::parse(result.out);
+    CHECK(info["title"] == "two balls");
+    CHECK(info["units"] == "mm");
+    CHECK(info["solids"] == 4);
+    CHECK(info["bounds"] == nlohmann::json::parse(R"({"low": [-10, -10, -10], "high": [25, 10, 10]})"));
+    REQUIRE(info["regions"].size() == 3);
+    CHECK(info["regions"][1]["path"] == "/all.g/right.r");
+    CHECK(info["regions"][1]["region_id"] == 1002);
+    CHECK(info["regions"][1]["bounds"]["low"] == nlohmann::json::parse("[5, -10, -10]"));
+    const auto& odd = info["regions"][2];
+    CHECK(odd["index"] == 2);
+    CHECK(odd["path"] == "/a\"b.r");
+    CHECK(odd["air"] == 2);
+    CHECK(odd["material_id"] == 4);
+    CHECK(odd["los"] == 50);
+    CHECK(odd["color"] == nlohmann::json::parse("[1, 0, 0.2]"));
+    CHECK(odd["bounds"]["low"][0].is_null());  // infinite
+    REQUIRE(info["warnings"].size() == 1);
+    CHECK(info["warnings"][0]["object"] == "gone.s");
+    CHECK(contains(info["warnings"][0]["place"], "odd.asc:"));
+    CHECK(contains(info["warnings"][0]["reason"], "left out: there is no such object"));
+
+    const auto nothing = nlohmann::json::parse(
+        run({"info", folder.write("lost.asc", std::string(two_balls) + "put lost.r comb region yes tree {l gone.s}\n"),
+             "lost.r", "--json"})
+            .out);
+    CHECK(nothing["bounds"].is_null());
+    CHECK(nothing["regions"].empty());
+    CHECK(nothing["warnings"].size() >= 1);
 }
 
 TEST_CASE("convert writes a scene that renders the same") {

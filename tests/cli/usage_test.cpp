@@ -77,6 +77,10 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{"help", "zzzzzzz"}, "'csgrt --help' lists the commands"},
         {{"devices", "all"}, "'all' is one argument too many"},
         {{"shoot", scene}, "--rays: missing"},
+        {{"shoot", scene, "--rays", "grid:w:4"}, "--rays: 'grid:w:4' is not a file, or a grid such as grid:x:512"},
+        {{"shoot", scene, "--rays", "grid:x:32769"}, "--rays: 'grid:x:32769' is not a file, or a grid"},
+        {{"shoot", scene, "--rays", "a", "--near", "nan"}, "--near: 'nan' is not a number, inf or -inf"},
+        {{"shoot", scene, "--rays", "a", "--format", "numpy"}, "--format: 'numpy' is not one of text|csv|binary|npy"},
         {{"verify"}, "SCENE: missing"},
         {{"verify", scene, "--rays", "0"}, "--rays: '0' is not a number of rays from 1 to 10000000, or a file"},
         {{"verify", scene, "--rays", "10000001"}, "--rays: '10000001' is not a number"},
@@ -166,10 +170,31 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--first-hit",
           "-h, --help"}},
         {"shoot",
-         {"--rays FILE", "-o, --output FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
-          "--tolerance MM|surfaces|relative|none", "--precision double|single", "--wait-for-device",
-          "--device-timeout S", "--check N", "--air", "--strict", "--allow-files FOLDER", "--max-instances N",
-          "--skip-unsupported", "--threads N", "-h, --help"}},
+         {"--rays FILE|grid:AXIS:N",
+          "--near T",
+          "--far T",
+          "--format text|csv|binary|npy",
+          "-o, --output FILE",
+          "--device NAME|cpu|gpu|N",
+          "--reference",
+          "--max-memory SIZE",
+          "--tolerance MM|surfaces|relative|none",
+          "--precision double|single",
+          "--wait-for-device",
+          "--device-timeout S",
+          "--check N",
+          "--air",
+          "--strict",
+          "--allow-files FOLDER",
+          "--max-instances N",
+          "--skip-unsupported",
+          "--threads N",
+          "-h, --help"}},
+        {"sample",
+         {"--points FILE", "--plane AXIS:OFFSET", "--size N|WxH", "-o, --output FILE", "--device NAME|cpu|gpu|N",
+          "--reference", "--max-memory SIZE", "--tolerance MM|surfaces|relative|none", "--precision double|single",
+          "--wait-for-device", "--device-timeout S", "--check N", "--air", "--strict", "--allow-files FOLDER",
+          "--max-instances N", "--skip-unsupported", "--threads N", "-h, --help"}},
         {"verify",
          {"--rays N|FILE", "--seed N", "--json FILE", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
           "--tolerance MM|surfaces|relative|none", "--precision double|single", "--device-timeout S", "--air",
@@ -177,7 +202,7 @@ TEST_CASE("help lists every option, and every option listed is understood") {
         {"compare", {"--tolerance X", "-h, --help"}},
         {"devices", {"-h, --help"}},
         {"info",
-         {"--air", "--strict", "--allow-files FOLDER", "--max-instances N", "--skip-unsupported", "--depth N",
+         {"--air", "--strict", "--allow-files FOLDER", "--max-instances N", "--skip-unsupported", "--depth N", "--json",
           "-h, --help"}},
         {"convert", {"--strict", "--allow-files FOLDER", "-h, --help"}},
     };
@@ -212,7 +237,7 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(run({"-h"}).out == all.out);
     CHECK(run({"help"}).out == all.out);
     for (const char* command :
-         {"render", "shoot", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
+         {"render", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
         CAPTURE(command);
         CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
     }
@@ -240,7 +265,7 @@ TEST_CASE("csgrt methods lists the methods that are kept for comparison; help pa
         CHECK(refusal({"scene.json", method.substr(0, blank), method.substr(blank + 1)}).empty());
     }
     CHECK(contains(run({"help", "methods"}).out, methods.out));
-    for (const char* command : {"render", "shoot", "verify"}) {
+    for (const char* command : {"render", "shoot", "sample", "verify"}) {
         const std::string page = run({"help", command}).out;
         CAPTURE(command);
         CHECK(contains(page, "'csgrt help methods'"));

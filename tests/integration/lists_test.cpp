@@ -1,4 +1,9 @@
 // Answers to lists as arrays: what is in them, their ranges, and the ways that they are computed.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/identical.hpp"
 #include "catch.hpp"
 #include "integration/deep_scenes.hpp"
 #include "integration/every_solid.hpp"
@@ -105,6 +110,126 @@ TEST_CASE("ranges count lengths of any direction") {
         REQUIRE(answer.region_ids.size() == 1);
         CHECK((answer.t_in[0] == 0.5 / length && answer.t_out[0] == 1 / length));
     }
+}
+
+TEST_CASE("a first hit is the range's begin where that is inside, and infinity where there is none") {
+    Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
+    Hits hits;
+    const RayRange ranges[] = {{0.5, 9}, {-9, 9}, {0, 0.25}};
+    renderer.cast_rays(along_x(), hits, test::all_fields, {.each = ranges});
+    CHECK((hits.t_hit[0] == 0.5 && hits.region_ids[0] == 0 && hits.solid_ids[0] == -1 && hits.normals[0] == Vec3{}));
+    CHECK((hits.t_hit[1] == HUGE_VAL && hits.region_ids[1] == -1 && hits.solid_ids[1] == -1));
+    CHECK((hits.t_hit[2] == 0 && hits.region_ids[2] == 1));
+    renderer.cast_rays(along_x(), hits);
+    CHECK((hits.t_hit[0] == 0 && hits.solid_ids.empty() && hits.normals.empty()));
+    Array<std::uint8_t> occluded;
+    renderer.occluded(along_x(), occluded, {.all = {1.75, 9}});
+    CHECK((occluded.size() == 3 && occluded[0] == 1 && occluded[1] == 0 && occluded[2] == 0));
+}
+
+TEST_CASE("batches come in order, hold the list's rows, and end when the host has enough") {
+    Settings settings = GENERATE(test::on_device(), Settings{.reference = true});
+    std::vector<double> told;
+    const bool is_followed = GENERATE(false, true);
+    if (is_followed)
+        settings.progress = [&](double done) {
+            told.push_back(done);
+            return true;
+        };
+    Renderer renderer(balls(), {}, settings);
+    const std::vector<Ray> rays = test::random_rays(renderer.bounds(), 1000);
+    Partitions whole;
+    renderer.partitions(rays, whole, test::all_fields);
+    told.clear();
+    std::uint64_t next = 0;
+    const auto take = [&](const Partitions& batch, std::uint64_t first) {
+        REQUIRE(first == next);
+        REQUIRE(batch.ray_splits.size() == std::min<std::size_t>(rays.size() - first, 300) + 1);
+        for (std::size_t i = 0; i + 1 < batch.ray_splits.size(); ++i) REQUIRE(same_rows(batch, i, whole, first + i));
+        next += batch.ray_splits.size() - 1;
+        return next < 600 || rays.size() == next;
+    };
+    renderer.partitions(rays, take, test::all_fields, {}, 300);
+    CHECK(next == 600);
+    CHECK(std::is_sorted(told.begin(), told.end()));
+    CHECK_THROWS_AS(renderer.partitions(rays, take, {}, {}, 0), Error);
+    const auto fails = [](const Partitions&, std::uint64_t) -> bool { throw std::runtime_error("no more room"); };
+    CHECK_THROWS_AS(renderer.partitions(rays, fails), std::runtime_error);
+}
+
+TEST_CASE("a grid's rays are those of its list, whoever makes them") {
+    const every_solid::EverySolid model(3);
+    const Model compiled(model.scene);
+    View view{.width = 37, .height = 21, .camera = {}};
+    view.camera.perspective = GENERATE(0.0, 40.0);
+    RayGrid slanted = compiled.grid_of(view);
+    if (!slanted.is_pinhole)
+        slanted.direction = {1e150 * slanted.direction.x, 1e150 * slanted.direction.y, 1e150 * slanted.direction.z};
+    const RayGrid grids[] = {compiled.grid_of(view), slanted, rays_parallel(compiled.bounds(), Axis::y, 40, 9),
+                             rays_pinhole(50, {0, 0, 0}, {30, 40, 50}, {0, 0, 1}, 24, 16)};
+    for (const RayGrid& grid : grids) {
+        std::vector<Ray> list;
+        for (int row = 0; row < grid.rows; ++row)
+            for (int column = 0; column < grid.columns; ++column) list.push_back(grid.ray(column, row));
+        REQUIRE(list.size() == grid.size());
+        Renderer reference(compiled, {.reference = true}), direct(compiled, test::on_device());
+        const test::ByOpenCl functions;
+        Renderer by_functions(compiled, test::on_native_device());
+        Partitions expected, found;
+        reference.partitions(list, expected, test::all_fields);
+        for (Renderer* const renderer : {&reference, &direct, &by_functions}) {
+            renderer->partitions(grid, found, test::all_fields);
+            test::require_same(found, expected);
+            const std::vector<RayRange> ranges(list.size());
+            renderer->partitions(grid, found, test::all_fields, {.each = ranges});
+            test::require_same(found, expected);
+        }
+        compiled.partitions(grid, found, test::all_fields);
+        test::require_same(found, expected);
+        std::uint64_t rays = 0;
+        direct.partitions(
+            grid,
+            [&](const Partitions& batch, std::uint64_t first) {
+                for (std::size_t i = 0; i + 1 < batch.ray_splits.size(); ++i, ++rays)
+                    REQUIRE(same_rows(batch, i, expected, first + i));
+                return true;
+            },
+            test::all_fields, {}, 100);
+        CHECK(rays == grid.size());
+    }
+    const std::vector<Ray> listed = Renderer(compiled, {.reference = true}).rays_of(view);
+    const Ray ray = compiled.ray_of(view, 5, 20);
+    CHECK((ray.origin == listed[20 * 37 + 5].origin && ray.direction == listed[20 * 37 + 5].direction));
+    CHECK_THROWS_AS(compiled.ray_of(view, 37, 0), Error);
+}
+
+TEST_CASE("grids that have no rays, or rays that Limits excludes, are refused") {
+    const Model model(balls());
+    Partitions answer;
+    const auto refuses = [&](RayGrid grid) { CHECK_THROWS_AS(model.partitions(grid, answer), Error); };
+    const RayGrid good = rays_parallel(model.bounds(), Axis::x, 3, 2);
+    model.partitions(good, answer);
+    REQUIRE(answer.ray_splits.size() == 7);
+    RayGrid grid = good;
+    grid.columns = 0;
+    refuses(grid);
+    grid.columns = grid.rows = 40'000;
+    refuses(grid);
+    grid = good;
+    grid.direction = {};
+    refuses(grid);
+    grid = good;
+    grid.right.x = std::nan("");
+    refuses(grid);
+    grid = good;
+    grid.is_pinhole = true;
+    grid.direction = {0, 0, 1};
+    grid.right = grid.up = {0, 0, 1};
+    refuses(grid);
+    CHECK_THROWS_AS(rays_parallel({{1, 0, 0}, {0, 1, 1}}, Axis::x, 3, 2), Error);
+    CHECK_THROWS_AS(rays_pinhole(180, {}, {1, 0, 0}, {0, 0, 1}, 3, 2), Error);
+    CHECK_THROWS_AS(rays_pinhole(50, {}, {}, {0, 0, 1}, 3, 2), Error);
+    CHECK_THROWS_AS(rays_pinhole(50, {}, {0, 0, 1}, {0, 0, 1}, 3, 2), Error);
 }
 
 TEST_CASE("lists have the same bits through OpenCL's functions, of every solid and of deep rays") {

@@ -112,6 +112,22 @@ inline std::vector<RayRange> random_ranges(std::size_t count) {
     return ranges;
 }
 
+/// First hits are the first rows.
+inline void require_first_rows(const Hits& hits, const Array<std::uint8_t>& occluded, const Partitions& rows) {
+    REQUIRE(hits.t_hit.size() + 1 == rows.ray_splits.size());
+    REQUIRE(occluded.size() == hits.t_hit.size());
+    for (std::size_t ray = 0; ray < hits.t_hit.size(); ++ray) {
+        INFO("ray " << ray);
+        const auto i = std::size_t(rows.ray_splits[ray]);
+        const bool is_hit = rows.ray_splits[ray + 1] > rows.ray_splits[ray];
+        REQUIRE(occluded[ray] == is_hit);
+        REQUIRE(hits.region_ids[ray] == (is_hit ? rows.region_ids[i] : -1));
+        REQUIRE(same(hits.t_hit[ray], is_hit ? rows.t_in[i] : std::numeric_limits<double>::infinity()));
+        REQUIRE(hits.solid_ids[ray] == (is_hit ? rows.in_solids[i] : -1));
+        REQUIRE(same(hits.normals[ray], is_hit ? rows.in_normals[i] : Vec3{}));
+    }
+}
+
 /// Of two renderers, whose answers have the same bits: for the whole line, and for ranges, which cut it.
 inline void require_same_lists(Renderer& expected, Renderer& found, const std::vector<Ray>& rays) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -125,6 +141,15 @@ inline void require_same_lists(Renderer& expected, Renderer& found, const std::v
     expected.partitions(rays, cut, all, {.each = ranges});
     found.partitions(rays, other, all, {.each = ranges});
     require_same(other, cut);
+    Hits hits;
+    Array<std::uint8_t> occluded;
+    found.cast_rays(rays, hits, all, {.each = ranges});
+    found.occluded(rays, occluded, {.each = ranges});
+    require_first_rows(hits, occluded, cut);
+    if (found.statistics().precision == "double") {
+        found.model().partitions(rays, other, all, {.each = ranges});
+        require_same(other, cut);
+    }
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
         INFO("ray " << ray << " from " << ranges[ray].t_near << " to " << ranges[ray].t_far);
         const std::vector<CutRow> rows = cut_rows(whole, ray, ranges[ray]);

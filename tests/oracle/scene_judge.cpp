@@ -63,6 +63,33 @@ std::string SceneJudge::judge(const Ray& ray, const RayPartitions& found, std::s
     return wrong.str();
 }
 
+std::string SceneJudge::judge_point(const Vec3& point, std::int32_t found, bool overlaps, std::size_t& decided) const {
+    const SceneAnswer answer = oracle_.shoot({point, {1, 0, 0}}, slack_);
+    const auto piece =
+        std::find_if(answer.pieces.begin(), answer.pieces.end(), [](const Piece& p) { return p.in < 0 && 0 < p.out; });
+    if (piece == answer.pieces.end()) return {};
+    std::vector<std::uint32_t> claims;
+    for (const Piece::Claim& claim : piece->claims) {
+        if (!claim.certain) return {};
+        claims.push_back(claim.region);
+    }
+    ++decided;
+    const auto rank = [&](std::uint32_t region) { return oracle_.regions()[region].rank; };
+    int first = std::numeric_limits<int>::max();
+    for (const std::uint32_t region : claims) first = std::min(first, rank(region));
+    std::erase_if(claims, [&](std::uint32_t region) { return rank(region) != first; });
+    const bool is_right = found == -1   ? claims.empty()
+                          : found == -2 ? overlaps && claims.size() > 1
+                                        : !claims.empty() && (!overlaps || claims.size() == 1) &&
+                                              to_oracle_[static_cast<std::size_t>(found)] == claims[0];
+    if (is_right) return {};
+    std::ostringstream wrong;
+    wrong << "found " << found << (found >= 0 ? " " + name(to_oracle_[static_cast<std::size_t>(found)]) : "")
+          << ", the oracle has";
+    for (const std::uint32_t region : claims) wrong << ' ' << name(region);
+    return wrong.str();
+}
+
 std::size_t SceneJudge::certain(const Piece& piece, int rank) const {
     return static_cast<std::size_t>(std::count_if(piece.claims.begin(), piece.claims.end(), [&](const Piece::Claim& c) {
         return c.certain && oracle_.regions()[c.region].rank == rank;

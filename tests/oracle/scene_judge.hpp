@@ -8,6 +8,7 @@
 // are that surface's, turned against the ray on the way in and along it on the way out.
 #pragma once
 
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -28,6 +29,11 @@ public:
 
     /// What is wrong; empty: nothing. Adds 1 to `ties` if rounding, or the slack, decides something on this ray.
     std::string judge(const Ray& ray, const RayPartitions& found, std::size_t& ties) const;
+
+    /// The same of a point, of which csgrt says that this region holds it; -1: none. `overlaps`: it says -2 where
+    /// several of a rank do, else it names their first. Adds 1 to `decided` unless rounding, or the slack, decides
+    /// whether some region does.
+    std::string judge_point(const Vec3& point, std::int32_t found, bool overlaps, std::size_t& decided) const;
 
 private:
     const std::string& name(std::uint32_t region) const { return oracle_.regions()[region].path; }

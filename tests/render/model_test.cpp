@@ -122,7 +122,7 @@ TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits"
             threads.emplace_back([&, t] {
                 Partitions one, all;
                 for (std::size_t i = t; i < rays.size(); i += 2) {  // two threads shoot each ray
-                    model.partitions({&rays[i], 1}, one, test::all_fields, {.all = ranges[i]});
+                    model.partitions(rays[i], one, test::all_fields, {.all = ranges[i]});
                     if (!same_rows(one, 0, expected, i)) ++wrong;
                 }
                 model.partitions(rays, all, test::all_fields, {.each = ranges});
@@ -139,6 +139,6 @@ TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits"
     const Model model(test::nested_balls(3, {Operator::difference}, test::Form::left));
     const std::vector<Ray> bad = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
     CHECK_THROWS_WITH(model.partitions(bad, answer), Catch::Matchers::StartsWith("ray 1: needs a direction"));
-    model.partitions({bad.data(), 1}, answer, {}, {.all = {-infinity, infinity}});
+    model.partitions(bad[0], answer, {}, {.all = {-infinity, infinity}});
     CHECK(answer.region_ids.size() == 2);
 }

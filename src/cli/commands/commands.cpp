@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <csgrt/scene_io.hpp>
 
@@ -11,6 +12,14 @@
 #include "scene/faults/finding_list.hpp"
 
 namespace csgrt::cli {
+
+void refuse(const char* option, std::string message, std::string suggestion) {
+    Diagnostic diagnostic;
+    diagnostic.place.pointer = option;
+    diagnostic.message = std::move(message);
+    diagnostic.suggestion = std::move(suggestion);
+    throw Error(Status::usage, {std::move(diagnostic)});
+}
 
 Settings with_progress(const Settings& settings, Progress& progress) {
     Settings result = settings;

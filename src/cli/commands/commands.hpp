@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene_io.hpp>
+
+#include "cli/values.hpp"
 
 namespace csgrt::cli {
 
@@ -34,8 +37,21 @@ struct RenderArguments : SceneArguments {
     int repeat = 1;
 };
 
+/// How partitions are written.
+enum class RowFormat { text, csv, binary, npy };
+
 struct ShootArguments : SceneArguments {
-    std::string rays;          ///< file or "-"
+    std::string rays;                          ///< file or "-"; empty: the grid
+    std::optional<std::pair<Axis, int>> grid;  ///< along an axis, so many rays each way
+    std::optional<double> near, far;           ///< lengths of a ray's direction
+    RowFormat format = RowFormat::text;
+    std::string output = "-";  ///< file or "-"
+};
+
+struct SampleArguments : SceneArguments {
+    std::string points;          ///< file or "-"; empty: the plane
+    std::optional<Plane> plane;  ///< absent: the points
+    int width = 1024, height = 1024;
     std::string output = "-";  ///< file or "-"
 };
 
@@ -55,6 +71,7 @@ struct DevicesArguments {};
 
 struct InfoArguments : SceneArguments {
     int depth = 2;
+    bool json = false;
 };
 
 struct ConvertArguments {
@@ -67,18 +84,22 @@ struct TextArguments {
     std::string text;
 };
 
-using Command = std::variant<RenderArguments, ShootArguments, VerifyArguments, CompareArguments, DevicesArguments,
-                             InfoArguments, ConvertArguments, TextArguments>;
+using Command = std::variant<RenderArguments, ShootArguments, SampleArguments, VerifyArguments, CompareArguments,
+                             DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
 
 // Each returns Status::ok, or Status::differs if it compares or judges. Every other failure is thrown as an Error.
 Status run(const RenderArguments& arguments);
 Status run(const ShootArguments& arguments);
+Status run(const SampleArguments& arguments);
 Status run(const VerifyArguments& arguments);
 Status run(const CompareArguments& arguments);
 Status run(const DevicesArguments& arguments);
 Status run(const InfoArguments& arguments);
 Status run(const ConvertArguments& arguments);
 Status run(const TextArguments& arguments);
+
+/// Throws Error (usage) about an option or an argument.
+[[noreturn]] void refuse(const char* option, std::string message, std::string suggestion);
 
 /// Settings whose progress function updates `progress` and stops the work after an interrupt. `progress` must outlive
 /// the use of the result.

@@ -1,13 +1,18 @@
 // csgrt info: the contents of a scene, and of the compiled scene.
+#include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "cli/text/partitions.hpp"
 #include "cli/text/scene.hpp"
+#include "cli/text/statistics.hpp"
 
 namespace csgrt::cli {
 
@@ -36,56 +41,118 @@ std::string objects_text(const Scene& scene) {
     return count_text(types);
 }
 
-Renderer compile_with_progress(const Scene& scene, const InfoArguments& arguments) {
+std::string contents_text(const Scene& scene, const InfoArguments& arguments) {
+    std::string text;
+    if (!scene.title.empty()) text += row("title", scene.title);
+    text += row("units", scene.units + (scene.unit_length == 1 ? "" : " (" + decimal(scene.unit_length) + " mm)"));
+    text += row("objects", objects_text(scene));
+    return text + "\n" +
+           tree_text(scene, arguments.objects.empty() ? top_objects(scene) : arguments.objects, arguments.depth);
+}
+
+struct Compiled {
+    std::optional<Renderer> renderer;  ///< none: nothing is left to render
+    std::string fault;                 ///< why
+    std::vector<Warning> warnings;
+};
+
+Compiled compile_what_is_left(const Scene& scene, const InfoArguments& arguments) try {
     Progress progress;
     progress.stage("compiling");
     Settings settings = with_progress(arguments.settings, progress);
     settings.reference = true;  // needs no device
     Renderer renderer(scene, arguments.objects, settings);
     check_interrupt();
-    return renderer;  // it never draws, so it does not use `progress` again
+    std::vector<Warning> warnings = renderer.warnings();
+    return {std::move(renderer), "", std::move(warnings)};  // it never draws, so it does not use `progress` again
+} catch (const Error& error) {
+    // If nothing is left to render, the parts that were left out are listed. An object that does not exist is an error.
+    std::vector<Warning> warnings = scene.warnings;
+    if (error.status() != Status::scene || !scene.lenient ||
+        !validate(scene, arguments.objects, false, &warnings, arguments.settings.max_instances).empty())
+        throw;
+    return {std::nullopt, error.diagnostics().front().message, std::move(warnings)};
+}
+
+std::string model_rows(const Compiled& compiled) {
+    std::string text = "\n";
+    if (compiled.renderer) {
+        const Renderer& renderer = *compiled.renderer;
+        std::map<std::string, std::size_t> types;
+        for (const SolidInfo& solid : renderer.solids())
+            if (solid.piece == 0) ++types[solid.type];
+        text += row("solids", count_text(types));
+        text += row("regions", std::to_string(renderer.regions().size()));
+        text += row("bounds", bounds_text(renderer, true, decimal));
+        char compile[32];
+        std::snprintf(compile, sizeof compile, "%.3g ms", renderer.statistics().ms.compile);
+        text += row("compiled", compile);
+    } else {
+        text += row("compiled", "no: " + compiled.fault);
+    }
+    for (const Warning& warning : compiled.warnings) text += row("warning", format(warning));
+    return text;
+}
+
+// ---- JSON ----
+
+std::string json_vector(const Vec3& v) {
+    std::string text;
+    for (const double number : {v.x, v.y, v.z}) {
+        text += text.empty() ? "[" : ", ";
+        if (std::isfinite(number))
+            append_shortest(text, number);
+        else
+            text += "null";
+    }
+    return text + "]";
+}
+
+std::string json_box(const Box& box) {
+    if (!(box.low.x <= box.high.x)) return "null";
+    return "{\"low\": " + json_vector(box.low) + ", \"high\": " + json_vector(box.high) + "}";
+}
+
+std::string json_region(const RegionInfo& region, std::size_t index) {
+    std::string text = "{\"index\": " + std::to_string(index) + ", \"path\": " + json_text(region.path);
+    const std::pair<const char*, int> numbers[] = {
+        {"region_id", region.region_id}, {"air", region.air}, {"material_id", region.material_id}, {"los", region.los}};
+    for (const auto& [name, number] : numbers) text += std::string(", \"") + name + "\": " + std::to_string(number);
+    return text + ", \"color\": " + json_vector(region.color) + ", \"bounds\": " + json_box(region.bounds) + "}";
+}
+
+std::string json_warning(const Warning& warning) {
+    std::string place = format(Warning{.object = {}, .place = warning.place, .reason = {}});
+    if (place.ends_with(": ")) place.resize(place.size() - 2);
+    return "{\"object\": " + json_text(warning.object) + ", \"place\": " + json_text(place) +
+           ", \"reason\": " + json_text(warning.reason) + "}";
+}
+
+std::string model_json(const Scene& scene, const Compiled& compiled) {
+    constexpr const char* between = ",\n    ";
+    std::string regions, warnings;
+    std::size_t solids = 0;
+    Box bounds{{1, 1, 1}, {0, 0, 0}};  // none
+    if (compiled.renderer) {
+        for (const SolidInfo& solid : compiled.renderer->solids()) solids += solid.piece == 0;
+        bounds = compiled.renderer->bounds();
+        for (std::size_t i = 0; i < compiled.renderer->regions().size(); ++i)
+            regions += (i > 0 ? between : "\n    ") + json_region(compiled.renderer->regions()[i], i);
+    }
+    for (const Warning& warning : compiled.warnings)
+        warnings += (warnings.empty() ? "\n    " : between) + json_warning(warning);
+    return "{\n  \"title\": " + json_text(scene.title) + ",\n  \"units\": " + json_text(scene.units) +
+           ",\n  \"bounds\": " + json_box(bounds) + ",\n  \"solids\": " + std::to_string(solids) +
+           ",\n  \"regions\": [" + regions + "],\n  \"warnings\": [" + warnings + "]\n}\n";
 }
 
 }  // namespace
 
 Status run(const InfoArguments& arguments) {
     Scene scene = load_with_progress(arguments.scene, arguments.load);
-
-    std::string text;
-    if (!scene.title.empty()) text += row("title", scene.title);
-    text += row("units", scene.units + (scene.unit_length == 1 ? "" : " (" + decimal(scene.unit_length) + " mm)"));
-    text += row("objects", objects_text(scene));
-    text +=
-        "\n" + tree_text(scene, arguments.objects.empty() ? top_objects(scene) : arguments.objects, arguments.depth);
-    print(text);
-
-    std::optional<Renderer> compiled;
-    try {
-        compiled.emplace(compile_with_progress(scene, arguments));
-    } catch (const Error& error) {
-        // If nothing is left to render, the parts that were left out are listed. An object that does not exist is an
-        // error.
-        std::vector<Warning> warnings = scene.warnings;
-        if (error.status() != Status::scene || !scene.lenient ||
-            !validate(scene, arguments.objects, false, &warnings, arguments.settings.max_instances).empty())
-            throw;
-        text = "\n" + row("compiled", "no: " + error.diagnostics().front().message);
-        for (const Warning& warning : warnings) text += row("warning", format(warning));
-        print(text);
-        return Status::ok;
-    }
-    const Renderer& renderer = *compiled;
-    std::map<std::string, std::size_t> types;
-    for (const SolidInfo& solid : renderer.solids())
-        if (solid.piece == 0) ++types[solid.type];
-    text = "\n" + row("solids", count_text(types));
-    text += row("regions", std::to_string(renderer.regions().size()));
-    text += row("bounds", bounds_text(renderer, true, decimal));
-    char compile[32];
-    std::snprintf(compile, sizeof compile, "%.3g ms", renderer.statistics().ms.compile);
-    text += row("compiled", compile);
-    for (const Warning& warning : renderer.warnings()) text += row("warning", format(warning));
-    print(text);
+    if (!arguments.json) print(contents_text(scene, arguments));
+    const Compiled compiled = compile_what_is_left(scene, arguments);
+    print(arguments.json ? model_json(scene, compiled) : model_rows(compiled));
     return Status::ok;
 }
 

@@ -1,6 +1,5 @@
 // csgrt SCENE: one or more frames, written as pictures and figures.
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include <unistd.h>
@@ -22,21 +21,7 @@ namespace csgrt::cli {
 
 namespace {
 
-[[noreturn]] void refuse(const char* option, std::string message, std::string suggestion) {
-    Diagnostic diagnostic;
-    diagnostic.place.pointer = option;
-    diagnostic.message = std::move(message);
-    diagnostic.suggestion = std::move(suggestion);
-    throw Error(Status::usage, {std::move(diagnostic)});
-}
-
 #ifdef CSGRT_HAVE_IMAGE
-std::string extension_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    return extension;
-}
-
 bool names_format(const std::string& path) { return extension_of(path) == ".exr" || extension_of(path) == ".png"; }
 
 /// Standard output, a device or a pipe: the name does not give the format.

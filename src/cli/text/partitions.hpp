@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,9 +26,14 @@ public:
 
     /// Appends the lines of one ray to `out`.
     void append(std::string& out, std::uint64_t ray, const RayPartitions& partitions) const;
+    /// Of the i-th ray of an answer. Where the range cuts a partition the solid and its type are -.
+    void append(std::string& out, std::uint64_t ray, const Partitions& rows, std::size_t i) const;
 
 private:
-    std::vector<std::string> regions_, solids_, types_;
+    void append_row(std::string& out, const Partition& partition) const;
+    void append_overlap(std::string& out, double in, double end, std::span<const std::uint32_t> regions) const;
+
+    std::vector<std::string> regions_, solids_, types_;  ///< of no solid the last
 };
 
 /// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.

@@ -1,64 +1,84 @@
 #include "rays.hpp"
 
+#include <cstring>
+#include <type_traits>
+
 #include "scene/range.hpp"
 #include "cli/values.hpp"
 
 namespace csgrt::cli {
 
-RayReader::RayReader(const std::string& path) : lines_(path, LineReader::Passes::several) {
+namespace {
+
+template <class Item>
+constexpr bool is_ray = std::is_same_v<Item, Ray>;
+
+template <class Item>
+constexpr std::size_t numbers_of_item = sizeof(Item) / sizeof(double);
+
+template <class Item>
+constexpr const char* form_of =
+    is_ray<Item> ? "a ray is six numbers: ox oy oz dx dy dz" : "a point is three numbers: x y z";
+
+}  // namespace
+
+template <class Item>
+ItemReader<Item>::ItemReader(const std::string& path) : lines_(path, LineReader::Passes::several) {
     std::string_view line;
-    Ray ray;
+    Item item;
     while (lines_.next(line))
-        if (parse(line, ray)) ++count_;
+        if (parse(line, item)) ++count_;
     if (!findings_.empty()) throw Error(Status::file, findings_.take());
     lines_.rewind();
 }
 
-bool RayReader::next(std::vector<Ray>& rays, std::size_t limit) {
-    rays.clear();
+template <class Item>
+bool ItemReader<Item>::next(std::vector<Item>& items, std::size_t limit) {
+    items.clear();
     std::string_view line;
-    Ray ray;
-    while (rays.size() < limit && lines_.next(line))
-        if (parse(line, ray)) rays.push_back(ray);
-    return !rays.empty();
+    Item item;
+    while (items.size() < limit && lines_.next(line))
+        if (parse(line, item)) items.push_back(item);
+    return !items.empty();
 }
 
-/// False for a line without a ray: a blank line, a comment, or a wrong line, which becomes a finding.
-bool RayReader::parse(std::string_view line, Ray& ray) {
+/// False for a line without an item: a blank line, a comment, or a wrong line, which becomes a finding.
+template <class Item>
+bool ItemReader<Item>::parse(std::string_view line, Item& item) {
     split(line.substr(0, line.find('#')), words_);
     if (words_.empty()) return false;
-    double* numbers[] = {&ray.origin.x,    &ray.origin.y,    &ray.origin.z,
-                         &ray.direction.x, &ray.direction.y, &ray.direction.z};
     constexpr const char* names[] = {"ox", "oy", "oz", "dx", "dy", "dz"};
-    constexpr const char* form = "a ray is six numbers: ox oy oz dx dy dz";
+    const auto found = [&](int column, const std::string& fault, const char* form = form_of<Item>) {
+        findings_.add(lines_.finding(column, fault, form));
+        return false;
+    };
+    double numbers[numbers_of_item<Item>];
     for (std::size_t i = 0; i < std::size(numbers); ++i) {
-        if (i == words_.size()) {
-            int end = words_.back().column + static_cast<int>(words_.back().text.size());
-            findings_.add(lines_.finding(end, std::string(names[i]) + " is missing", form));
-            return false;
-        }
+        const std::string name = names[i] + (is_ray<Item> ? 0 : 1);
+        if (i == words_.size())
+            return found(words_.back().column + static_cast<int>(words_.back().text.size()), name + " is missing");
         auto number = parse_number(words_[i].text);
-        if (!number) {
-            findings_.add(
-                lines_.finding(words_[i].column, std::string(names[i]) + ": " + number_fault(words_[i].text), form));
-            return false;
-        }
-        *numbers[i] = *number;
+        if (!number) return found(words_[i].column, name + ": " + number_fault(words_[i].text));
+        numbers[i] = *number;
     }
-    if (words_.size() > std::size(numbers)) {
-        findings_.add(lines_.finding(words_[std::size(numbers)].column, "more than six numbers", form));
-        return false;
-    }
-    if (ray.direction == Vec3{}) {
-        findings_.add(lines_.finding(words_[3].column, "the direction is 0 0 0", "a ray needs a direction"));
-        return false;
-    }
-    bool in_direction = false;
-    if (const std::string fault = ray_fault(ray.origin, ray.direction, in_direction); !fault.empty()) {
-        findings_.add(lines_.finding(words_[in_direction ? 3 : 0].column, fault, form));
-        return false;
+    if (words_.size() > std::size(numbers))
+        return found(words_[std::size(numbers)].column,
+                     is_ray<Item> ? "more than six numbers" : "more than three numbers");
+    std::memcpy(&item, numbers, sizeof item);
+    if constexpr (is_ray<Item>) {
+        if (item.direction == Vec3{})
+            return found(words_[3].column, "the direction is 0 0 0", "a ray needs a direction");
+        bool in_direction = false;
+        if (const std::string fault = ray_fault(item.origin, item.direction, in_direction); !fault.empty())
+            return found(words_[in_direction ? 3 : 0].column, fault);
+    } else if (const double far = largest(item); far > Limits::ray_origin) {
+        return found(words_[0].column, "it has the coordinate " + number_text(far) + ", and " +
+                                           number_text(Limits::ray_origin) + " mm is the farthest");
     }
     return true;
 }
+
+template class ItemReader<Ray>;
+template class ItemReader<Vec3>;
 
 }  // namespace csgrt::cli

@@ -1,12 +1,25 @@
 #include "compile/lists/sink.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
+
+#include "base/identical.hpp"
+#include "base/parallel.hpp"
 
 namespace csgrt {
 namespace {
 
 constexpr std::size_t most_kept = std::size_t{16} << 20;  ///< bytes, more or less
+
+/// Of a batch that a device answered whole, by several threads; smaller ones come from several already.
+template <class Work>
+void in_parts(std::size_t count, const Work& work) {
+    constexpr std::size_t part = 1 << 16;
+    for_chunks(count, part, count > part ? 0 : 1, [&](std::size_t i, std::size_t end, std::size_t) { work(i, end); });
+}
 
 template <class To, class From>
 void add(Array<To>& to, const From* from, std::size_t count) {
@@ -14,7 +27,9 @@ void add(Array<To>& to, const From* from, std::size_t count) {
     if (!from || count == 0) return;
     const std::size_t size = to.size();
     to.resize(size + count);
-    std::memcpy(to.data() + size, from, count * sizeof(From));
+    in_parts(count, [&](std::size_t i, std::size_t end) {
+        std::memcpy(to.data() + size + i, from + i, (end - i) * sizeof(From));
+    });
 }
 
 template <class To>
@@ -25,8 +40,9 @@ void add(Array<To>& to, To value) {
 
 }  // namespace
 
-RowSink::RowSink(Partitions& answer, Fields fields, std::uint64_t rays) : answer_(answer), fields_(fields) {
-    Partitions& a = answer;
+RowSink::RowSink(Partitions& rows, Fields fields, std::uint64_t rays, std::uint32_t answer)
+    : RowTaker(fields, answer), answer_(rows) {
+    Partitions& a = rows;
     for (auto* ids : {&a.region_ids, &a.in_solids, &a.out_solids, &a.overlap_region_ids}) ids->resize(0);
     for (auto* reals : {&a.t_in, &a.t_out, &a.overlap_t_in, &a.overlap_t_out}) reals->resize(0);
     for (auto* vectors : {&a.in_normals, &a.out_normals}) vectors->resize(0);
@@ -42,7 +58,9 @@ RowSink::RowSink(Partitions& answer, Fields fields, std::uint64_t rays) : answer
 void RowSink::append(const RowView& rows) {
     const auto before = static_cast<std::int64_t>(answer_.region_ids.size());
     std::int64_t* const splits = answer_.ray_splits.data() + rows.first + 1;
-    for (std::size_t i = 0; i < rows.rays(); ++i) splits[i] = before + rows.places[i + 1].segments;
+    in_parts(rows.rays(), [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i) splits[i] = before + rows.places[i + 1].segments;
+    });
     add(answer_.region_ids, rows.regions, rows.rows());
     add(answer_.t_in, rows.in, rows.rows());
     add(answer_.t_out, rows.out, rows.rows());
@@ -51,7 +69,7 @@ void RowSink::append(const RowView& rows) {
     add(answer_.in_normals, rows.in_normals, rows.rows());
     add(answer_.out_normals, rows.out_normals, rows.rows());
     next_ += rows.rays();
-    if (!fields_.overlaps) return;
+    if (!fields().overlaps) return;
     std::size_t row = 0;
     for (std::size_t ray = 0; ray < rows.rays(); ++ray) {
         for (; row < rows.overlaps.size() && rows.overlaps[row].ray == ray; ++row) {
@@ -79,7 +97,7 @@ void RowSink::put(const RowView& rows) {
     append(rows);
     for (auto first = kept_.begin(); first != kept_.end() && first->first == next_; first = kept_.erase(first)) {
         const RowMemory& memory = first->second;
-        append(memory.view(next_, memory.places.size() - 1, fields_));
+        append(memory.view(next_, memory.places.size() - 1, fields()));
         kept_bytes_ -= memory.bytes();
     }
     moved_.notify_all();
@@ -89,6 +107,79 @@ void RowSink::stop() {
     const std::lock_guard lock(mutex_);
     is_stopped_ = true;
     moved_.notify_all();
+}
+
+bool RowSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
+    return same_rows(answer_, ray, rows, other);
+}
+
+HitSink::HitSink(Array<std::int32_t>& regions, Array<double>* distances, Array<std::int32_t>* solids,
+                 Array<Vec3>* normals, std::uint64_t rays)
+    : RowTaker({.solids = solids != nullptr, .normals = normals != nullptr, .overlaps = false},
+               ANSWER_CUT | ANSWER_FIRST),
+      regions_(regions),
+      distances_(distances),
+      solids_(solids),
+      normals_(normals) {
+    regions.resize(rays);
+    if (distances) distances->resize(rays);
+    if (solids) solids->resize(rays);
+    if (normals) normals->resize(rays);
+}
+
+void HitSink::put(const RowView& rows) {
+    in_parts(rows.rays(), [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i) {
+            const std::size_t ray = rows.first + i, row = rows.places[i].segments;
+            const bool is_hit = rows.places[i + 1].segments > row;
+            regions_[ray] = is_hit ? rows.regions[row] : -1;
+            if (distances_) (*distances_)[ray] = is_hit ? rows.in[row] : std::numeric_limits<double>::infinity();
+            if (solids_) (*solids_)[ray] = is_hit ? rows.in_solids[row] : -1;
+            if (normals_) (*normals_)[ray] = is_hit ? rows.in_normals[row] : Vec3{};
+        }
+    });
+}
+
+bool HitSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
+    const auto row = static_cast<std::size_t>(rows.ray_splits[other]);
+    if (rows.ray_splits[other + 1] == rows.ray_splits[other]) return regions_[ray] == -1;
+    return regions_[ray] == rows.region_ids[row] && (!distances_ || same_bits((*distances_)[ray], rows.t_in[row])) &&
+           (!solids_ || (*solids_)[ray] == rows.in_solids[row]) &&
+           (!normals_ || same_bits((*normals_)[ray], rows.in_normals[row]));
+}
+
+PixelSink::PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays)
+    : RowTaker({.solids = false, .normals = false, .overlaps = true}, ANSWER_CUT), pixels_(pixels), width_(width) {
+    pixels.resize(rays * width);
+}
+
+/// The pixels whose middles lie in [in, out).
+void PixelSink::fill(std::int32_t* line, double in, double out, std::int32_t value) const {
+    const auto pixel = [&](double t) {
+        return static_cast<std::ptrdiff_t>(std::clamp(std::ceil(t - 0.5), 0.0, static_cast<double>(width_)));
+    };
+    std::fill(line + pixel(in), line + std::max(pixel(in), pixel(out)), value);
+}
+
+void PixelSink::put(const RowView& rows) {
+    std::size_t overlap_row = 0;
+    for (std::size_t i = 0; i < rows.rays(); ++i) {
+        std::int32_t* const line = pixels_.data() + (rows.first + i) * width_;
+        std::fill_n(line, width_, nothing);
+        for (std::size_t row = rows.places[i].segments; row < rows.places[i + 1].segments; ++row)
+            fill(line, rows.in[row], rows.out[row], rows.regions[row]);
+        for (; overlap_row < rows.overlaps.size() && rows.overlaps[overlap_row].ray == i; ++overlap_row)
+            fill(line, rows.overlaps[overlap_row].in, rows.overlaps[overlap_row].out, overlap);
+    }
+}
+
+bool PixelSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
+    std::vector<std::int32_t> line(width_, nothing);
+    for (auto row = rows.ray_splits[other]; row < rows.ray_splits[other + 1]; ++row)
+        fill(line.data(), rows.t_in.data()[row], rows.t_out.data()[row], rows.region_ids.data()[row]);
+    for (auto row = rows.overlap_splits[other]; row < rows.overlap_splits[other + 1]; ++row)
+        fill(line.data(), rows.overlap_t_in.data()[row], rows.overlap_t_out.data()[row], overlap);
+    return std::equal(line.begin(), line.end(), pixels_.data() + ray * width_);
 }
 
 }  // namespace csgrt

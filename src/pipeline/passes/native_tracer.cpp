@@ -184,7 +184,7 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
 }
 
 void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
-                         const std::atomic<bool>* stop, RowSink& sink, PipelineCounts& counts) const {
+                         const std::atomic<bool>* stop, RowTaker& sink, PipelineCounts& counts) const {
     static thread_local RowMemory rows;
     std::array<kernel::RayRecord, batch_rays> memory;
     std::uint64_t size = batch_rays;

@@ -32,7 +32,7 @@ public:
     /// Puts the rows of rays [first, end) of a list, a batch after the other. Any thread. Throws Error (out_of_memory,
     /// interrupted).
     void trace(const kernel::Frame& frame, const RayList& rays, std::uint64_t first, std::uint64_t end,
-               const std::atomic<bool>* stop, RowSink& sink, PipelineCounts& counts) const;
+               const std::atomic<bool>* stop, RowTaker& sink, PipelineCounts& counts) const;
 
 private:
     struct Scratch;

@@ -13,7 +13,7 @@ namespace {
 bool has_flat_faced(const CompiledScene& scene) { return (scene.solid_types & FLAT_FACED) != 0; }
 
 std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
-    std::vector<std::string> files = {CullPass::file};
+    std::vector<std::string> files = {CullPass::file, "0_make_rays.cl"};
     if (packets) files.push_back("1_packet_candidates.cl");
     if (rays_in_faces) files.push_back("2_rays_in_faces.cl");
     files.insert(files.end(), {"1_count_segments.cl", "scan.cl", "2_store_segments.cl", "3_weave.cl", "4_evaluate.cl",
@@ -43,6 +43,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
                    (other ? other->source : ""),
                options_for(device, scene, settings, other != nullptr), settings.precision != Precision::double_),
       cull_(device, program_),
+      make_rays_(program_.kernel("make_rays")),
       find_candidates_(program_.kernel("find_candidates")),
       count_segments_(program_.kernel("count_segments")),
       sum_segments_(program_.kernel("sum_segments")),
@@ -237,7 +238,17 @@ bool PartitionPass::write_rows(const Input& input, std::uint64_t first, Fields f
     const Buffer* const counts = rows_.count(of, timed);
     if (!counts) return false;
     scan(*counts, input.rays, timed);
-    return rows_.write(of, read_total(*counts, input.rays, timed), fields, input.scene, timed);
+    if (!rows_.write(of, read_total(*counts, input.rays, timed), fields, input.scene, timed)) return false;
+    if (!rows_.has_overlaps() || has_deep_rays_) return true;
+    const Buffer* const claims = rows_.count_claimants(of, input.scene, timed);
+    if (!claims) return false;
+    scan(*claims, rows_.overlaps(), timed);
+    return rows_.list_claimants(of, read_total(*claims, rows_.overlaps(), timed).segments, input.scene, timed);
+}
+
+Event PartitionPass::make_rays(const BatchBuffers& batch, std::uint32_t rays, RayRange range) {
+    return make_rays_.launch(rays, work_group, batch.frame, cl_double{range.t_near}, cl_double{range.t_far},
+                             batch.rays);
 }
 
 TracedBatch PartitionPass::read(std::uint32_t rays) {

@@ -67,13 +67,16 @@ public:
     /// Adds what rays needed to the counts, and remembers it for capacity_for().
     void add_sizes(const PartitionSizes& needed, std::uint32_t rays, PipelineCounts& counts);
 
+    /// Queues the records of a grid's rays, which the batch's frame has (put_grid). Returns the kernel's event.
+    Event make_rays(const BatchBuffers& batch, std::uint32_t rays, RayRange range);
     /// Kernel 6: the rows of the listed rays that the last trace_counted() has traced; `first`: the first one's number.
     /// Waits for their number only. False: there is not enough memory.
     bool write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed);
     /// Starts to copy these rows to the host, once their kernels are done.
     void start_copy(std::uint32_t rays) {
         rows_.start_copy();
-        if (rows_.are_overlaps_wanted()) rows_.read_overlaps(read(rays));
+        if (!rows_.has_overlaps()) return;
+        has_deep_rays_ ? rows_.append_overlaps(read(rays)) : rows_.read_overlaps();
     }
     RowPass& rows() { return rows_; }
     /// What the last trace_counted() left of its rays. Waits.
@@ -105,7 +108,13 @@ private:
     /// Pixels that are listed one by one lie anywhere.
     bool in_packets(const Input& input) const { return input.work != Work::pixels && packet_candidates_; }
     RowPass::Input rows_of(const Input& input, std::uint64_t first) {
-        return {input.batch.frame, input.batch.rays, memory_.offsets(), memory_.ends(), memory_.partitions(), first,
+        return {input.batch.frame,
+                input.batch.rays,
+                memory_.offsets(),
+                memory_.ends(),
+                memory_.partitions(),
+                memory_.bits(),
+                first,
                 input.rays};
     }
 
@@ -123,8 +132,8 @@ private:
         Kernel count, store;
     };
     std::optional<RaysInFaces> rays_in_faces_;  ///< if the scene has solids that need them
-    Kernel find_candidates_, count_segments_, sum_segments_, scan_blocks_, scan_sums_, scan_add_, store_segments_,
-        order_ends_, weave_, evaluate_, shade_;
+    Kernel make_rays_, find_candidates_, count_segments_, sum_segments_, scan_blocks_, scan_sums_, scan_add_,
+        store_segments_, order_ends_, weave_, evaluate_, shade_;
     PartitionMemory memory_;
     DeepRayPass deep_rays_;
     RowPass rows_;

@@ -15,9 +15,14 @@ RowPass::RowPass(Device& device, const Program& program, const CompiledScene& sc
       count_rows_(program.kernel("count_rows")),
       write_rows_(program.kernel("write_rows")),
       describe_rows_(program.kernel("describe_rows")),
+      count_claimants_(program.kernel("count_claimants")),
+      list_claimants_(program.kernel("list_claimants")),
       places_(device, "places of rows"),
       bounds_(device, "rows' ends"),
       pieces_(device, "overlaps"),
+      claim_places_(device, "places of claims"),
+      claimants_(device, "claimants"),
+      claimant_counts_(device, "numbers of claimants"),
       places_in_staging_(columns) {
     for (const char* name : {"rows' regions", "rows' begins", "rows' ends' distances", "rows' first solids",
                              "rows' last solids", "rows' first normals", "rows' last normals"})
@@ -104,9 +109,40 @@ void RowPass::start_copy() {
     memory_.overlap_regions.clear();
 }
 
-void RowPass::read_overlaps(const TracedBatch& traced) {
+const Buffer* RowPass::count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed) {
+    if (!reserve({{&claim_places_, (std::uint64_t{total_.words} + 1) * sizeof(kernel::RayCount)}})) return nullptr;
+    timed.emplace_back(
+        &PipelineCounts::rows,
+        count_claimants_.launch(total_.words, divergent_group(device_), scene.evaluation(), input.offsets, input.ends,
+                                input.bits, pieces_, cl_uint{total_.words}, claim_places_));
+    return &claim_places_;
+}
+
+bool RowPass::list_claimants(const Input& input, std::uint32_t claims, const SceneTables& scene, TimedKernels& timed) {
+    const std::uint64_t bytes = sizeof(std::uint32_t);
+    if (claims == COUNT_MAX || !reserve({{&claimants_, claims * bytes}, {&claimant_counts_, total_.words * bytes}}))
+        return false;
+    timed.emplace_back(&PipelineCounts::rows,
+                       list_claimants_.launch(total_.words, divergent_group(device_), input.frame, scene.evaluation(),
+                                              input.offsets, input.ends, input.bits, pieces_, cl_uint{total_.words},
+                                              claim_places_, claimants_, claimant_counts_));
+    claims_ = claims;
+    return true;
+}
+
+void RowPass::read_overlaps() {
     const auto pieces = kernels_->pieces(pieces_.read<std::byte>(total_.words * kernels_->piece_bytes()));
-    append_overlaps(*scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
+    const auto places = claim_places_.read<kernel::RayCount>(pieces.size());
+    const auto claimants = claimants_.read<std::uint32_t>(claims_),
+               counts = claimant_counts_.read<std::uint32_t>(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        append_overlap(pieces[i].ray, pieces[i].in, pieces[i].out,
+                       std::span(claimants).subspan(places[i].segments, counts[i]), memory_);
+}
+
+void RowPass::append_overlaps(const TracedBatch& traced) {
+    const auto pieces = kernels_->pieces(pieces_.read<std::byte>(total_.words * kernels_->piece_bytes()));
+    csgrt::append_overlaps(*scene_, pieces, {traced.offsets.data(), traced.ends.data(), traced.nodes.data()}, memory_);
 }
 
 /// A column in the host's numbers.
@@ -148,13 +184,16 @@ void RowPass::cancel() noexcept {
 }
 
 std::uint64_t RowPass::held() const {
-    std::uint64_t sum = places_.size() + bounds_.size() + pieces_.size();
+    std::uint64_t sum = 0;
+    for (const Buffer* buffer : {&places_, &bounds_, &pieces_, &claim_places_, &claimants_, &claimant_counts_})
+        sum += buffer->size();
     for (const Buffer& column : columns_) sum += column.size();
     return sum;
 }
 
 void RowPass::release() {
-    for (Buffer* buffer : {&places_, &bounds_, &pieces_}) buffer->release();
+    for (Buffer* buffer : {&places_, &bounds_, &pieces_, &claim_places_, &claimants_, &claimant_counts_})
+        buffer->release();
     for (Buffer& column : columns_) column.release();
 }
 

@@ -28,7 +28,7 @@ public:
 
     /// What the kernels read: of the batch that was traced last.
     struct Input {
-        const Buffer &frame, &rays, &offsets, &ends, &nodes;
+        const Buffer &frame, &rays, &offsets, &ends, &nodes, &bits;
         std::uint64_t first;  ///< the batch's first ray, of the list
         std::uint32_t count;
     };
@@ -37,10 +37,20 @@ public:
     /// Writes the rows, of which there are `total`. False: there is not enough memory.
     bool write(const Input& input, const kernel::RayCount& total, Fields fields, const SceneTables& scene,
                TimedKernels& timed);
-    /// Starts to copy them, once their kernels are done.
+    /// Whether overlaps are wanted, and there are any: then their claimants are to be found. A kernel does it (both of
+    /// the next calls), or the host (append_overlaps), for it knows the partitions of deep rays.
+    bool has_overlaps() const { return fields_.overlaps && total_.words > 0; }
+    /// Counts claims; the caller makes sums of the counts, of as many entries as overlaps(). Nothing: there is not
+    /// enough memory.
+    const Buffer* count_claimants(const Input& input, const SceneTables& scene, TimedKernels& timed);
+    /// Lists the claimants. `claims`: the sum. False: there is not enough memory.
+    bool list_claimants(const Input& input, std::uint32_t claims, const SceneTables& scene, TimedKernels& timed);
+    /// Starts to copy the rows, once their kernels are done.
     void start_copy();
-    /// Overlaps need what the rays met; they are read at once.
-    void read_overlaps(const TracedBatch& traced);
+    /// Reads overlaps and claimants, at once.
+    void read_overlaps();
+    /// The same where no kernel has listed the claimants.
+    void append_overlaps(const TracedBatch& traced);
     /// The rows whose copy was started last, which are there until the next copy. Waits.
     RowView wait();
     /// Nobody will ask for them.
@@ -50,7 +60,6 @@ public:
 
     /// Partitions that overlap, of the rows that were written last.
     std::uint32_t overlaps() const { return total_.words; }
-    bool are_overlaps_wanted() const { return fields_.overlaps && total_.words > 0; }
 
     std::uint64_t held() const;
     void release();
@@ -68,13 +77,14 @@ private:
     Device& device_;
     const CompiledScene* scene_;
     const HostKernels* kernels_;
-    Kernel count_rows_, write_rows_, describe_rows_;
-    Buffer places_, bounds_, pieces_;
+    Kernel count_rows_, write_rows_, describe_rows_, count_claimants_, list_claimants_;
+    Buffer places_, bounds_, pieces_, claim_places_, claimants_, claimant_counts_;
     std::vector<Buffer> columns_;          ///< by Column
     std::optional<PinnedMemory> staging_;  ///< of the places and the columns, one after the other
     std::vector<Event> copies_;
     std::vector<std::size_t> places_in_staging_;
     kernel::RayCount total_{};
+    std::uint32_t claims_ = 0;
     Fields fields_;
     std::uint64_t first_ = 0;
     std::uint32_t rays_ = 0;

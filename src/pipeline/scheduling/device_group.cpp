@@ -156,7 +156,7 @@ void DeviceGroup::render(const PreparedFrame& prepared, const RenderTarget& targ
     if_thrown.is_finished = true;
 }
 
-void DeviceGroup::trace_list(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch* watch,
+void DeviceGroup::trace_list(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
                              PipelineCounts& counts) {
     start_call();
     share(rays.size(), 1, true, watch, counts,

@@ -34,7 +34,7 @@ public:
     std::shared_ptr<RegisteredMemory> register_memory(std::span<const ChannelMemory> channels, std::size_t pixels);
     /// As Pipeline's. Throws Error (interrupted), too, if `watch`, which may be null, says so.
     void render(const PreparedFrame& prepared, const RenderTarget& target, Watch* watch, PipelineCounts& counts);
-    void trace_list(const kernel::Frame& frame, const RayList& rays, RowSink& sink, Watch* watch,
+    void trace_list(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
                     PipelineCounts& counts);
 
     std::string name() const;            ///< "A", or "A + B"

@@ -8,19 +8,21 @@
 
 namespace csgrt {
 
-void NativeLists::trace(const kernel::Frame& frame, const RayList& rays, const RayNumbers& range, RowSink& sink,
+void NativeLists::trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowTaker& sink,
                         const Told& told, PipelineCounts& counts) const {
-    constexpr std::size_t most = NativeTracer::batch_rays;
+    // Of a short list each thread has several batches, all of them whole packets.
+    const std::size_t rays = range.end - range.first, share = rays / (8 * thread_count(0)) / 8 * 8,
+                      most = std::clamp<std::size_t>(share, 8, NativeTracer::batch_rays);
     const auto start = Clock::now();
     std::mutex mutex;
     const auto trace_batch = [&](std::size_t first, std::size_t last) {
         PipelineCounts own;
-        tracer_.trace(frame, rays, first, last, device_.stop(), sink, own);
+        tracer_.trace(frame, list, first, last, device_.stop(), sink, own);
         if (told) told(last - first);
         const std::lock_guard lock(mutex);
         counts += own;
     };
-    for_chunks(range.end - range.first, most, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+    for_chunks(rays, most, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         sink.guard([&] { trace_batch(range.first + first, range.first + last); });
     });
     counts.kernels += milliseconds_since(start);

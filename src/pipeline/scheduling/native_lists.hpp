@@ -16,7 +16,7 @@ public:
         : device_(device), tracer_(level, scene, device.budget()) {}
 
     /// Puts the rows of a range of the list.
-    void trace(const kernel::Frame& frame, const RayList& rays, const RayNumbers& range, RowSink& sink,
+    void trace(const kernel::Frame& frame, const RayList& list, const RayNumbers& range, RowTaker& sink,
                const Told& told, PipelineCounts& counts) const;
 
 private:

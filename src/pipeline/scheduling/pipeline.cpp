@@ -60,7 +60,7 @@ void Pipeline::abandon() noexcept {
     if (asynchronous_) asynchronous_->abandon();
 }
 
-void Pipeline::trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowSink& sink,
+void Pipeline::trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowTaker& sink,
                           const Told& told, PipelineCounts& counts) {
     if (native_) {
         for (RayNumbers range = take(); range.first < range.end; range = take())

@@ -43,7 +43,7 @@ public:
     /// Returns when nothing more comes into the target.
     void abandon() noexcept;
     /// Puts the rows of each ray that `take` gives. The native device's own kernels are called without OpenCL.
-    void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowSink& sink,
+    void trace_list(const kernel::Frame& frame, const RayList& rays, const TakeRays& take, RowTaker& sink,
                     const Told& told, PipelineCounts& counts);
 
     bool is_asynchronous() const { return asynchronous_.has_value(); }

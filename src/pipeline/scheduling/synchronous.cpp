@@ -161,9 +161,15 @@ void SynchronousSchedule::draw_part_of_tile(const FrameJob& job, const RayBatch&
     draw_pixels(job, numbers);
 }
 
+// The batch's frame is uploaded.
 void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch) {
     const std::size_t bytes = passes_.kernels().ray_bytes();
     wait_until_done(rays_upload_);  // of a call that threw
+    batch_.rays.reserve(batch.rays * bytes);
+    if (rays.is_grid() && passes_.kernels().wide_bytes() == sizeof(double)) {
+        rays_upload_ = passes_.partitions().make_rays(batch_, batch.rays, rays.range());
+        return;
+    }
     if (!staged_rays_ || staged_rays_->size() < batch.rays * bytes) {
         staged_rays_.reset();
         staged_rays_.emplace(passes_.device, "rays", batch.rays * bytes);
@@ -178,13 +184,12 @@ void SynchronousSchedule::upload_rays(const RayList& rays, const RayBatch& batch
             passes_.kernels().write_rays(some, staged + first * bytes);
         }
     });
-    batch_.rays.reserve(batch.rays * bytes);
     rays_upload_ = batch_.rays.queue_upload(staged, batch.rays * bytes);
 }
 
 // While a batch's rows are copied, the next one is traced.
-void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& rays, BatchSource& source, RowSink& sink,
-                                     const Told& told, PipelineCounts& counts) {
+void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& rays, BatchSource& source,
+                                     RowTaker& sink, const Told& told, PipelineCounts& counts) {
     PartitionPass& pass = passes_.partitions();
     RayBatch copied;
     const auto take_copied = [&] {
@@ -196,10 +201,11 @@ void SynchronousSchedule::trace_list(const kernel::Frame& list, const RayList& r
     picture_.release();
     for_each_batch(source, [&](const RayBatch& batch) {
         make_room(batch.rays * listed_ray_bytes(), batch_.rays.size());
-        upload_rays(rays, batch);
         kernel::Frame frame = list;
         frame.ray_count = batch.rays;
+        frame.first_ray = static_cast<std::uint32_t>(rays.first() + batch.first);
         upload(frame);
+        upload_rays(rays, batch);
         TimedKernels timed;
         const PartitionPass::Input input{*passes_.tables, batch_, Work::rays, batch.rays};
         const auto sizes = trace(input, timed);

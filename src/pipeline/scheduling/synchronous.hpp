@@ -42,7 +42,7 @@ public:
     /// The pixels of a batch that is less than a tile.
     void draw_part_of_tile(const FrameJob& job, const RayBatch& batch);
     /// Puts the rows of the rays that `source` gives, by number.
-    void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowSink& sink,
+    void trace_list(const kernel::Frame& frame, const RayList& rays, BatchSource& source, RowTaker& sink,
                     const Told& told, PipelineCounts& counts);
 
     ~SynchronousSchedule() { wait_until_done(rays_upload_); }

@@ -35,7 +35,7 @@ using namespace csgrt;
     FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
-    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, cuts) \
+    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, answer) \
     RECORD(ScreenBounds) \
     FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \

@@ -144,7 +144,7 @@ struct Lined {
         PipelineCounts counts;
         Partitions answer;
         RowSink sink(answer, test::all_fields, rays.size());
-        pipeline.trace_list(frame, RayList(rays, {}), ranges_of(rays.size(), rays.size()), sink, nullptr, counts);
+        pipeline.trace_list(frame, RayList(rays), ranges_of(rays.size(), rays.size()), sink, nullptr, counts);
         return along_rays(answer);
     }
 

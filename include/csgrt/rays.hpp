@@ -1,0 +1,94 @@
+// What is traced: lists of rays, grids of rays that devices make themselves, and what of the rays is wanted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include <csgrt/error.hpp>
+#include <csgrt/vector.hpp>
+
+namespace csgrt {
+
+/// The ray origin + t x direction, t >= 0. Distances t along it are in units of the direction's length, which may be
+/// any but 0: millimetres if the direction is a unit vector. Limits has the range of both.
+struct Ray {
+    Vec3 origin = {};  ///< millimetres
+    Vec3 direction = {};
+};
+
+/// What of a ray is asked for: t_near <= t <= t_far, in lengths of the ray's direction. From -infinity to infinity it
+/// is the whole line.
+struct RayRange {
+    double t_near = 0, t_far = std::numeric_limits<double>::infinity();
+};
+
+/// The ranges of a list of rays.
+struct RayRanges {
+    RayRange all = {};
+    std::span<const RayRange> each = {};  ///< one a ray, in place of `all`; empty: `all` counts
+};
+
+/// Rays in rows and columns. Ray (column, row), counted from the top left, has the number row x columns + column, and
+///     across = (column + 1/2 - columns / 2) x right + (rows / 2 - row - 1/2) x up.
+/// A parallel one starts at origin + across and runs along `direction`; a pinhole's starts at `origin` and runs along
+/// the unit vector of direction + across.
+struct CSGRT_API RayGrid {
+    Vec3 origin = {}, direction = {};
+    Vec3 right = {}, up = {};  ///< from a ray to the next one in its row, and in its column
+    int columns = 1, rows = 1;
+    bool is_pinhole = false;
+
+    std::uint64_t size() const { return std::uint64_t(columns) * std::uint64_t(rows); }
+    /// Throws Error (usage) if the grid has no such ray.
+    Ray ray(int column, int row) const;
+};
+
+enum class Axis { x, y, z };
+
+/// Parallel rays along an axis, upward in its coordinate, through the middles of the cells of a box's face. They start
+/// 1 mm before the box. Columns follow x, or y where that is the axis x; the top row has the largest z, or y where z is
+/// the axis. Throws Error (usage) for an empty box and for numbers of rays below 1.
+CSGRT_API RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows);
+
+/// Rays from an eye through the middles of a picture's pixels, which are square. `vertical_fov`: degrees between the
+/// picture's upper and lower edge; `center`: what the picture's middle shows. Throws Error (usage).
+CSGRT_API RayGrid rays_pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width,
+                               int height);
+
+/// What a call traces: the caller's rays, which must outlive the call, or a grid, of which nothing is copied to a
+/// device.
+class Rays {
+public:
+    Rays() = default;
+    Rays(const Ray& one) : list_(&one, 1) {}
+    template <class List>
+    requires std::is_convertible_v<const List&, std::span<const Ray>> Rays(const List& list) : list_(list) {}
+    Rays(const RayGrid& grid) : grid_(grid), is_grid_(true) {}
+
+    std::uint64_t size() const { return is_grid_ ? grid_.size() : list_.size(); }
+    std::span<const Ray> list() const { return list_; }
+    /// Null: it is a list.
+    const RayGrid* grid() const { return is_grid_ ? &grid_ : nullptr; }
+
+private:
+    std::span<const Ray> list_ = {};
+    RayGrid grid_ = {};
+    bool is_grid_ = false;
+};
+
+/// Pixels in a plane. The middle of pixel (column, row), counted from the top left, is
+///     center + (column + 1/2 - width / 2) x right + (height / 2 - row - 1/2) x up.
+struct Slice {
+    Vec3 center = {};
+    Vec3 right = {}, up = {};  ///< from a pixel to the next one in its row, and in its column, millimetres
+    int width = 0, height = 0;
+};
+
+/// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`: square pixels, seen from the
+/// side to which the normal points, z up, or y up where the normal is z. Throws Error (usage).
+CSGRT_API Slice slice_of(const Box& box, const Vec3& normal, double offset, int width, int height);
+
+}  // namespace csgrt

@@ -1,0 +1,79 @@
+// All regions that claim a partition which several regions of one rank claim (claim.h finds the first).
+#ifndef CSGRT_BOOLEAN_CLAIMANTS_H
+#define CSGRT_BOOLEAN_CLAIMANTS_H
+
+#include "claim.h"
+
+// The regions whose terms hold on one side of a contact, as often as one of their starts finds it. Returns how many;
+// stores them from `found` on unless that is 0.
+FN u32 list_claims(cover c, GLOBAL u32* found) {
+    covered_solids covered;
+    u32 word, words = words_of(c.segments), count = 0, known = NONE;  // known: the term that was looked at last
+    list_covered(c, &covered);
+    for (word = 0; word < words; ++word) {
+        u32 bits = c.bits[word];
+        while (bits) {
+            const u32 segment = take_segment_of(word, &bits), solid = c.ends[2 * segment].solid;
+            u32 i = c.solids[solid].first_start, end = is_missed(c, segment) ? i : i + c.solids[solid].start_count;
+            for (; i < end; ++i) {
+                const StartRecord start = c.starts[i];
+                if (start.first_word == known) continue;
+                known = start.first_word;
+                if (!term_holds(c, &covered, start)) continue;
+                if (found) found[count] = start.region;
+                ++count;
+            }
+        }
+    }
+    return count;
+}
+
+// At most so many numbers all_claimants() stores on the way.
+FN u32 claims_at_most(cover c) {
+    u32 count;
+    c.missed = MISSED_ABOVE;
+    count = list_claims(c, 0);
+    c.missed = MISSED_BELOW;
+    return count + list_claims(c, 0);
+}
+
+// Sorts (by a heap: there may be thousands), and leaves of equal numbers one. Returns how many are left.
+FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
+    u32 heap = count / 2, end = count, kept = 0, i;
+    while (end > 1) {
+        u32 hole, child, number;
+        if (heap > 0) {
+            number = numbers[--heap];
+        } else {
+            number = numbers[--end];
+            numbers[end] = numbers[0];
+        }
+        hole = heap;
+        for (child = 2 * hole + 1; child < end; child = 2 * hole + 1) {
+            if (child + 1 < end && numbers[child + 1] > numbers[child]) ++child;
+            if (numbers[child] <= number) break;
+            numbers[hole] = numbers[child];
+            hole = child;
+        }
+        numbers[hole] = number;
+    }
+    for (i = 0; i < count; ++i)
+        if (kept == 0 || numbers[kept - 1] != numbers[i]) numbers[kept++] = numbers[i];
+    return kept;
+}
+
+// The claimants of the first one's rank, ascending, on one side at least of a contact; a region that is alone on its
+// side is none of them. Returns how many; `found` has room for claims_at_most().
+FN u32 all_claimants(cover c, GLOBAL const u32* ranks, GLOBAL u32* found) {
+    u32 side, kept = 0;
+    for (side = 0; side < 2; ++side) {
+        u32 count, of_rank = 0;
+        c.missed = side == 0 ? MISSED_ABOVE : MISSED_BELOW;
+        count = sort_numbers(found + kept, list_claims(c, found + kept));
+        while (of_rank < count && same_rank(ranks, found[kept], found[kept + of_rank])) ++of_rank;
+        if (of_rank > 1) kept += of_rank;
+    }
+    return sort_numbers(found, kept);
+}
+
+#endif

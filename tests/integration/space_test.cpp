@@ -1,0 +1,124 @@
+// Points and slices: which region holds a place, against the oracle's membership.
+#include <cmath>
+#include <random>
+#include <tuple>
+
+#include "bench/stress/build.hpp"
+#include "catch.hpp"
+#include "integration/deep_scenes.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
+#include "oracle/scene_judge.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+/// Two boxes that touch at x = 1, and a third that overlaps the second.
+Scene boxes() {
+    Scene scene;
+    for (const auto& [name, low, high] : {std::tuple{"a", 0.0, 1.0}, {"b", 1.0, 3.0}, {"c", 2.0, 4.0}}) {
+        scene.objects.push_back(Solid{name, stress::box({low, -1, -1}, {high, 1, 1}), {}});
+        Tree tree;
+        tree.nodes.push_back(test::leg(name));
+        scene.objects.push_back(test::region_of(std::string(name) + ".r", std::move(tree)));
+    }
+    return scene;
+}
+
+std::vector<Vec3> random_points(const Box& box, std::size_t count) {
+    std::mt19937_64 random(5);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    std::vector<Vec3> points(count);
+    for (Vec3& p : points)
+        p = {between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("a point belongs to the region that begins or goes on there along x") {
+    Renderer renderer(boxes(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
+    const std::vector<Vec3> points = {{-1, 0, 0}, {0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {2.5, 0, 0}, {4, 0, 0}, {9, 9, 9}};
+    Array<std::int32_t> found;
+    renderer.region_at(points, found);
+    CHECK(std::vector<std::int32_t>(found.begin(), found.end()) == std::vector<std::int32_t>{-1, 0, 0, 1, 1, -1, -1});
+    try {
+        renderer.region_at(std::vector<Vec3>{{0, 0, 0}, {0, HUGE_VAL, 0}}, found);
+        FAIL("it is accepted");
+    } catch (const Error& error) {
+        CHECK(std::string(error.what()).starts_with("point 1: needs three finite numbers"));
+    }
+}
+
+TEST_CASE("a slice shows regions, overlaps and what is empty, row 0 on top") {
+    Renderer renderer(boxes(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
+    const Slice slice = slice_of(renderer.bounds(), {0, 0, 2}, 0.25, 8, 6);
+    CHECK((slice.center == Vec3{2, 0, 0.25} && slice.right == Vec3{0.5, 0, 0} && slice.up == Vec3{0, 0.5, 0}));
+    Array<std::int32_t> found;
+    renderer.slice(slice, found);
+    REQUIRE(found.size() == 48);
+    const std::vector<std::int32_t> inside = {0, 0, 1, 1, -2, -2, 2, 2}, outside(8, -1);
+    for (std::size_t row = 0; row < 6; ++row)
+        CHECK(std::vector<std::int32_t>(found.begin() + 8 * row, found.begin() + 8 * row + 8) ==
+              (row == 0 || row == 5 ? outside : inside));
+    CHECK(slice_of(renderer.bounds(), {1, 0, 0}, 0, 2, 2).right.y > 0);
+    CHECK(slice_of(renderer.bounds(), {0, 1, 0}, 0, 2, 2).right.x < 0);
+    CHECK(slice_of(renderer.bounds(), {0, -1, 0}, 0, 2, 2).up.z > 0);
+    CHECK_THROWS_AS(slice_of(renderer.bounds(), {}, 0, 2, 2), Error);
+    CHECK_THROWS_AS(slice_of(renderer.bounds(), {0, 0, 1}, HUGE_VAL, 2, 2), Error);
+    CHECK_THROWS_AS(renderer.slice(Slice{}, found), Error);
+}
+
+// The hidden one has a million points.
+static void judge_space(std::size_t points_a_scene, int pixels) {
+    std::size_t decided = 0, all = 0;
+    for (const std::string& file : test::scene_files()) {
+        INFO(file);
+        const Scene scene = load_scene(file);
+        Renderer renderer(scene, {}, test::on_native_device()), reference(scene, {}, {.reference = true});
+        const oracle::SceneOracle oracle(scene, {}, true, true);
+        const oracle::SceneJudge judge(oracle, renderer.regions(), renderer.statistics().tolerance);
+        const std::vector<Vec3> points = random_points(renderer.bounds(), points_a_scene);
+        Array<std::int32_t> found, other, line;
+        renderer.region_at(points, found);
+        reference.region_at(points, other);
+        REQUIRE(test::same(found, other));
+        renderer.model().region_at(points, other);
+        REQUIRE(test::same(found, other));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::string wrong = judge.judge_point(points[i], found[i], false, decided);
+            INFO("point " << i);
+            REQUIRE(wrong == "");
+        }
+        all += points.size();
+        for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{0.3, -0.5, 0.8}}) {
+            const Box& box = renderer.bounds();
+            const double l = std::hypot(normal.x, normal.y, normal.z);
+            const Vec3 at{0.53 * box.low.x + 0.47 * box.high.x, 0.53 * box.low.y + 0.47 * box.high.y,
+                          0.53 * box.low.z + 0.47 * box.high.z};
+            const Slice slice =
+                slice_of(box, normal, (normal.x * at.x + normal.y * at.y + normal.z * at.z) / l, pixels, pixels);
+            renderer.slice(slice, found);
+            reference.slice(slice, other);
+            REQUIRE(test::same(found, other));
+            for (int y = 0; y < pixels; ++y)
+                for (int x = 0; x < pixels; ++x) {
+                    const double a = x + 0.5 - 0.5 * pixels, b = 0.5 * pixels - y - 0.5;
+                    const Vec3 point{slice.center.x + a * slice.right.x + b * slice.up.x,
+                                     slice.center.y + a * slice.right.y + b * slice.up.y,
+                                     slice.center.z + a * slice.right.z + b * slice.up.z};
+                    INFO("pixel " << x << ", " << y);
+                    const std::string wrong =
+                        judge.judge_point(point, found[std::size_t(y * pixels + x)], true, decided);
+                    REQUIRE(wrong == "");
+                    ++all;
+                }
+        }
+    }
+    WARN(decided << " of " << all << " places are decided, none is wrong");
+    CHECK(decided > all / 2);
+}
+
+TEST_CASE("points and slices are the oracle's, where rounding decides nothing") { judge_space(100, 8); }
+TEST_CASE("a million points are the oracle's", "[.]") { judge_space(20'000, 80); }
