@@ -56,6 +56,26 @@ TEST_CASE("after a fork a new Renderer works in the child, and the parent's goes
         });
 }
 
+TEST_CASE("a Model that a child inherits answers as before, also what the parent has not asked yet", "[device]") {
+    require_good("native", [] {
+        const csgrt::Model asked(small_scene()), fresh(small_scene());
+        const RayGrid rays = asked.grid_of(small_view());
+        const Fields all{.solids = true, .normals = true, .overlaps = true};
+        Partitions expected;
+        asked.partitions(rays, expected, all);
+        REQUIRE(status_of([&] {
+                    Partitions found;
+                    for (const csgrt::Model* const model : {&asked, &fresh}) {
+                        model->partitions(rays, found, all);
+                        require_same(found, expected);
+                        Renderer renderer(*model, on("native"));
+                        renderer.partitions(rays, found, all);
+                        require_same(found, expected);
+                    }
+                }) == 0);
+    });
+}
+
 TEST_CASE("a Renderer that a child inherits refuses every call, and goes without a word", "[device]") {
     for (const std::string who : {"native", "reference", "pocl"})
         require_good(who, [&] {
