@@ -7,7 +7,7 @@
 # A program is compiled with all types of solids and all lights: for one scene's own this costs 1 to 5 %. An entry is a
 # loop over work-items around a kernel: a call for each of them took up to five times as long.
 set(programs first_hits first_hits_prefetch partitions)
-set(first_hits_files 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl)
+set(first_hits_files 0_cull_tiles.cl packet/first_hits_packet.h first_hits.cl list_hits.cl)
 set(first_hits_prefetch_files ${first_hits_files})
 set(partitions_files 0_cull_tiles.cl 0_make_rays.cl 1_packet_candidates.cl 1_count_segments.cl 2_store_segments.cl
                      2_rays_in_faces.cl 3_weave.cl 4_evaluate.cl 3_deep_rays.cl 5_shade.cl 6_rows.cl)

@@ -33,6 +33,7 @@ typedef struct {
     End seen;                      // where that partition begins, if it is claimed
     u32 region;                    // by this one; NONE: it is not
     u32 from_within;               // it begins where a solid ends
+    u32 goes_on;                   // the same region claims what is before it
     u32 marked;                    // has any segment so far MISSED_... set?
 } sweep;
 
@@ -49,7 +50,7 @@ typedef struct {
 FN void start_sweep(sweep* w) {
     u32 i;
     for (i = 0; i < SLOT_WORDS; ++i) w->used[i] = w->open[i] = w->starts[i] = w->entry[i] = w->exit[i] = 0;
-    w->from_within = w->marked = 0;
+    w->from_within = w->goes_on = w->marked = 0;
     w->region = NONE;
     w->next_event = REAL_INFINITY;
 }
@@ -199,8 +200,10 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizo
         // What ends before t_min is not seen.
         found = matters && w->region != NONE && t > t_min;
         if (matters && !found) {
+            const u32 before = w->region;
             if (w->region != NONE) e.changed = all_solids();
             w->region = first_claim(w, s, e.changed);
+            w->goes_on = before != NONE && w->region == before;
             w->from_within = e.in.solid == NONE;
             w->seen = w->from_within ? e.out : e.in;
             w->seen.t = t;

@@ -10,17 +10,21 @@
 
 FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);
+    sweep_reach reach;
     u32 k;
+    reach.from = f->t_min;
+    reach.tolerance = f->tolerance;
+    reach.unit = reach.per_unit = 1;
+    reach.offset = distance_of_center(f);
     for (k = 0; k < PACKET; ++k) {
         start_sweep(p->sweeps + k);
         p->next_events[k] = BOX_MISSED;
+        p->reach[k] = reach;
     }
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;
     p->lanes = lanes_of(p->rays);
-    p->t_min = f->t_min;
-    p->tolerance = f->tolerance;
-    p->offset = distance_of_center(f);
+    p->t_min = (double8)(f->t_min);
     p->slabs = slabs_of(f, from_eye);
 }
 

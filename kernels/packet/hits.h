@@ -34,19 +34,19 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
         *overflow_mask |= take_solid_by_packet(p, s.g, k, active_mask & ~*overflow_mask);
     do {
         u32 going;
-        real horizon;
         e = *next++;
-        horizon = e.node == NONE ? REAL_INFINITY : (wide)e.entry + p->offset;
         // The rays whose next event nothing in this node can join. Behind the last node that is so for all rays.
         going = (e.node == NONE ? active_mask : bits_of(vload8(0, p->next_events) < e.entry)) & active_mask &
                 ~*overflow_mask & ~hit_mask;
         for (; going; going &= going - 1u) {
             sweep* w = p->sweeps + lowest(going);
-            if (advance(w, s, p->tolerance, p->t_min, horizon)) {
+            const sweep_reach r = p->reach[lowest(going)];
+            const real horizon = e.node == NONE ? REAL_INFINITY : ((wide)e.entry + r.offset) * r.per_unit;
+            if (advance(w, s, r.tolerance, r.from, horizon)) {
                 hit_mask |= going & (0u - going);
                 prefetch_line(materials + w->region);
             }
-            p->next_events[lowest(going)] = event_distance(w, p->tolerance, p->offset);
+            p->next_events[lowest(going)] = next_event_of(p, lowest(going));
         }
         going = active_mask & ~*overflow_mask & ~hit_mask & near_scene;
         if (e.node != NONE && going) {

@@ -114,7 +114,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     n.x = flipped ? -n.x : n.x;
     n.y = flipped ? -n.y : n.y;
     n.z = flipped ? -n.z : n.z;
-    view.sight = shade_plastic(f, a.lights, finish, p->rays, vload8(0, t), n, (double8)(p->t_min));
+    view.sight = shade_plastic(f, a.lights, finish, p->rays, vload8(0, t), n, p->t_min);
     view.region = vload8(0, region);
     view.solid = vload8(0, solid);
     return view;

@@ -9,21 +9,38 @@
 #include "../boolean/first_hit.h"
 #include "packet.h"
 
+// How a ray's parameter is to be read: what is claimed up to `from` is not seen, ends within the tolerance are one, and
+// t is at unit x t - offset in the list of nodes.
+typedef struct {
+    real from, tolerance;
+    wide unit, per_unit, offset;  // per_unit: 1 / unit
+} sweep_reach;
+
 // The rays of a packet on their way through the scene.
 typedef struct {
     packet_ray3 rays;
     packet_lanes lanes;
     packet_slab_ray slabs;
-    real t_min, tolerance;
-    wide offset;                // of distances in the tile's list
-    float next_events[PACKET];  // of each sweep, as event_distance() has it
+    double8 t_min;              // segments that end before it are not wanted
+    sweep_reach reach[PACKET];  // of each ray
+    float next_events[PACKET];  // of each sweep, as next_event_of() has it
     sweep sweeps[PACKET];
 } packet;
+
+// About where the next event of ray k is complete, in the distances of the list.
+FN float next_event_of(const packet* p, u32 k) {
+    const sweep* w = p->sweeps + k;
+    const sweep_reach r = p->reach[k];
+    return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + r.tolerance) * r.unit - r.offset)
+                                         : BOX_MISSED;
+}
 
 // The active rays take up what they meet of a solid. Returns the overflow mask.
 FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
     const SolidRecord solid = g.solids[index];
     u32 alone = active_mask, overflow_mask = 0;
+    real t_min[PACKET];
+    vstore8(p->t_min, 0, t_min);
     if ((active_mask & (active_mask - 1u)) && takes_packets(solid)) {
         const packet_segments h = packet_intersect(g, solid, p->rays);
         u32 found = bits_of(h.count == 1 && h.out0 >= p->t_min) & active_mask;
@@ -40,14 +57,14 @@ FN u32 take_solid_by_packet(packet* p, Geometry g, u32 index, u32 active_mask) {
                 End ends[2];
                 put_segment(ends, index, in[k], (u32)in_surface[k], out[k], (u32)out_surface[k]);
                 if (!take_segment(p->sweeps + k, solid, ends[0], ends[1])) overflow_mask |= 1u << k;
-                p->next_events[k] = event_distance(p->sweeps + k, p->tolerance, p->offset);
+                p->next_events[k] = next_event_of(p, k);
             }
         }
     }
     for (; alone; alone &= alone - 1u) {
         const u32 k = lowest(alone);
-        if (!take_solid(p->sweeps + k, g, index, lane(&p->lanes, k), p->t_min)) overflow_mask |= 1u << k;
-        p->next_events[k] = event_distance(p->sweeps + k, p->tolerance, p->offset);
+        if (!take_solid(p->sweeps + k, g, index, lane(&p->lanes, k), t_min[k])) overflow_mask |= 1u << k;
+        p->next_events[k] = next_event_of(p, k);
     }
     return overflow_mask;
 }

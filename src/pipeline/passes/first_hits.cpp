@@ -3,9 +3,11 @@
 namespace csgrt {
 namespace {
 
+/// The processor's caches hold too little of it.
+bool is_large(const CompiledScene& scene) { return scene.nodes.size() > 1u << 18; }
+
 bool prefetches(const Device& device, const CompiledScene& scene, const Settings& settings) {
-    constexpr std::size_t cached_nodes = 1u << 18;  // of a larger scene the processor's caches hold too little
-    return traces_packets(device, settings) && scene.nodes.size() > cached_nodes;
+    return traces_packets(device, settings) && is_large(scene);
 }
 
 std::vector<std::string> options_of(const Device& device, const CompiledScene& scene, const Settings& settings) {
@@ -23,12 +25,16 @@ FirstHitPass::FirstHitPass(Device& device, const CompiledScene& scene, const Set
       rays_an_item_(traces_packets(device, settings) ? packet_rays : 1),
       program_(device,
                program_source(
-                   device.info(), settings, prefetches(device, scene, settings) ? "first_hits_prefetch" : "first_hits",
+                   device.info(), settings, native_program(scene),
                    {CullPass::file, rays_an_item_ == 1 ? "shading/first_hits_ray.h" : "packet/first_hits_packet.h",
                     "first_hits.cl"}),
                options_of(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       first_hits_(program_.kernel("first_hits")) {}
+
+const char* FirstHitPass::native_program(const CompiledScene& scene) {
+    return is_large(scene) ? "first_hits_prefetch" : "first_hits";
+}
 
 TimedKernels FirstHitPass::launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture,
                                   std::uint32_t rays) {

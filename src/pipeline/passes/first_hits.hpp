@@ -15,6 +15,9 @@ public:
     /// whose segments found no place, which are listed in `overflown`: nothing is drawn of them. Does not wait.
     TimedKernels launch(const SceneTables& scene, BatchBuffers& batch, const Buffer& picture, std::uint32_t rays);
 
+    /// Which of the native device's programs suits a scene (cmake/native_kernels.cmake).
+    static const char* native_program(const CompiledScene& scene);
+
     CullPass& cull() { return cull_; }
     static constexpr std::uint64_t ray_bytes = sizeof(std::uint32_t);  ///< of `overflown`
 

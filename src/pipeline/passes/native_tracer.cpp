@@ -8,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "compile/lists/overlaps.hpp"
+#include "pipeline/passes/first_hits.hpp"
 
 namespace csgrt {
 namespace kernel {
@@ -53,6 +54,7 @@ struct NativeTracer::Scratch {
     std::vector<kernel::OverlapPiece> pieces;
     std::vector<kernel::DeepSegment> deep_segments;
     std::vector<std::uint32_t> status;
+    std::vector<kernel::TileNode> lists;
 
     static Scratch& own() {
         static thread_local Scratch scratch;
@@ -91,9 +93,8 @@ struct NativeTracer::Run {
 
 NativeTracer::NativeTracer(const native::Level& level, const CompiledScene& scene, std::uint64_t budget)
     : scene_(scene), budget_(budget) {
-    const native::Program& program = *level.program("partitions");
-    const auto kernel = [&](const char* name) {
-        const native::CompiledKernel* const found = program.kernel(name);
+    const auto kernel = [&](const char* name, const char* program = "partitions") {
+        const native::CompiledKernel* const found = level.program(program)->kernel(name);
         if (!found) throw std::logic_error(name);
         return found;
     };
@@ -115,6 +116,7 @@ NativeTracer::NativeTracer(const native::Level& level, const CompiledScene& scen
     count_rows_ = kernel("count_rows");
     write_rows_ = kernel("write_rows");
     describe_rows_ = kernel("describe_rows");
+    hit_listed_rays_ = kernel("hit_listed_rays", FirstHitPass::native_program(scene));
 }
 
 bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayRecord> rays, Fields fields,
@@ -191,7 +193,12 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
     while (first < end) {
         const std::span records = std::span(memory).first(std::min(size, end - first));
         rays.fill(first, records);
-        if (!trace(frame, records, sink.fields(), stop, rows, counts)) {
+        // First hits come in the order of the solids' boxes, before which a plate that a ray grazes may begin. Points
+        // have nothing in common that a packet could use.
+        const bool by_hits = (frame.answer & ANSWER_FIRST) && !(scene_.solid_types >> SOLID_PLATE & 1u) &&
+                             records.size() > 1 && records[0].t_near < records[0].t_far;
+        if (!(by_hits && hit(frame, records, sink.fields(), stop, rows, counts)) &&
+            !trace(frame, records, sink.fields(), stop, rows, counts)) {
             if (records.size() == 1) throw_too_long_ray(budget_);
             size = records.size() / 2;
             continue;
@@ -200,6 +207,39 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
         counts.done.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(records.size())});
         first += records.size();
     }
+}
+
+bool NativeTracer::hit(const kernel::Frame& list, std::span<const kernel::RayRecord> rays, Fields fields,
+                       const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const {
+    kernel::Frame frame = list;
+    frame.ray_count = static_cast<std::uint32_t>(rays.size());
+    Run run{frame, rays, stop, counts};
+    const std::size_t n = rays.size(), items = (n + 7) / 8;  // PACKET
+    std::vector<std::uint32_t>&found = run.scratch.bits, &solids = run.scratch.status;
+    rows.reserve(n, {.solids = true, .normals = fields.normals, .overlaps = false});
+    room_for(found, n);
+    room_for(solids, n);
+    Vec3* const normals = fields.normals ? rows.in_normals.data() : nullptr;
+    run(hit_listed_rays_, items, &frame, scene_.solids.data(), scene_.reals.data(), scene_.planes.data(),
+        scene_.words.data(), scene_.inner_nodes.data(), scene_.nodes.data(), scene_.starts.data(), scene_.trees.data(),
+        rays.data(), room_for(run.scratch.lists, items * 16), found.data(), rows.in.data(), solids.data(), normals);
+    run.lap(&PipelineCounts::first_hits);
+    kernel::RayCount* const places = room_for(rows.places, n + 1);
+    std::uint32_t row = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        places[i] = {row, 0};
+        if (found[i] == ALONE_UNKNOWN) return false;
+        if (found[i] == NONE) continue;
+        const bool is_cut = solids[i] == NONE;
+        rows.regions[row] = static_cast<std::int32_t>(found[i]);
+        rows.in[row] = rows.in[i];
+        rows.in_solids[row] = is_cut ? -1 : static_cast<std::int32_t>(solids[i]);
+        if (normals) normals[row] = is_cut ? Vec3{} : normals[i];
+        ++row;
+    }
+    places[n] = {row, 0};
+    ++counts.batches;
+    return true;
 }
 
 // One after the other, as DeepRayPass does it (src/pipeline/passes/deep_rays.hpp).

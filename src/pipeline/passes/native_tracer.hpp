@@ -17,8 +17,8 @@ namespace csgrt {
 
 class NativeTracer {
 public:
-    /// The level must have the program "partitions". The scene must outlive this. `budget`: bytes that a batch may
-    /// take.
+    /// The level must have the programs "partitions" and "first_hits". The scene must outlive this. `budget`: bytes
+    /// that a batch may take.
     NativeTracer(const native::Level& level, const CompiledScene& scene, std::uint64_t budget);
 
     /// How many rays go through the kernels together at most: their segments stay in a processor's cache.
@@ -37,6 +37,9 @@ public:
 private:
     struct Scratch;
     struct Run;
+    /// The first row of each ray. False: a ray has more segments at a time than the kernel has room for.
+    bool hit(const kernel::Frame& frame, std::span<const kernel::RayRecord> rays, Fields fields,
+             const std::atomic<bool>* stop, RowMemory& rows, PipelineCounts& counts) const;
     void trace_deep_rays(Run& run) const;
     void write_rows(Run& run, Fields fields, RowMemory& rows) const;
 
@@ -45,7 +48,7 @@ private:
     const native::CompiledKernel *find_candidates_, *count_packet_candidates_, *list_packet_candidates_,
         *count_segments_, *count_in_faces_, *sum_segments_, *store_segments_, *store_in_faces_, *order_ends_, *weave_,
         *evaluate_, *sort_deep_blocks_, *merge_deep_runs_, *clear_status_, *sweep_deep_rays_, *count_rows_,
-        *write_rows_, *describe_rows_;
+        *write_rows_, *describe_rows_, *hit_listed_rays_;
 };
 
 }  // namespace csgrt
