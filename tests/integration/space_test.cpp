@@ -121,4 +121,4 @@ static void judge_space(std::size_t points_a_scene, int pixels) {
 }
 
 TEST_CASE("points and slices are the oracle's, where rounding decides nothing") { judge_space(100, 8); }
-TEST_CASE("a million points are the oracle's", "[.]") { judge_space(20'000, 80); }
+TEST_CASE("a million points are the oracle's", "[.]") { judge_space(40'000, 80); }
