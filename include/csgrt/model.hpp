@@ -59,6 +59,10 @@ public:
     /// The one of a pixel, counted from the top left. Throws Error (usage).
     Ray ray_of(const View& view, int column, int row) const { return grid_of(view).ray(column, row); }
 
+    /// At a pixel, counted from the top left: to the last bit what a picture in double precision has there. On the
+    /// calling thread, as the next five. Throws Error: usage, out_of_memory.
+    Pick pick(const View& view, int column, int row) const;
+
     // The next five do what a Renderer's do, on the calling thread alone: for single rays and short lists. The bits are
     // those of a Renderer in double precision, with the settings that the Model was given. The native device's kernels
     // trace, or the reference where there are none. They throw Error: usage, out_of_memory.

@@ -108,6 +108,15 @@ struct Partitions {
     Array<std::int32_t> overlap_region_ids = {};          ///< all claimants of an overlap, ascending
 };
 
+/// What a picture shows at a pixel, and everything along the pixel's ray.
+struct Pick {
+    std::int32_t region = -1, solid = -1;  ///< indices into Model::regions() and solids(); -1: nothing
+    double t = 0;                          ///< distance along the ray, in lengths of its direction
+    Vec3 point = {}, normal = {};          ///< millimetres; a unit vector, outward from the region
+    Ray ray = {};
+    RayPartitions along = {};  ///< as Renderer::shoot() gives them
+};
+
 /// Where a list of rays first meets a region: of each ray the first row that Partitions would have.
 struct Hits {
     Array<double> t_hit = {};             ///< (rays), distances in lengths of the ray's direction; infinity: a miss

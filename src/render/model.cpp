@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "base/clock.hpp"
 #include "base/floating_point.hpp"
 #include "base/thread.hpp"
 #include "compile/frame.hpp"
 #include "compile/linear.hpp"
+#include "compile/lists/along_rays.hpp"
 #include "compile/lists/grid.hpp"
 #include "device/host_memory.hpp"
 #include "render/model_impl.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -88,6 +91,29 @@ void Model::Impl::trace(const RayList& list, RowTaker& taker) const {
 RayGrid Model::grid_of(const View& view) const {
     const FloatingPoint own;
     return csgrt::grid_of(prepare_frame(impl_->scene, view, impl_->tolerance).frame);
+}
+
+Pick Model::pick(const View& view, int column, int row) const {
+    Pick pick;
+    pick.ray = ray_of(view, column, row);
+    impl_->call([&](const TraceList& trace) {
+        const RayList list(pick.ray);
+        Partitions all;
+        RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, 1, 0);
+        trace(list, sink);
+        pick.along = std::move(along_rays(all).front());
+    });
+    const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
+    for (const Partition& p : pick.along.partitions) {
+        if (p.region >= seen_end || !(p.out > 0)) continue;
+        pick.region = static_cast<std::int32_t>(p.region);
+        pick.solid = static_cast<std::int32_t>(p.in_solid);
+        pick.t = p.in;
+        pick.point = pick.ray.origin + p.in * pick.ray.direction;
+        pick.normal = p.in_normal;
+        break;
+    }
+    return pick;
 }
 
 void Model::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) const {

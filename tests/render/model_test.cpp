@@ -109,6 +109,37 @@ TEST_CASE("a model that does not fit leaves the renderer to the others") {
     test::require_same(renderer.render(small_view()), before);
 }
 
+TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets") {
+    const every_solid::EverySolid every(2);
+    std::vector<Scene> all = scenes();
+    all.push_back(every.scene);
+    for (const Scene& scene : all) {
+        const Model model(scene);
+        Renderer reference(model, {.reference = true});
+        View view{.width = 24, .height = 16, .camera = scene.camera};
+        view.camera.perspective = GENERATE(0.0, 40.0);
+        const Image image = reference.render(view);
+        const auto at = [&](const char* channel, std::size_t i) { return image.channel(channel)[i]; };
+        const std::vector<RayPartitions> along = reference.shoot(reference.rays_of(view));
+        for (int row = 0; row < view.height; ++row)
+            for (int column = 0; column < view.width; ++column) {
+                INFO("column " << column << " of row " << row);
+                const auto i = static_cast<std::size_t>(row * view.width + column);
+                const Pick pick = model.pick(view, column, row);
+                REQUIRE(identical(pick.along, along[i]));
+                REQUIRE(static_cast<float>(pick.region + 1) == at("region", i));
+                REQUIRE(static_cast<float>(pick.solid + 1) == at("solid", i));
+                if (pick.region < 0) continue;
+                REQUIRE(static_cast<float>(pick.t) == at("Z", i));
+                REQUIRE(static_cast<float>(pick.normal.x) == at("N.X", i));
+                REQUIRE(static_cast<float>(pick.normal.y) == at("N.Y", i));
+                REQUIRE(static_cast<float>(pick.normal.z) == at("N.Z", i));
+                REQUIRE(pick.point.x == pick.ray.origin.x + pick.t * pick.ray.direction.x);
+            }
+    }
+    CHECK_THROWS_AS(Model(every.scene).pick(small_view(), 64, 0), Error);
+}
+
 TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto check = [](const Model& model, const std::vector<Ray>& rays) {
