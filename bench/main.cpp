@@ -118,9 +118,11 @@ std::vector<Task> list_tasks(const Model& model, const Options& options) {
     for (std::size_t i = 0; i < d->rays.size(); ++i)
         d->points.push_back(
             {between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)});
-    constexpr Fields all{.solids = true, .normals = true, .overlaps = true};
     return {{"lists", [d](Renderer& renderer, int) { renderer.partitions(d->rays, d->partitions); }},
-            {"lists, all fields", [d](Renderer& renderer, int) { renderer.partitions(d->rays, d->partitions, all); }},
+            {"lists, all fields",
+             [d](Renderer& renderer, int) {
+                 renderer.partitions(d->rays, d->partitions, {.solids = true, .normals = true, .overlaps = true});
+             }},
             {"lists, grids", [d](Renderer& renderer, int) { renderer.partitions(d->grid, d->partitions); }},
             {"lists, first hits", [d](Renderer& renderer, int) { renderer.cast_rays(d->rays, d->hits); }},
             {"lists, shoot", [d](Renderer& renderer, int) { renderer.shoot(d->rays); }},
