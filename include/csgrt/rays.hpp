@@ -58,8 +58,8 @@ CSGRT_API RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows
 CSGRT_API RayGrid rays_pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width,
                                int height);
 
-/// What a call traces: the caller's rays, which must outlive the call, or a grid, of which nothing is copied to a
-/// device.
+/// What a call traces: the caller's rays, which must outlive the call, or a grid. Where all its rays have one range, a
+/// device makes them itself, and nothing is copied.
 class Rays {
 public:
     Rays() = default;
