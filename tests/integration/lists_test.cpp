@@ -10,6 +10,7 @@
 #include "integration/lists.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
@@ -158,7 +159,7 @@ TEST_CASE("batches come in order, hold the list's rows, and end when the host ha
 }
 
 TEST_CASE("a grid's rays are those of its list, whoever makes them") {
-    const every_solid::EverySolid model(3);
+    const every_solid::EverySolid model(test::sanitized ? 1 : 3);
     const Model compiled(model.scene);
     View view{.width = 37, .height = 21, .camera = {}};
     view.camera.perspective = GENERATE(0.0, 40.0);
@@ -241,7 +242,7 @@ TEST_CASE("lists have the same bits through OpenCL's functions, of every solid a
         Renderer by_functions(scene, {}, test::on_native_device());
         test::require_same_lists(expected, by_functions, list);
     };
-    const every_solid::EverySolid model(3);
+    const every_solid::EverySolid model(test::sanitized ? 1 : 3);
     compare(model.scene, model.rays);
     compare(test::deep_parts(3, 400, 40), test::rays_along_grid());
 }
@@ -252,5 +253,5 @@ TEST_CASE("the number of threads changes no bit of a list") {
     one.threads = 1;
     three.threads = 3;
     Renderer expected(scene, {}, one), found(scene, {}, three);
-    test::require_same_lists(expected, found, test::random_rays(expected.bounds(), 20'000));
+    test::require_same_lists(expected, found, test::random_rays(expected.bounds(), test::sanitized ? 2'000 : 20'000));
 }

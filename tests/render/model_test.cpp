@@ -11,6 +11,7 @@
 #include "base/identical.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 
@@ -110,13 +111,13 @@ TEST_CASE("a model that does not fit leaves the renderer to the others") {
 }
 
 TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets") {
-    const every_solid::EverySolid every(2);
+    const every_solid::EverySolid every(test::sanitized ? 1 : 2);
     std::vector<Scene> all = scenes();
     all.push_back(every.scene);
     for (const Scene& scene : all) {
         const Model model(scene);
         Renderer reference(model, {.reference = true});
-        View view{.width = 24, .height = 16, .camera = scene.camera};
+        View view{.width = test::sanitized ? 6 : 24, .height = test::sanitized ? 4 : 16, .camera = scene.camera};
         view.camera.perspective = GENERATE(0.0, 40.0);
         const Image image = reference.render(view);
         const auto at = [&](const char* channel, std::size_t i) { return image.channel(channel)[i]; };
@@ -163,7 +164,7 @@ TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits"
         for (std::thread& thread : threads) thread.join();
         CHECK(wrong == 0);
     };
-    const every_solid::EverySolid every(2);
+    const every_solid::EverySolid every(test::sanitized ? 1 : 2);
     check(Model(every.scene), every.rays);
     check(Model(test::deep_parts(3, 400, 40)), test::rays_along_grid());
     Partitions answer;
