@@ -244,7 +244,7 @@ TEST_CASE("lists have the same bits through OpenCL's functions, of every solid a
     };
     const every_solid::EverySolid model(test::sanitized ? 1 : 3);
     compare(model.scene, model.rays);
-    compare(test::deep_parts(3, 400, 40), test::rays_along_grid());
+    compare(test::deep_parts(3, test::sanitized ? 200 : 400, 40), test::rays_along_grid());
 }
 
 TEST_CASE("the number of threads changes no bit of a list") {
