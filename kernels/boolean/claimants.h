@@ -28,13 +28,24 @@ FN u32 list_claims(cover c, GLOBAL u32* found) {
     return count;
 }
 
+// Two for a ray that runs in a face of a covering solid; else both sides are one.
+FN u32 contact_sides(cover c) {
+    covered_solids covered;
+    c.missed = 0;
+    list_covered(c, &covered);
+    return covered.missed ? 2u : 1u;
+}
+FN u32 missed_on(u32 side) { return side == 0 ? MISSED_ABOVE : MISSED_BELOW; }
+
 // At most so many numbers all_claimants() stores on the way.
 FN u32 claims_at_most(cover c) {
-    u32 count;
-    c.missed = MISSED_ABOVE;
-    count = list_claims(c, 0);
-    c.missed = MISSED_BELOW;
-    return count + list_claims(c, 0);
+    const u32 sides = contact_sides(c);
+    u32 side, count = 0;
+    for (side = 0; side < sides; ++side) {
+        c.missed = missed_on(side);
+        count += list_claims(c, 0);
+    }
+    return count;
 }
 
 // Sorts (by a heap: there may be thousands), and leaves of equal numbers one. Returns how many are left.
@@ -65,10 +76,11 @@ FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
 // The claimants of the first one's rank, ascending, on one side at least of a contact; a region that is alone on its
 // side is none of them. Returns how many; `found` has room for claims_at_most().
 FN u32 all_claimants(cover c, GLOBAL const u32* ranks, GLOBAL u32* found) {
+    const u32 sides = contact_sides(c);
     u32 side, kept = 0;
-    for (side = 0; side < 2; ++side) {
+    for (side = 0; side < sides; ++side) {
         u32 count, of_rank = 0;
-        c.missed = side == 0 ? MISSED_ABOVE : MISSED_BELOW;
+        c.missed = missed_on(side);
         count = sort_numbers(found + kept, list_claims(c, found + kept));
         while (of_rank < count && same_rank(ranks, found[kept], found[kept + of_rank])) ++of_rank;
         if (of_rank > 1) kept += of_rank;
