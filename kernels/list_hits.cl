@@ -4,9 +4,6 @@
 #include "packet/listed.h"
 #include "packet/hits.h"
 
-#define PACKET_NODES 16u     // entries of a packet's list
-#define UNKNOWN 0xffffffffu  // in place of a region: the ray has too many segments at a time
-
 // Which boxes the active rays meet within their ranges.
 typedef struct {
     packet_slab_ray slabs;
@@ -96,7 +93,7 @@ static int begin_of_row(const sweep* w, RayRecord record, real* t, u32* is_cut) 
 }
 
 // One work-item a packet. `lists`: memory for PACKET_NODES entries of each. Of each ray `regions` get the region, NONE
-// or UNKNOWN, and `seen_solids` NONE where the range cuts the row. `normals` may be 0.
+// or HIT_UNKNOWN, and `seen_solids` NONE where the range cuts the row. `normals` may be 0.
 __kernel void hit_listed_rays(__global const Frame* frame, GEOMETRY_ARGS, __global const BvhNode* nodes, REGION_ARGS,
                               __global const RayRecord* rays, __global TileNode* lists, __global u32* regions,
                               __global real* distances, __global u32* seen_solids, __global real* normals) {
@@ -126,7 +123,7 @@ __kernel void hit_listed_rays(__global const Frame* frame, GEOMETRY_ARGS, __glob
         const u32 ray = id + k;
         real t;
         u32 is_cut;
-        regions[ray] = overflow_mask >> k & 1u ? UNKNOWN : NONE;
+        regions[ray] = overflow_mask >> k & 1u ? HIT_UNKNOWN : NONE;
         if (!(hit_mask >> k & 1u) || !begin_of_row(w, rays[ray], &t, &is_cut)) continue;
         regions[ray] = w->region;
         distances[ray] = t;

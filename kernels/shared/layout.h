@@ -287,6 +287,10 @@ typedef struct {
     float entry;  // no ray of the tile comes there before this distance, less that of the scene's center
 } TileNode;
 #define LISTED_NODES 32u  // entries of a tile
+#define PACKET_NODES 16u  // of a packet of a list, which makes them itself; their distances are the packet's own
+
+// First hits of a list, in place of a region: the ray has more segments at a time than a sweep has room for.
+#define HIT_UNKNOWN 0xffffffffu
 
 // 1 count segments -> scan. Before the scan: this ray's counts; after it: the sum over the rays before it in the
 // batch.

@@ -131,7 +131,7 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
             scene_.inner_nodes.data(), others...);
     };
     const bool packets = n > 1, flat_faced = (scene_.solid_types & FLAT_FACED) != 0;
-    const std::size_t items = packets ? (n + 7) / 8 : n;  // PACKET
+    const std::size_t items = packets ? (n + packet_rays - 1) / packet_rays : n;
     kernel::RayCount* const places = room_for(s.places, n + 1);
     const kernel::BvhNode* const nodes = scene_.nodes.data();
     packets ? run(count_packet_candidates_, items, &frame, nodes, none, rays.data(), none, places)
@@ -214,7 +214,7 @@ bool NativeTracer::hit(const kernel::Frame& list, std::span<const kernel::RayRec
     kernel::Frame frame = list;
     frame.ray_count = static_cast<std::uint32_t>(rays.size());
     Run run{frame, rays, stop, counts};
-    const std::size_t n = rays.size(), items = (n + 7) / 8;  // PACKET
+    const std::size_t n = rays.size(), items = (n + packet_rays - 1) / packet_rays;
     std::vector<std::uint32_t>&found = run.scratch.bits, &solids = run.scratch.status;
     rows.reserve(n, {.solids = true, .normals = fields.normals, .overlaps = false});
     room_for(found, n);
@@ -222,13 +222,14 @@ bool NativeTracer::hit(const kernel::Frame& list, std::span<const kernel::RayRec
     Vec3* const normals = fields.normals ? rows.in_normals.data() : nullptr;
     run(hit_listed_rays_, items, &frame, scene_.solids.data(), scene_.reals.data(), scene_.planes.data(),
         scene_.words.data(), scene_.inner_nodes.data(), scene_.nodes.data(), scene_.starts.data(), scene_.trees.data(),
-        rays.data(), room_for(run.scratch.lists, items * 16), found.data(), rows.in.data(), solids.data(), normals);
+        rays.data(), room_for(run.scratch.lists, items * PACKET_NODES), found.data(), rows.in.data(), solids.data(),
+        normals);
     run.lap(&PipelineCounts::first_hits);
     kernel::RayCount* const places = room_for(rows.places, n + 1);
     std::uint32_t row = 0;
     for (std::size_t i = 0; i < n; ++i) {
         places[i] = {row, 0};
-        if (found[i] == ALONE_UNKNOWN) return false;
+        if (found[i] == HIT_UNKNOWN) return false;
         if (found[i] == NONE) continue;
         const bool is_cut = solids[i] == NONE;
         rows.regions[row] = static_cast<std::int32_t>(found[i]);
