@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -66,17 +67,16 @@ public:
     Rays(const Ray& one) : list_(&one, 1) {}
     template <class List>
     requires std::is_convertible_v<const List&, std::span<const Ray>> Rays(const List& list) : list_(list) {}
-    Rays(const RayGrid& grid) : grid_(grid), is_grid_(true) {}
+    Rays(const RayGrid& grid) : grid_(grid) {}
 
-    std::uint64_t size() const { return is_grid_ ? grid_.size() : list_.size(); }
+    std::uint64_t size() const { return grid_ ? grid_->size() : list_.size(); }
     std::span<const Ray> list() const { return list_; }
     /// Null: it is a list.
-    const RayGrid* grid() const { return is_grid_ ? &grid_ : nullptr; }
+    const RayGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
 
 private:
     std::span<const Ray> list_ = {};
-    RayGrid grid_ = {};
-    bool is_grid_ = false;
+    std::optional<RayGrid> grid_ = {};
 };
 
 /// Pixels in a plane. The middle of pixel (column, row), counted from the top left, is

@@ -23,6 +23,12 @@ HeldRenderer::~HeldRenderer() {
     }
 }
 
+std::vector<Warning> HeldRenderer::new_warnings() {
+    const std::vector<Warning>& all = renderer_.warnings();
+    const std::size_t first = std::exchange(returned_, all.size());
+    return {all.begin() + static_cast<std::ptrdiff_t>(first), all.end()};
+}
+
 int end_process(int status) {
     while (!held.empty()) {
         if (is_busy(held.back())) {

@@ -1,7 +1,9 @@
 // A command's Renderer, which does not delay the end of the process.
 #pragma once
 
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include <csgrt/renderer.hpp>
 
@@ -18,9 +20,12 @@ public:
 
     Renderer& operator*() noexcept { return renderer_; }
     Renderer* operator->() noexcept { return &renderer_; }
+    /// Those that no earlier call has returned.
+    std::vector<Warning> new_warnings();
 
 private:
     Renderer renderer_;
+    std::size_t returned_ = 0;
 };
 
 /// The end of main(): returns `status`. If a driver is still compiling for a Renderer that was not destroyed, the

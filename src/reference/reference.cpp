@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
+#include "compile/lists/grid.hpp"
 #include "compile/lists/overlaps.hpp"
 #include "compile/flatten/attributes.hpp"
 #include "kernel_host/geometry.hpp"
@@ -57,8 +58,7 @@ std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene
 }
 
 Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const {
-    const kernel::world_ray r = kernel::camera_ray(&frame, {x, y, 1});
-    return {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
+    return ray_of(kernel::camera_ray(&frame, {x, y, 1}));
 }
 
 Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels)

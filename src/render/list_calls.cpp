@@ -17,22 +17,22 @@ void find_partitions(const RayList& list, Partitions& answer, Fields fields, con
 void find_hits(const RayList& list, Hits& answer, Fields fields, const TraceList& trace) {
     answer.solid_ids.resize(0);
     answer.normals.resize(0);
-    HitSink sink(answer.region_ids, &answer.t_hit, fields.solids ? &answer.solid_ids : nullptr,
-                 fields.normals ? &answer.normals : nullptr, list.size());
+    HitSink sink({.regions = &answer.region_ids,
+                  .distances = &answer.t_hit,
+                  .solids = fields.solids ? &answer.solid_ids : nullptr,
+                  .normals = fields.normals ? &answer.normals : nullptr},
+                 list.size());
     trace(list, sink);
     list.restore_lengths(answer.t_hit);
 }
 
 void find_occluded(const RayList& list, Array<std::uint8_t>& answer, const TraceList& trace) {
-    Array<std::int32_t> regions;
-    HitSink sink(regions, nullptr, nullptr, nullptr, list.size());
+    HitSink sink({.hits = &answer}, list.size());
     trace(list, sink);
-    answer.resize(regions.size());
-    for (std::size_t i = 0; i < regions.size(); ++i) answer[i] = regions[i] >= 0;
 }
 
 void find_regions(std::span<const Vec3> points, Array<std::int32_t>& answer, const TraceList& trace) {
-    HitSink sink(answer, nullptr, nullptr, nullptr, points.size());
+    HitSink sink({.regions = &answer}, points.size());
     trace(RayList(points), sink);
 }
 

@@ -44,9 +44,9 @@ struct Renderer::Impl {
     void end_call(Clock::time_point start);
     void render(const View& view, Framebuffer& framebuffer, Watch& watch);
     void trace(const RayList& list, RowTaker& taker, Watch& watch);
-    /// Calls work(trace, watch) as a call of the host's.
+    /// Calls work(trace) as a call of the host's. `all`: the rays of several lists that it traces; 0: it traces one.
     template <class Work>
-    void call(const Work& work);
+    void call(const Work& work, std::uint64_t all = 0);
 };
 
 namespace {
@@ -253,17 +253,18 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, Watch& w
 }
 
 template <class Work>
-void Renderer::Impl::call(const Work& work) {
+void Renderer::Impl::call(const Work& work, std::uint64_t all) {
     const FloatingPoint own;
     const AllowedThreads allowed(settings.threads);
     Watch::over(own.of_host(settings.progress), [&](Watch& watch) {
-        work([&](const RayList& list, RowTaker& taker) { trace(list, taker, watch); }, watch, own);
+        if (all > 0) watch.begin_all(all);
+        work([&](const RayList& list, RowTaker& taker) { trace(list, taker, watch); });
     });
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
     std::vector<RayPartitions> answers;
-    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
+    impl().call([&](const TraceList& trace) {
         const RayList list(rays);
         Partitions all;
         RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, list.size(), 0);
@@ -275,45 +276,40 @@ std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
 }
 
 void Renderer::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) {
-    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
-        find_partitions(RayList(rays, ranges), answer, fields, trace);
-    });
+    impl().call([&](const TraceList& trace) { find_partitions(RayList(rays, ranges), answer, fields, trace); });
 }
 
 void Renderer::partitions(const Rays& rays, const std::function<bool(const Partitions&, std::uint64_t)>& take,
                           Fields fields, const RayRanges& ranges, std::uint64_t most) {
     if (most == 0) throw Error(Status::usage, "a batch must have one ray at least");
-    impl().call([&](const TraceList& trace, Watch& watch, const FloatingPoint& own) {
+    const FloatingPoint own;
+    const auto takes = own.of_host(take);
+    const auto shoot_batches = [&](const TraceList& trace) {
         const RayList list(rays, ranges);
-        const auto takes = own.of_host(take);
-        watch.begin_all(list.size());
         Partitions answer;
         bool goes_on = true;
         for (std::uint64_t first = 0; first < list.size() && goes_on; first += most) {
             find_partitions(list.part(first, std::min(most, list.size() - first)), answer, fields, trace);
             goes_on = takes(answer, first);
         }
-    });
+    };
+    impl().call(shoot_batches, rays.size());
 }
 
 void Renderer::cast_rays(const Rays& rays, Hits& answer, Fields fields, const RayRanges& ranges) {
-    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
-        find_hits(RayList(rays, ranges), answer, fields, trace);
-    });
+    impl().call([&](const TraceList& trace) { find_hits(RayList(rays, ranges), answer, fields, trace); });
 }
 
 void Renderer::occluded(const Rays& rays, Array<std::uint8_t>& answer, const RayRanges& ranges) {
-    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) {
-        find_occluded(RayList(rays, ranges), answer, trace);
-    });
+    impl().call([&](const TraceList& trace) { find_occluded(RayList(rays, ranges), answer, trace); });
 }
 
 void Renderer::region_at(std::span<const Vec3> points, Array<std::int32_t>& answer) {
-    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) { find_regions(points, answer, trace); });
+    impl().call([&](const TraceList& trace) { find_regions(points, answer, trace); });
 }
 
 void Renderer::slice(const Slice& slice, Array<std::int32_t>& answer) {
-    impl().call([&](const TraceList& trace, Watch&, const FloatingPoint&) { find_pixels(slice, answer, trace); });
+    impl().call([&](const TraceList& trace) { find_pixels(slice, answer, trace); });
 }
 
 void Renderer::Impl::trace(const RayList& list, RowTaker& taker, Watch& watch) {

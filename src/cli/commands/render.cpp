@@ -164,8 +164,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     Progress progress;
     progress.stage("compiling");
     HeldRenderer renderer(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
-    report(renderer->warnings());
-    const std::size_t reported = renderer->warnings().size();
+    report(renderer.new_warnings());
     check_interrupt();
 
     progress.stage("rendering");
@@ -178,7 +177,7 @@ Statistics render_frames(const Scene& scene, const RenderArguments& arguments, c
     }
     image = framebuffer.take();
     renderer->name_pixels(image);
-    report({renderer->warnings().begin() + static_cast<std::ptrdiff_t>(reported), renderer->warnings().end()});
+    report(renderer.new_warnings());
     return median_of(frames);
 }
 

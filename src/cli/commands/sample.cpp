@@ -159,12 +159,11 @@ Status run(const SampleArguments& arguments) {
     }
     progress.stage("compiling");
     HeldRenderer renderer(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
-    report(renderer->warnings(), false);
-    const std::size_t reported = renderer->warnings().size();
+    report(renderer.new_warnings(), false);
     check_interrupt();
     progress.stage("sampling");
     sample(arguments, points ? &*points : nullptr, *renderer, progress);
-    report({renderer->warnings().begin() + static_cast<std::ptrdiff_t>(reported), renderer->warnings().end()}, false);
+    report(renderer.new_warnings(), false);
     return Status::ok;
 }
 

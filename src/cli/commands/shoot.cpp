@@ -1,12 +1,12 @@
 // csgrt shoot: the partitions along given rays, in chunks, so that any number of rays fits into memory.
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <optional>
 
 #include <unistd.h>
 
 #include "commands.hpp"
+#include "base/along.hpp"
 #include "cli/held_renderer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
@@ -133,7 +133,7 @@ void write_text(Shooting& work) {
         if (has_range) {
             work.renderer.partitions(rays, rows, {.solids = true, .normals = true, .overlaps = true},
                                      {.all = work.range, .each = {}});
-            for (std::size_t i = 0; i < rays.size(); ++i) writer.append(text, first + i, rows, i);
+            for (std::size_t i = 0; i < rays.size(); ++i) writer.append(text, first + i, along_ray(rows, i));
         } else {
             for (const RayPartitions& along : work.renderer.shoot(rays)) writer.append(text, first++, along);
         }
@@ -205,8 +205,7 @@ Status run(const ShootArguments& arguments) {
     progress.stage("compiling");
     HeldRenderer held(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
     Renderer& renderer = *held;
-    report(renderer.warnings(), false);
-    const std::size_t reported = renderer.warnings().size();
+    report(held.new_warnings(), false);
     source.cover(renderer.bounds(), arguments);
     check_interrupt();
 
@@ -218,7 +217,7 @@ Status run(const ShootArguments& arguments) {
     else
         write_table(work);
     out.commit();
-    report({renderer.warnings().begin() + static_cast<std::ptrdiff_t>(reported), renderer.warnings().end()}, false);
+    report(held.new_warnings(), false);
     return Status::ok;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <utility>
 
 #include "cli/values.hpp"
 
@@ -27,10 +26,6 @@ void append_numbers(std::string& out, std::initializer_list<double> values) {
         out += ' ';
         append_number(out, value);
     }
-}
-
-void append_head(std::string& out, std::uint64_t ray, std::size_t partitions, std::size_t overlaps) {
-    out += "ray " + std::to_string(ray) + ' ' + std::to_string(partitions) + ' ' + std::to_string(overlaps) + '\n';
 }
 
 }  // namespace
@@ -67,50 +62,24 @@ PartitionWriter::PartitionWriter(const Renderer& renderer) {
     for (auto* names : {&solids_, &types_}) names->emplace_back("-");
 }
 
-void PartitionWriter::append_row(std::string& out, const Partition& p) const {
-    out += regions_.at(p.region);
-    append_numbers(out, {p.in, p.out, p.in_normal.x, p.in_normal.y, p.in_normal.z, p.out_normal.x, p.out_normal.y,
-                         p.out_normal.z});
-    const std::size_t none = solids_.size() - 1, in = std::min<std::size_t>(p.in_solid, none),
-                      last = std::min<std::size_t>(p.out_solid, none);
-    for (const std::string* name : {&solids_[in], &solids_[last], &types_[in], &types_[last]}) (out += ' ') += *name;
-    out += '\n';
-}
-
-void PartitionWriter::append_overlap(std::string& out, double in, double end,
-                                     std::span<const std::uint32_t> regions) const {
-    out += "overlap";
-    append_numbers(out, {in, end});
-    for (std::uint32_t region : regions) (out += ' ') += regions_.at(region);
-    out += '\n';
-}
-
 void PartitionWriter::append(std::string& out, std::uint64_t ray, const RayPartitions& along) const {
-    append_head(out, ray, along.partitions.size(), along.overlaps.size());
-    for (const Partition& p : along.partitions) append_row(out, p);
-    for (const Overlap& overlap : along.overlaps) append_overlap(out, overlap.in, overlap.out, overlap.regions);
-}
-
-void PartitionWriter::append(std::string& out, std::uint64_t ray, const Partitions& rows, std::size_t i) const {
-    const auto range = [i](const Array<std::int64_t>& splits) {
-        return std::pair{static_cast<std::size_t>(splits[i]), static_cast<std::size_t>(splits[i + 1])};
-    };
-    const auto [first, end] = range(rows.ray_splits);
-    const auto [first_overlap, overlaps_end] = range(rows.overlap_splits);
-    append_head(out, ray, end - first, overlaps_end - first_overlap);
-    for (std::size_t row = first; row < end; ++row)
-        append_row(out, {.in = rows.t_in[row],
-                         .out = rows.t_out[row],
-                         .in_normal = rows.in_normals[row],
-                         .out_normal = rows.out_normals[row],
-                         .region = static_cast<std::uint32_t>(rows.region_ids[row]),
-                         .in_solid = static_cast<std::uint32_t>(rows.in_solids[row]),
-                         .out_solid = static_cast<std::uint32_t>(rows.out_solids[row])});
-    for (std::size_t row = first_overlap; row < overlaps_end; ++row) {
-        const std::int32_t* const ids = rows.overlap_region_ids.data();
-        const std::vector<std::uint32_t> regions(ids + rows.overlap_region_splits[row],
-                                                 ids + rows.overlap_region_splits[row + 1]);
-        append_overlap(out, rows.overlap_t_in[row], rows.overlap_t_out[row], regions);
+    out += "ray " + std::to_string(ray) + ' ' + std::to_string(along.partitions.size()) + ' ' +
+           std::to_string(along.overlaps.size()) + '\n';
+    for (const Partition& p : along.partitions) {
+        out += regions_.at(p.region);
+        append_numbers(out, {p.in, p.out, p.in_normal.x, p.in_normal.y, p.in_normal.z, p.out_normal.x, p.out_normal.y,
+                             p.out_normal.z});
+        const std::size_t none = solids_.size() - 1, in = std::min<std::size_t>(p.in_solid, none),
+                          last = std::min<std::size_t>(p.out_solid, none);
+        for (const std::string* name : {&solids_[in], &solids_[last], &types_[in], &types_[last]})
+            (out += ' ') += *name;
+        out += '\n';
+    }
+    for (const Overlap& overlap : along.overlaps) {
+        out += "overlap";
+        append_numbers(out, {overlap.in, overlap.out});
+        for (std::uint32_t region : overlap.regions) (out += ' ') += regions_.at(region);
+        out += '\n';
     }
 }
 

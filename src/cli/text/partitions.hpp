@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,15 +23,11 @@ class PartitionWriter {
 public:
     explicit PartitionWriter(const Renderer& renderer);
 
-    /// Appends the lines of one ray to `out`.
+    /// Appends the lines of one ray to `out`. A solid that is none of the model's, where a range cuts a partition, and
+    /// its type are -.
     void append(std::string& out, std::uint64_t ray, const RayPartitions& partitions) const;
-    /// Of the i-th ray of an answer. Where the range cuts a partition the solid and its type are -.
-    void append(std::string& out, std::uint64_t ray, const Partitions& rows, std::size_t i) const;
 
 private:
-    void append_row(std::string& out, const Partition& partition) const;
-    void append_overlap(std::string& out, double in, double end, std::span<const std::uint32_t> regions) const;
-
     std::vector<std::string> regions_, solids_, types_;  ///< of no solid the last
 };
 

@@ -8,7 +8,7 @@
 #include <csgrt/error.hpp>
 
 #include "base/floating_point.hpp"
-#include "kernel_host/geometry.hpp"
+#include "compile/linear.hpp"
 #include "scene/range.hpp"
 #include "scene/vector.hpp"
 
@@ -25,8 +25,8 @@ void check_counts(int columns, int rows, const char* what) {
 }
 
 const Box& filled(const Box& box) {
-    if (box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z) return box;
-    refuse("the box is empty: give one that has a size");
+    if (is_empty(box)) refuse("the box is empty: give one that has a size");
+    return box;
 }
 
 double width_of(const Box& box, const Vec3& along) {
@@ -83,10 +83,9 @@ void check_grid(const RayGrid& grid) {
     put_grid(grid, frame);
     for (const int column : {0, grid.columns - 1})
         for (const int row : {0, grid.rows - 1}) {
-            const kernel::world_ray r = kernel::view_ray(&frame, column, row);
-            const Vec3 direction{r.d.x, r.d.y, r.d.z};
+            const auto [origin, direction] = ray_of(kernel::view_ray(&frame, column, row));
             bool in_direction = false;
-            std::string fault = ray_fault({r.o.x, r.o.y, r.o.z}, direction, in_direction);
+            std::string fault = ray_fault(origin, direction, in_direction);
             if (fault.empty() && grid.is_pinhole && !(dot(unit(grid.direction), direction) > 0))
                 fault = "its direction is a right angle or more from the middle's";
             if (!fault.empty())
@@ -102,8 +101,7 @@ Ray RayGrid::ray(int column, int row) const {
                ": it has " + std::to_string(columns) + " x " + std::to_string(rows));
     kernel::Frame frame{};
     put_grid(*this, frame);
-    const kernel::world_ray r = kernel::view_ray(&frame, column, row);
-    return {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
+    return ray_of(kernel::view_ray(&frame, column, row));
 }
 
 RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows) {

@@ -3,7 +3,7 @@
 
 #include <csgrt/rays.hpp>
 
-#include "kernel_host/kernels.hpp"
+#include "kernel_host/geometry.hpp"
 
 namespace csgrt {
 
@@ -13,5 +13,7 @@ void check_grid(const RayGrid& grid);
 /// The frame's view_ray(column, row) is the grid's ray.
 void put_grid(const RayGrid& grid, kernel::Frame& frame);
 RayGrid grid_of(const kernel::Frame& frame);
+
+inline Ray ray_of(const kernel::world_ray& r) { return {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}}; }
 
 }  // namespace csgrt

@@ -10,7 +10,6 @@
 
 #include "base/parallel.hpp"
 #include "compile/lists/grid.hpp"
-#include "kernel_host/geometry.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {
@@ -92,11 +91,9 @@ RayList::RayList(std::span<const Vec3> points)
 
 /// As it is shot, of a grid without its exponent.
 Ray RayList::ray(std::uint64_t i) const {
-    if (is_grid_) {
-        const kernel::world_ray r =
-            kernel::view_ray(&camera_, static_cast<double>(i % camera_.width), static_cast<double>(i / camera_.width));
-        return {{r.o.x, r.o.y, r.o.z}, {r.d.x, r.d.y, r.d.z}};
-    }
+    if (is_grid_)
+        return ray_of(
+            kernel::view_ray(&camera_, static_cast<double>(i % camera_.width), static_cast<double>(i / camera_.width)));
     return points_.empty() ? rays_[i] : Ray{points_[i], {1, 0, 0}};
 }
 

@@ -113,18 +113,18 @@ bool RowSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) 
     return same_rows(answer_, ray, rows, other);
 }
 
-HitSink::HitSink(Array<std::int32_t>& regions, Array<double>* distances, Array<std::int32_t>* solids,
-                 Array<Vec3>* normals, std::uint64_t rays)
-    : RowTaker({.solids = solids != nullptr, .normals = normals != nullptr, .overlaps = false},
+HitSink::HitSink(const HitArrays& arrays, std::uint64_t rays)
+    : RowTaker({.solids = arrays.solids != nullptr, .normals = arrays.normals != nullptr, .overlaps = false},
                ANSWER_CUT | ANSWER_FIRST),
-      regions_(regions),
-      distances_(distances),
-      solids_(solids),
-      normals_(normals) {
-    regions.resize(rays);
-    if (distances) distances->resize(rays);
-    if (solids) solids->resize(rays);
-    if (normals) normals->resize(rays);
+      to_(arrays) {
+    const auto fit = [rays](auto* array) {
+        if (array) array->resize(rays);
+    };
+    fit(to_.regions);
+    fit(to_.distances);
+    fit(to_.solids);
+    fit(to_.normals);
+    fit(to_.hits);
 }
 
 void HitSink::put(const RowView& rows) {
@@ -132,20 +132,23 @@ void HitSink::put(const RowView& rows) {
         for (; i < end; ++i) {
             const std::size_t ray = rows.first + i, row = rows.places[i].segments;
             const bool is_hit = rows.places[i + 1].segments > row;
-            regions_[ray] = is_hit ? rows.regions[row] : -1;
-            if (distances_) (*distances_)[ray] = is_hit ? rows.in[row] : std::numeric_limits<double>::infinity();
-            if (solids_) (*solids_)[ray] = is_hit ? rows.in_solids[row] : -1;
-            if (normals_) (*normals_)[ray] = is_hit ? rows.in_normals[row] : Vec3{};
+            if (to_.regions) (*to_.regions)[ray] = is_hit ? rows.regions[row] : -1;
+            if (to_.distances) (*to_.distances)[ray] = is_hit ? rows.in[row] : std::numeric_limits<double>::infinity();
+            if (to_.solids) (*to_.solids)[ray] = is_hit ? rows.in_solids[row] : -1;
+            if (to_.normals) (*to_.normals)[ray] = is_hit ? rows.in_normals[row] : Vec3{};
+            if (to_.hits) (*to_.hits)[ray] = is_hit;
         }
     });
 }
 
 bool HitSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) const {
     const auto row = static_cast<std::size_t>(rows.ray_splits[other]);
-    if (rows.ray_splits[other + 1] == rows.ray_splits[other]) return regions_[ray] == -1;
-    return regions_[ray] == rows.region_ids[row] && (!distances_ || same_bits((*distances_)[ray], rows.t_in[row])) &&
-           (!solids_ || (*solids_)[ray] == rows.in_solids[row]) &&
-           (!normals_ || same_bits((*normals_)[ray], rows.in_normals[row]));
+    const bool is_hit = rows.ray_splits[other + 1] > rows.ray_splits[other];
+    if (to_.hits && (*to_.hits)[ray] != is_hit) return false;
+    if (to_.regions && (*to_.regions)[ray] != (is_hit ? rows.region_ids[row] : -1)) return false;
+    return !is_hit || ((!to_.distances || same_bits((*to_.distances)[ray], rows.t_in[row])) &&
+                       (!to_.solids || (*to_.solids)[ray] == rows.in_solids[row]) &&
+                       (!to_.normals || same_bits((*to_.normals)[ray], rows.in_normals[row])));
 }
 
 PixelSink::PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays)

@@ -66,21 +66,26 @@ private:
     bool is_stopped_ = false;
 };
 
-/// Takes the first row of each ray. Any of the arrays may be null, if it is not wanted.
+/// What is wanted of the first row of each ray; null: not that.
+struct HitArrays {
+    Array<std::int32_t>* regions = nullptr;
+    Array<double>* distances = nullptr;
+    Array<std::int32_t>* solids = nullptr;
+    Array<Vec3>* normals = nullptr;
+    Array<std::uint8_t>* hits = nullptr;  ///< 1: there is one
+};
+
+/// Takes the first row of each ray.
 class HitSink final : public RowTaker {
 public:
     /// Sizes the arrays, which must outlive this.
-    HitSink(Array<std::int32_t>& regions, Array<double>* distances, Array<std::int32_t>* solids, Array<Vec3>* normals,
-            std::uint64_t rays);
+    HitSink(const HitArrays& arrays, std::uint64_t rays);
 
     void put(const RowView& rows) override;
     bool has(std::uint64_t ray, const Partitions& rows, std::size_t other) const override;
 
 private:
-    Array<std::int32_t>& regions_;
-    Array<double>* const distances_;
-    Array<std::int32_t>* const solids_;
-    Array<Vec3>* const normals_;
+    const HitArrays to_;
 };
 
 /// Takes the pixels of a slice: of each ray a row of them, the length of whose direction is a pixel's.
