@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <random>
 #include <vector>
@@ -128,27 +129,30 @@ inline void require_first_rows(const Hits& hits, const Array<std::uint8_t>& occl
     }
 }
 
-/// Of two renderers, whose answers have the same bits: for the whole line, and for ranges, which cut it.
-inline void require_same_lists(Renderer& expected, Renderer& found, const std::vector<Ray>& rays) {
+/// Of renderers, whose answers have the same bits: for the whole line, and for ranges, which cut it.
+inline void require_same_lists(Renderer& expected, std::initializer_list<Renderer*> found,
+                               const std::vector<Ray>& rays) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr Fields all{.solids = true, .normals = true, .overlaps = true};
-    Partitions whole, other;
-    expected.partitions(rays, whole, all, {.all = {-infinity, infinity}});
-    found.partitions(rays, other, all, {.all = {-infinity, infinity}});
-    require_same(other, whole);
     const std::vector<RayRange> ranges = random_ranges(rays.size());
-    Partitions cut;
+    Partitions whole, cut;
+    expected.partitions(rays, whole, all, {.all = {-infinity, infinity}});
     expected.partitions(rays, cut, all, {.each = ranges});
-    found.partitions(rays, other, all, {.each = ranges});
-    require_same(other, cut);
-    Hits hits;
-    Array<std::uint8_t> occluded;
-    found.cast_rays(rays, hits, all, {.each = ranges});
-    found.occluded(rays, occluded, {.each = ranges});
-    require_first_rows(hits, occluded, cut);
-    if (found.statistics().precision == "double") {
-        found.model().partitions(rays, other, all, {.each = ranges});
+    for (Renderer* const renderer : found) {
+        Partitions other;
+        renderer->partitions(rays, other, all, {.all = {-infinity, infinity}});
+        require_same(other, whole);
+        renderer->partitions(rays, other, all, {.each = ranges});
         require_same(other, cut);
+        Hits hits;
+        Array<std::uint8_t> occluded;
+        renderer->cast_rays(rays, hits, all, {.each = ranges});
+        renderer->occluded(rays, occluded, {.each = ranges});
+        require_first_rows(hits, occluded, cut);
+        if (renderer->statistics().precision == "double") {
+            renderer->model().partitions(rays, other, all, {.each = ranges});
+            require_same(other, cut);
+        }
     }
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
         INFO("ray " << ray << " from " << ranges[ray].t_near << " to " << ranges[ray].t_far);
@@ -248,8 +252,7 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
     const auto expected = reference.shoot(list);
     require_same(device.shoot(list), expected);
     require_same(batched.shoot(list), expected);
-    require_same_lists(reference, device, list);
-    require_same_lists(reference, batched, list);
+    require_same_lists(reference, {&device, &batched}, list);
 }
 
 }  // namespace csgrt::test

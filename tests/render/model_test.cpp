@@ -86,7 +86,7 @@ TEST_CASE("several renderers share one model, also on the reference") {
     const Model model(test::deep_parts(2, 40, 10));
     Renderer device(model, test::on_device()), reference(model, {.reference = true});
     test::require_same(device.render(small_view()), reference.render(small_view()));
-    test::require_same_lists(reference, device, test::random_rays(model.bounds(), 500));
+    test::require_same_lists(reference, {&device}, test::random_rays(model.bounds(), 500));
     reference.set_model(Model(test::nested_balls(3, {Operator::difference}, test::Form::left)));
     device.set_model(reference.model());
     test::require_same(device.render(small_view()), reference.render(small_view()));
