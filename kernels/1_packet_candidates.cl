@@ -22,7 +22,7 @@ static ray_packet packet_of(__global const Frame* f, __global const RayRecord* r
     p.number = first_of_packet(number_of(f, listed, id));
     first = pixel_of(p.number, f->screen);
     p.rays = rays_through(f, first);
-    p.t_min = (double8)f->t_min;
+    p.t_min = packet_wanted_from(f, range_in_view(f, p.rays));
     p.t_max = (double8)REAL_INFINITY;
     p.within = first.inside ? rays_inside(f, first) : 0;
     return p;

@@ -10,6 +10,8 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
     RayTally tally;
     Pixel pixel;
     pixel_position at;
+    world_ray from_eye;
+    view_range visible;
     ray3 r;
     if (id >= frame->ray_count) return;
     if (id == 0 && frame->rows) report->total = offsets[frame->ray_count];
@@ -17,20 +19,24 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
     number = number_of(frame, listed, id);
     at = pixel_of(number, frame->screen);
     if (!at.inside) return;
-    r = geometry_ray(frame, camera_ray(frame, at));
+    from_eye = camera_ray(frame, at);
+    visible = range_in_view(frame, from_eye);
+    r = geometry_ray(frame, from_eye);
     tally = tallies[id];
     nodes += 2 * (size_t)offsets[id].segments;
     ends += 2 * (size_t)offsets[id].segments;
     {
-        // The first claimed partition that does not end before t_min.
-        const real t_min = t_min_along(frame, r);
+        // The first claimed partition of which a part is in the range.
+        const real near = parameter_at(r, visible.near), far = parameter_at(r, visible.far);
         const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;
         for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE;
              next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += (region & OVERLAP) != 0;
-            if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > t_min) seen = next;
+            if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > near &&
+                ends[nodes[next].in_end].t < far && near < far)
+                seen = next;
         }
     }
     if (seen == NONE) {
@@ -40,12 +46,12 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
         End end = ends[partition.in_end];
         u32 region = partition.owner & ~OVERLAP;
         Geometry g = GEOMETRY;
-        pixel = seen_pixel(frame, lights, materials[region], g, r, end, partition.in_end & 1u, region);
+        pixel = seen_pixel(frame, lights, materials[region], g, r, visible, end, partition.in_end & 1u, region);
     }
     pixel.depth = offsets[id + 1].segments - offsets[id].segments;
     pixel.partitions = tally.partitions;
     pixel.overlap = tally.overlaps;
     tallies[id].overlaps = tally.overlaps;
-    put_pixel(frame, picture + place_of(frame, at, id), pixel);
+    put_pixel(frame, display, picture + place_of(frame, at, id), pixel);
     if (pixel.depth) mark_shown(frame, report, number);  // a ray that meets no segment sees nothing
 }

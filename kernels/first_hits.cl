@@ -40,6 +40,7 @@ __kernel void first_hits(__global const Frame* frame, GEOMETRY_ARGS, __global co
 #endif
     a.materials = materials;
     a.lights = lights;
+    a.display = display;
     overflow_mask = draw(frame, s, a, list_of(frame, tile_nodes, number), at,
                          picture + place_of(frame, at, FIRST_OF_ITEM(id)), &hit_mask);
     if (hit_mask) mark_shown(frame, report, number);

@@ -24,6 +24,7 @@
 
 #include <csgrt/camera.hpp>
 #include <csgrt/device.hpp>
+#include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
 #include <csgrt/framebuffer.hpp>
 #include <csgrt/image.hpp>

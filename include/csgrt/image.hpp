@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <new>
@@ -18,9 +19,9 @@ namespace csgrt {
 
 class Watch;
 
-/// The values of several channels, the same number of floats for each. All are in one piece of memory, one channel
-/// after the other, so that a GPU can copy a part of all channels at once. Copies are deep. Several threads may read at
-/// the same time, and may write to different values.
+/// The values of several channels, the same number of floats or whole numbers of 32 bits for each. All are in one piece
+/// of memory, one channel after the other, so that a GPU can copy a part of all channels at once. Copies are deep.
+/// Several threads may read at the same time, and may write to different values.
 class CSGRT_API Channels {
 public:
     /// No channels.
@@ -44,8 +45,15 @@ public:
     std::span<const float> operator[](std::size_t channel) const noexcept {
         return {values_.get() + channel * size_, size_};
     }
+    /// The same memory as whole numbers.
+    std::span<std::uint32_t> ids(std::size_t channel) noexcept {
+        return {reinterpret_cast<std::uint32_t*>(values_.get() + channel * size_), size_};
+    }
+    std::span<const std::uint32_t> ids(std::size_t channel) const noexcept {
+        return {reinterpret_cast<const std::uint32_t*>(values_.get() + channel * size_), size_};
+    }
 
-    /// The same shape, and values that compare equal: no NaN equals another.
+    /// The same shape, and floats that compare equal: no NaN equals another.
     CSGRT_API friend bool operator==(const Channels& a, const Channels& b) noexcept;
 
 private:
@@ -61,15 +69,17 @@ private:
     std::unique_ptr<float[], Free> values_;
 };
 
-/// A picture. Each channel has width x height floats, row by row; the first is the TOP left pixel. A Renderer makes
-/// these channels, in this order, as far as View::channels wants them:
+/// A picture. Each channel has width x height values, row by row; the first is the TOP left pixel. They are floats, but
+/// for ids. A Renderer makes these channels, in this order, as far as View::channels wants them:
 ///
 ///     R G B           linear light, 0 to 1, more in highlights; the background where the ray hits nothing
 ///     A               1; with View::transparent 0 where the ray hits nothing, as R, G and B there
 ///     Z               distance along the ray in millimetres, infinity where it hits nothing; from the eye, or in an
 ///                     orthographic view from the plane on which its rays start (see the matrix worldToCamera)
 ///     N.X N.Y N.Z     unit normal of the surface, outward from the region, in the model's coordinates
-///     region solid    index into Renderer::regions() or Renderer::solids(), plus 1; 0 where the ray hits nothing
+///     region solid    ids: index into Renderer::regions() or Renderer::solids(), plus 1; 0 where the ray hits nothing
+///     RGBA8           ids: the colour for a display (display_pixels()), a byte each from the lowest one on
+///     ghost           ids: as region, of the first ghost (State) that the ray passes before what is seen
 ///     depth           number of segments along the ray: its intervals inside single solids
 ///     partitions      number of intervals between neighbouring ends of segments that are inside any solid
 ///     overlap         number of those that several regions claim (see Overlap)
@@ -78,6 +88,7 @@ private:
 struct Image {
     int width = 0, height = 0;            ///< pixels
     std::vector<std::string> names = {};  ///< of the channels, one each
+    std::vector<bool> are_ids = {};       ///< of the channels: true: whole numbers, not floats; missing: false
     Channels channels = {};
     /// True: R G B are display values (sRGB), as Settings::display_shading makes them. False: linear light.
     bool display_values = false;
@@ -88,9 +99,13 @@ struct Image {
     CSGRT_API bool has_channel(std::string_view name) const noexcept;
     /// The values of the channel of that name. They belong to this Image: keep it while they are used. An Image that is
     /// about to end, such as the result of a call, has no such function. Throws Error (usage), which names the channels
-    /// that the picture has, if that one is not among them.
+    /// that the picture has, if that one is not among them, or holds ids.
     CSGRT_API std::span<const float> channel(std::string_view name) const&;
     std::span<const float> channel(std::string_view name) const&& = delete;
+    /// The same of a channel of ids.
+    CSGRT_API std::span<const std::uint32_t> ids(std::string_view name) const&;
+    std::span<const std::uint32_t> ids(std::string_view name) const&& = delete;
+    bool holds_ids(std::size_t channel) const noexcept { return channel < are_ids.size() && are_ids[channel]; }
 };
 
 /// The colours of a picture for a display: R G B A of each pixel, one byte each, row by row from the top left. They are
@@ -99,15 +114,17 @@ struct Image {
 /// R, G and B is missing. Any thread.
 CSGRT_API std::vector<unsigned char> display_pixels(const Image& image);
 
-/// Writes a picture file by the extension of `path`: .exr (every channel, 32-bit floats, R G B in linear light) or .png
+/// Writes a picture file by the extension of `path`: .exr (every channel, as 32-bit floats, ids as 32-bit unsigned
+/// integers; R G B in linear light) or .png
 /// (display_pixels(), without A if all pixels are opaque; its header says sRGB). The file has a temporary name until it
 /// is complete. "-" writes to standard output, in `format` ("exr" or "png"); so do the names of pipes and devices.
 /// Throws Error: usage if the picture has not the channels that the format needs or the format is unknown, file if the
 /// file cannot be written. Any thread. In csgrt::image.
 CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr");
 
-/// Reads an .exr with all its channels as 32-bit floats (R G B in linear light), its text attributes and its matrices.
-/// Channels have csgrt's order; others follow. Throws Error (file). Any thread. In csgrt::image.
+/// Reads an .exr with all its channels as 32-bit floats (R G B in linear light), unsigned integers as ids, its text
+/// attributes and its matrices. Channels have csgrt's order; others follow. Throws Error (file). Any thread. In
+/// csgrt::image.
 CSGRT_API Image read_image(const std::string& path);
 
 }  // namespace csgrt

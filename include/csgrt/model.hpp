@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <csgrt/partitions.hpp>
@@ -16,11 +17,14 @@ namespace csgrt {
 
 /// One region of the compiled model.
 struct RegionInfo {
-    std::string path = {};  ///< "/top/.../region"
+    /// "/top/.../region": the legs on the way down, by TreeNode::name. No other region has it, and edits of other
+    /// regions do not change it: the key by which a region is found again in a later Model.
+    std::string path = {};
     Fastgen fastgen = Fastgen::none;
     int region_id = 0, air = 0, material_id = 0, los = 0;  ///< as in Combination
     Vec3 color{1, 1, 1};                                   ///< display values: red, green, blue; 0 to 1
     Finish finish = {};
+    State state = State::shown;
     Box bounds = {};  ///< millimetres; as BRL-CAD computes it, so not always tight
 };
 
@@ -35,11 +39,11 @@ struct SolidInfo {
 /// the same model. A child of fork() may use its parent's.
 class CSGRT_API Model {
 public:
-    /// Validates and compiles `scene`, which is not needed afterwards. `objects` are names, or paths such as
+    /// Validates and compiles `scene`, and keeps it for edits (see Edit). `objects` are names, or paths such as
     /// "all.g/tor.r", which give an object the place and the attributes that it has there; none: the scene's top
     /// objects. Of the settings those of the scene count (air, skip_unsupported, display_shading, max_instances), the
     /// tolerance and `threads`. Throws Error: scene, usage.
-    explicit Model(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
+    explicit Model(Scene scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
 
     // The references are valid as long as any copy of the Model.
 
@@ -53,11 +57,17 @@ public:
     const std::vector<Warning>& warnings() const;
     /// Millimetres, in double precision by the settings' rule.
     double tolerance() const;
+    /// What a Model compiled anew would be made of: the scene with all edits.
+    Scene scene() const;
 
-    /// The rays of a picture, one a pixel, as Renderer::rays_of() lists them in double precision. Throws Error (usage).
+    /// The rays of a whole view, one a pixel, as Renderer::rays_of() lists them in double precision. Throws Error
+    /// (usage).
     RayGrid grid_of(const View& view) const;
-    /// The one of a pixel, counted from the top left. Throws Error (usage).
-    Ray ray_of(const View& view, int column, int row) const { return grid_of(view).ray(column, row); }
+    /// The one of a pixel of the picture, counted from its top left. Throws Error (usage).
+    Ray ray_of(const View& view, int column, int row) const {
+        const PixelRectangle part = view.part.value_or(PixelRectangle{});
+        return grid_of(view).ray(part.left + column, part.top + row);
+    }
 
     /// At a pixel, counted from the top left: to the last bit what a picture in double precision has there. On the
     /// calling thread, as the next five. Throws Error: usage, out_of_memory.
@@ -75,7 +85,9 @@ public:
 
 private:
     friend class Renderer;
+    friend class Edit;
     struct Impl;
+    explicit Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
     std::shared_ptr<const Impl> impl_;
 };
 

@@ -41,6 +41,8 @@ struct RayPartitions {
 /// What a list of rays is asked for besides rays, regions and distances.
 struct Fields {
     bool solids = false, normals = false, overlaps = false;
+    /// False: regions that pictures do not show (State) are not there. First hits never have them.
+    bool hidden = true;
 };
 
 /// Numbers in a row, in memory of malloc that grows without a copy where the system can move pages, and is kept until
@@ -114,7 +116,7 @@ struct Pick {
     double t = 0;                          ///< distance along the ray, in lengths of its direction
     Vec3 point = {}, normal = {};          ///< millimetres; a unit vector, outward from the region
     Ray ray = {};
-    RayPartitions along = {};  ///< as Renderer::shoot() gives them
+    RayPartitions along = {};  ///< of all regions, hidden ones, too; as Renderer::shoot() gives them
 };
 
 /// Where a list of rays first meets a region: of each ray the first row that Partitions would have.

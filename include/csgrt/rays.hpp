@@ -85,6 +85,7 @@ struct Slice {
     Vec3 center = {};
     Vec3 right = {}, up = {};  ///< from a pixel to the next one in its row, and in its column, millimetres
     int width = 0, height = 0;
+    bool hidden = true;  ///< false: regions that pictures do not show (State) are not there
 };
 
 /// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`: square pixels, seen from the

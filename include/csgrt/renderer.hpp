@@ -35,7 +35,7 @@ public:
     /// out_of_memory); if it was chosen by default, warnings() says so.
     explicit Renderer(Model model, const Settings& settings = {});
     /// Of a Model that it makes of the scene, while it looks for devices. Throws as both do.
-    explicit Renderer(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
+    explicit Renderer(Scene scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
     /// Waits until a driver that is compiling kernels has ended, up to half a minute, since no driver can be stopped.
     /// Statistics::awaited_device tells whether there is one. A driver that caches its programs compiles once.
     ~Renderer();
@@ -43,17 +43,23 @@ public:
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    const Model& model() const;
-    /// The next calls are about this model, which the first of them copies to the devices. Programs that know its types
-    /// of solids stay, and buffers. A call that throws since the model does not fit (out_of_memory) leaves the Renderer
-    /// to other models. Throws Error (usage).
+    // Any thread may call the next two, also while the Renderer works for another thread.
+
+    /// As set_model() had it last.
+    Model model() const;
+    /// The next calls are about this model, which the first of them copies to the devices, but for the tables that the
+    /// last one has, too. A call that works keeps its model. Programs that know the model's types of solids stay, and
+    /// buffers; where a GPU's do not, a native device computes until they are compiled anew. A call that throws since
+    /// the model does not fit (out_of_memory) leaves the Renderer to other models. Throws Error (usage).
     void set_model(Model model);
 
     /// Draws a picture. Throws Error: usage (the view), out_of_memory, device_fault, interrupted.
     Image render(const View& view);
-    /// Draws into memory that is used again, which is faster (see Framebuffer). Any Renderer may draw into it. Throws
-    /// as the other does.
-    void render(const View& view, Framebuffer& framebuffer);
+    /// Draws into memory that is used again, which is faster (see Framebuffer). Any Renderer may draw into it. If there
+    /// is a function `coarse`, the picture is drawn in four steps, of every 8th pixel each way, every 4th, every 2nd
+    /// and all, none twice: it is called behind the first three with 8, 4 and 2, the size of squares of one colour that
+    /// the framebuffer shows, and returns false to leave it at that. Throws as the other does.
+    void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse = {});
     /// Everything along each ray, one element a ray. Throws Error: usage (a ray that Limits excludes; the message has
     /// its index), out_of_memory, device_fault, interrupted.
     std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
@@ -86,7 +92,7 @@ public:
     /// picture.
     void name_pixels(Image& image) const;
 
-    // The references are valid as long as the Renderer has this model.
+    // The references are valid until the first call after set_model().
 
     const Box& bounds() const;                       ///< the model's
     const std::vector<RegionInfo>& regions() const;  ///< by the index that Partition::region has
@@ -104,6 +110,7 @@ private:
         void operator()(Impl* impl) const;
     };
     Impl& impl() const;
+    Impl& latest() const;
 
     std::unique_ptr<Impl, Delete> impl_;
 };

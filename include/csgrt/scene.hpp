@@ -37,11 +37,23 @@ struct TreeNode {
     std::string object = {};   ///< leaf: the name of a solid or a combination
     Matrix matrix = identity;  ///< leaf: from the object's coordinates to those of the tree
     Place place = {};          ///< in the file that it was read from
+    /// Leaf: its name in paths (RegionInfo::path), which no other leaf of the tree may have. Empty: the object's name,
+    /// and from the second leaf of one object on a number, as in "wheel@2".
+    std::string name = {};
 };
 /// A Boolean tree, as a list in postfix order, so that its depth costs no stack. Empty: the empty set.
 struct Tree {
     std::vector<TreeNode> nodes = {};
 };
+
+// Trees in code: tree("body") - (tree("bore") | tree("slot", moved)). An empty operand is the empty set.
+
+/// A tree of one leaf.
+CSGRT_API Tree tree(std::string object, const Matrix& matrix = identity);
+CSGRT_API Tree operator|(Tree a, Tree b);  ///< union
+CSGRT_API Tree operator&(Tree a, Tree b);  ///< intersection
+CSGRT_API Tree operator-(Tree a, Tree b);  ///< difference: a without b
+CSGRT_API Tree operator^(Tree a, Tree b);  ///< exclusive or
 
 /// The light of a region whose shader is BRL-CAD's `light`. It comes from the centre of the region's box. If any
 /// rendered region has one, the scene has no light at the eye. Lights cast no shadows and do not fade with distance.
@@ -90,6 +102,24 @@ struct Combination {
 
 using Object = std::variant<Solid, Combination>;
 
+// ---- Instances ----
+
+/// Whether pictures show a region. Partitions have all regions, unless they are asked for without those not shown.
+/// Booleans that use a region do not change with its state.
+enum class State : std::uint8_t {
+    shown,
+    ghost,  ///< as hidden, but a picture tells where it would be seen (channel::ghosts)
+    hidden  ///< pictures, picks and first hits pass through it
+};
+
+/// What the regions at a path have in place of what their combinations say.
+struct Look {
+    std::string path = {};  ///< as RegionInfo::path, or the beginning of such paths up to a '/': all regions below it
+    std::optional<Vec3> color = {};  ///< red, green, blue; 0 to 1
+    std::optional<Finish> finish = {};
+    std::optional<State> state = {};
+};
+
 // ---- The scene ----
 
 /// A light that is no region. It casts no shadows and does not fade with distance.
@@ -123,6 +153,7 @@ struct Scene {
     std::vector<Object> objects = {};   ///< in the order of the file
     std::vector<std::string> top = {};  ///< what to render by default; none: every object that no other object uses
     std::vector<RegionColor> region_colors = {};
+    std::vector<Look> looks = {};  ///< of two that concern one region the later counts; without such a region: nothing
     /// True: an object that is missing, broken or of an unknown type is the empty set, with a warning. False: such a
     /// scene is refused. BRL-CAD's databases are lenient, as BRL-CAD's ray tracer is.
     bool lenient = false;
@@ -131,6 +162,7 @@ struct Scene {
     /// The object of that name, or nullptr; valid until `objects` changes. Names are unique: readers refuse duplicates.
     /// The search is linear.
     CSGRT_API const Object* find(const std::string& name) const;
+    CSGRT_API Object* find(const std::string& name);
 };
 
 /// The object of that name, or the one at the end of a path ("all.g/tor.r"), or nullptr; valid until `scene.objects`

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include <csgrt/camera.hpp>
+#include <csgrt/solids.hpp>
 
 namespace csgrt {
 
@@ -14,8 +17,15 @@ inline constexpr std::uint32_t distance = 2;  ///< Z
 inline constexpr std::uint32_t normal = 4;    ///< N.X N.Y N.Z
 inline constexpr std::uint32_t ids = 8;       ///< region, solid
 inline constexpr std::uint32_t counts = 16;   ///< depth, partitions, overlap: only with View::every_partition
-inline constexpr std::uint32_t all = 31;
+inline constexpr std::uint32_t all = 31;      ///< of these
+inline constexpr std::uint32_t display = 32;  ///< RGBA8: as display_pixels() has it
+inline constexpr std::uint32_t ghosts = 64;   ///< ghost: the first ghost that the ray passes before what is seen
 }  // namespace channel
+
+/// Some pixels of a picture, counted from the top left.
+struct PixelRectangle {
+    int left = 0, top = 0, width = 0, height = 0;
+};
 
 /// A picture to be drawn.
 struct View {
@@ -25,6 +35,14 @@ struct View {
     /// has none of the channels of channel::counts. A scene with plates (a bot of that mode) takes as long as if true.
     bool every_partition = true;
     std::uint32_t channels = channel::all;  ///< the groups that the picture has, in the order of their bits
+    /// Up to six planes: what is beyond any of them (normal . p > distance) is gone. What they cut open has the
+    /// region's colour, the plane's normal and no solid. Counts include what is beyond the planes that the ray leaves
+    /// through.
+    std::vector<Plane> clip = {};
+    std::optional<PixelRectangle> part = {};  ///< if given, the picture has these pixels alone: each as in the whole
+    /// Rays a pixel, 1 to 256: the colours of more are their mean, in a pattern that does not change. The other
+    /// channels are those of the ray through the pixel's middle.
+    int samples = 1;
     bool transparent = false;  ///< true: R, G, B and A are 0 where a ray hits nothing, in place of the background
 };
 

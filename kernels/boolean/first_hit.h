@@ -226,12 +226,14 @@ FN float event_distance(const sweep* w, real tolerance, wide offset) {
 }
 
 // `next`: the nodes of the ray's tile.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, sweep* w) {
-    const real t_min = t_min_along(f, r), tolerance = tolerance_along(f, r);
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, view_range visible,
+                 sweep* w) {
+    const real t_min = wanted_from(f, r, visible), near = parameter_at(r, visible.near),
+               far = parameter_at(r, visible.far), tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
     bvh_cursor cursor = bvh_over(0);
-    u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
+    u32 solid = 0, end = f->unbounded_count, leaf, result = near < far ? RAY_GOES_ON : RAY_MISSES;
     start_sweep(w);
     // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Loops
     // have one way out, here and in the functions that they call: work-items that leave a loop in several ways stay
@@ -249,8 +251,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         if (e.node != NONE) ++next;
         if (result == RAY_GOES_ON && (e.entry > event_distance(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
-            if (advance(w, s, tolerance, t_min, horizon)) {
-                result = RAY_HITS;
+            if (advance(w, s, tolerance, near, horizon)) {
+                result = w->seen.t < far ? RAY_HITS : RAY_MISSES;
             } else if (e.node == NONE) {
                 result = RAY_MISSES;
             }

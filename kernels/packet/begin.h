@@ -40,6 +40,7 @@
 #define pair packet_pair
 #define offset3 packet_offset3
 #define world_ray packet_world_ray
+#define view_range packet_view_range
 #define ray3 packet_ray3
 #define slab_ray packet_slab_ray
 #define segments packet_segments

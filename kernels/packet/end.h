@@ -13,6 +13,7 @@
 #undef pair
 #undef offset3
 #undef world_ray
+#undef view_range
 #undef ray3
 #undef slab_ray
 #undef segments

@@ -11,8 +11,10 @@
 FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);
     sweep_reach reach;
+    real near[PACKET];
     u32 k;
-    reach.from = f->t_min;
+    p->range = range_in_view(f, from_eye);
+    vstore8(p->range.near, 0, near);
     reach.tolerance = f->tolerance;
     reach.unit = reach.per_unit = 1;
     reach.offset = distance_of_center(f);
@@ -20,12 +22,23 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
         start_sweep(p->sweeps + k);
         p->next_events[k] = BOX_MISSED;
         p->reach[k] = reach;
+        p->reach[k].from = near[k];
     }
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;
     p->lanes = lanes_of(p->rays);
-    p->t_min = (double8)(f->t_min);
-    p->slabs = slabs_of(f, from_eye);
+    p->t_min = packet_wanted_from(f, p->range);
+    p->slabs = slabs_of(f, from_eye, p->t_min);
+}
+
+// Of the rays of the hit mask those that hit before their ranges end.
+FN u32 hits_before(const packet* p, u32 hit_mask) {
+    real far[PACKET];
+    u32 k;
+    vstore8(p->range.far, 0, far);
+    for (k = 0; k < PACKET; ++k)
+        if ((hit_mask >> k & 1u) && !(p->sweeps[k].seen.t < far[k])) hit_mask ^= 1u << k;
+    return hit_mask;
 }
 
 // Draws the pixels from `first` on that are in the picture; the channels of the first begin at `picture`. Returns the
@@ -33,10 +46,12 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
             pixel_position first, __global float* picture, u32* hit_mask) {
     const u32 within = rays_inside(f, first);
-    u32 overflow_mask;
+    u32 overflow_mask, sees;
     packet p;
     start_packet(&p, f, first);
-    *hit_mask = first_hits_of(&p, f, s, a.materials, list, within, &overflow_mask);
+    sees = f->clip_count ? bits_of(p.range.near < p.range.far) & within : within;
+    *hit_mask = first_hits_of(&p, f, s, a.materials, list, sees, &overflow_mask);
+    if (f->clip_count) *hit_mask = hits_before(&p, *hit_mask);
     put_pixels(&p, f, s.g, a, picture, within & ~overflow_mask, *hit_mask);
     return overflow_mask;
 }

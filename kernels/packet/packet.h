@@ -97,9 +97,14 @@ FN u32 rays_inside(__global const Frame* f, pixel_position first) {
     return first.y + 1u < f->screen.bottom ? row | row << PACKET_ROW : row;
 }
 
-FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r) {
+FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r, double8 t_min) {
     return make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), r.o), r.d, f->radius,
-                         f->t_min);
+                         t_min);
+}
+
+// As wanted_from (traversal/camera.h).
+FN double8 packet_wanted_from(__global const Frame* f, packet_view_range visible) {
+    return f->clip_count ? visible.near - f->tolerance : visible.near;
 }
 
 // As one ray's (traversal/bvh_cursor.h), for the active rays; *hit_mask: those of them that hit the leaf.

@@ -69,19 +69,27 @@ FN void put_channel(__global float* channel, u32 line, u32 active_mask, float8 v
     }
 }
 
+FN void put_words(__global float* channel, u32 line, u32 active_mask, u32 hit_mask, const u32* words, u32 background) {
+    u32 k;
+    for (k = 0; k < PACKET; ++k)
+        if (active_mask >> k & 1u)
+            ((__global u32*)channel)[k / PACKET_ROW * line + k % PACKET_ROW] =
+                hit_mask >> k & 1u ? words[k] : background;
+}
+
 // What the rays of the hit mask see; at least one is set. The others look like the first of them.
 typedef struct {
     packet_sight sight;
-    float8 region, solid;
+    u32 region[PACKET], solid[PACKET];  // + 1; 0: none
 } packet_view;
 
 FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, appearance_tables a, u32 hit_mask) {
     real red[PACKET], green[PACKET], blue[PACKET], specular[PACKET], diffuse[PACKET], ambient[PACKET], glow[PACKET],
         t[PACKET];
     ulong shine[PACKET];
-    float region[PACKET], solid[PACKET];
     u32 within = 0, k;
-    long8 flipped;
+    long8 flipped, is_cut;
+    double8 at;
     packet_finish finish;
     packet_vec3 n;
     packet_view view;
@@ -89,8 +97,8 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
         const sweep* w = p->sweeps + (hit_mask >> k & 1u ? k : lowest(hit_mask));
         const MaterialRecord m = a.materials[w->region];
         t[k] = w->seen.t;
-        region[k] = (float)(w->region + 1);
-        solid[k] = (float)(w->seen.solid + 1);
+        view.region[k] = hit_mask >> k & 1u ? w->region + 1 : 0;
+        view.solid[k] = hit_mask >> k & 1u ? w->seen.solid + 1 : 0;
         within |= w->from_within ? 1u << k : 0;
         red[k] = m.r;
         green[k] = m.g;
@@ -109,14 +117,25 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
     finish.ambient = vload8(0, ambient);
     finish.glow = vload8(0, glow);
     finish.shine = vload8(0, shine);
-    n = unit_or_against(seen_normals(p, g, hit_mask, vload8(0, t)), p->rays.d);
+    at = vload8(0, t);
+    n = unit_or_against(seen_normals(p, g, hit_mask, at), p->rays.d);
     flipped = convert_long8(of_bits(within));
     n.x = flipped ? -n.x : n.x;
     n.y = flipped ? -n.y : n.y;
     n.z = flipped ? -n.z : n.z;
-    view.sight = shade_plastic(f, a.lights, finish, p->rays, vload8(0, t), n, p->t_min);
-    view.region = vload8(0, region);
-    view.solid = vload8(0, solid);
+    is_cut = at < p->range.near && p->range.plane != NO_PLANE;
+    if (f->clip_count && any(is_cut)) {
+        const u32 cut_mask = bits_of(is_cut);
+        at = is_cut ? p->range.near : at;
+        for (k = 0; k < f->clip_count; ++k) {
+            const long8 is_plane = is_cut && p->range.plane == k;
+            n.x = is_plane ? (double8)f->clip[k][0] : n.x;
+            n.y = is_plane ? (double8)f->clip[k][1] : n.y;
+            n.z = is_plane ? (double8)f->clip[k][2] : n.z;
+        }
+        for (k = 0; k < PACKET; ++k) view.solid[k] = cut_mask >> k & 1u ? 0 : view.solid[k];
+    }
+    view.sight = shade_plastic(f, a.lights, finish, p->rays, at, n, p->range.near);
     return view;
 }
 
@@ -145,12 +164,26 @@ NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g
         PUT(convert_float8(v.sight.n.z), 0);
     }
     if (f->channels & CHANNEL_IDS) {
-        PUT(v.region, 0);
-        PUT(v.solid, 0);
+        put_words(picture, line, active_mask, hit_mask, v.region, 0);
+        put_words(picture + size, line, active_mask, hit_mask, v.solid, 0);
+        picture += 2 * size;
     }
     if (f->channels & CHANNEL_COUNTS)
         for (k = 0; k < 3; ++k) PUT((float8)(0), 0);
 #undef PUT
+    if (f->channels & CHANNEL_DISPLAY) {
+        GLOBAL const float* const b = f->background;
+        float red[PACKET], green[PACKET], blue[PACKET];
+        u32 words[PACKET];
+        if (hit_mask) {
+            vstore8(convert_float8(v.sight.color.r), 0, red);
+            vstore8(convert_float8(v.sight.color.g), 0, green);
+            vstore8(convert_float8(v.sight.color.b), 0, blue);
+        }
+        for (k = 0; k < PACKET; ++k)
+            words[k] = hit_mask >> k & 1u ? display_word(a.display, red[k], green[k], blue[k], 1) : 0;
+        put_words(picture, line, active_mask, hit_mask, words, display_word(a.display, b[0], b[1], b[2], b[3]));
+    }
 }
 
 #endif

@@ -22,6 +22,7 @@ typedef struct {
     packet_lanes lanes;
     packet_slab_ray slabs;
     double8 t_min;              // segments that end before it are not wanted
+    packet_view_range range;    // of a picture's
     sweep_reach reach[PACKET];  // of each ray
     float next_events[PACKET];  // of each sweep, as next_event_of() has it
     sweep sweeps[PACKET];

@@ -13,19 +13,21 @@
 // segments than there is room for, and nothing is drawn. *hit_mask: 1 if it sees anything.
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
             pixel_position at, __global float* picture, u32* hit_mask) {
-    const ray3 r = geometry_ray(f, camera_ray(f, at));
+    const world_ray from_eye = camera_ray(f, at);
+    const view_range visible = range_in_view(f, from_eye);
+    const ray3 r = geometry_ray(f, from_eye);
     sweep w;
-    const u32 found = first_hit(f, s, list, r, &w);
+    const u32 found = first_hit(f, s, list, r, visible, &w);
     Pixel pixel;
     *hit_mask = found == RAY_HITS;
     if (found == RAY_OVERFLOWS) return 1;
     if (found == RAY_HITS) {
         const MaterialRecord material = a.materials[w.region];
-        pixel = seen_pixel(f, a.lights, material, s.g, r, w.seen, w.from_within, w.region);
+        pixel = seen_pixel(f, a.lights, material, s.g, r, visible, w.seen, w.from_within, w.region);
     } else {
         pixel = background_pixel(f);
     }
-    put_pixel(f, picture, pixel);
+    put_pixel(f, a.display, picture, pixel);
     return 0;
 }
 

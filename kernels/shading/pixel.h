@@ -10,6 +10,7 @@
 typedef struct {
     GLOBAL const MaterialRecord* materials;  // one a region
     GLOBAL const LightRecord* lights;
+    GLOBAL const DisplayBytes* display;
 } appearance_tables;
 
 FN Pixel background_pixel(GLOBAL const Frame* f) {
@@ -51,22 +52,48 @@ FN Pixel hit_pixel(sight s, ray3 r) {
     return p;
 }
 
+FN vec3 clip_normal(GLOBAL const Frame* f, u32 plane) {
+    return make_vec3(REAL(f->clip[plane][0]), REAL(f->clip[plane][1]), REAL(f->clip[plane][2]));
+}
+
 // Region `region` where the ray comes upon it at the end `seen`. If the region begins where another solid ends
 // (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal computed:
-// one a ray.
+// one a ray. If a plane of the frame cuts the region open, the plane is what is seen, and no solid's surface.
 FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, MaterialRecord m, Geometry g, ray3 r,
-                    End seen, u32 from_within, u32 region) {
-    vec3 n = normal_at(g, g.solids[seen.solid], r, seen.t, seen.surface);
+                    view_range visible, End seen, u32 from_within, u32 region) {
+    const real near = parameter_at(r, visible.near);
+    const u32 is_cut = visible.plane != NO_PLANE && seen.t < near;
+    vec3 n;
     Pixel p;
-    if (from_within) n = scale(n, REAL(-1));
-    p = hit_pixel(shade_plastic(f, lights, finish_of(m), r, seen.t, n, t_min_along(f, r)), r);
+    if (is_cut) {
+        n = clip_normal(f, visible.plane);
+        seen.t = near;
+    } else {
+        n = normal_at(g, g.solids[seen.solid], r, seen.t, seen.surface);
+        if (from_within) n = scale(n, REAL(-1));
+    }
+    p = hit_pixel(shade_plastic(f, lights, finish_of(m), r, seen.t, n, near), r);
     p.region = region + 1;
-    p.solid = seen.solid + 1;
+    p.solid = is_cut ? 0 : seen.solid + 1;
     return p;
 }
 
+// A display's byte for so much light; of no number, 0.
+FN u32 byte_of_light(GLOBAL const DisplayBytes* display, float light) {
+    u32 byte;
+    if (!(light > 0)) return 0;
+    if (light >= 1) return 255;
+    byte = display->first[(u32)(light * DISPLAY_PARTS)];
+    while (light >= display->ends[byte]) ++byte;
+    return byte;
+}
+FN u32 display_word(GLOBAL const DisplayBytes* display, float r, float g, float b, float alpha) {
+    return byte_of_light(display, r) | byte_of_light(display, g) << 8 | byte_of_light(display, b) << 16 |
+           (alpha > 0 ? 0xff000000u : 0);
+}
+
 // Stores what a ray sees, channel by channel; `picture`: its place in the batch's first.
-FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, Pixel p) {
+FN void put_pixel(GLOBAL const Frame* f, GLOBAL const DisplayBytes* display, GLOBAL float* picture, Pixel p) {
     const size_t size = channel_size(f);
     u32 i;
     if (f->channels & CHANNEL_COLOR)
@@ -78,15 +105,18 @@ FN void put_pixel(GLOBAL const Frame* f, GLOBAL float* picture, Pixel p) {
     if (f->channels & CHANNEL_NORMAL)
         for (i = 0; i < 3; ++i, picture += size) *picture = p.normal[i];
     if (f->channels & CHANNEL_IDS) {
-        picture[0] = (float)p.region;
-        picture[size] = (float)p.solid;
+        ((GLOBAL u32*)picture)[0] = p.region;
+        ((GLOBAL u32*)picture)[size] = p.solid;
         picture += 2 * size;
     }
     if (f->channels & CHANNEL_COUNTS) {
         picture[0] = (float)p.depth;
         picture[size] = (float)p.partitions;
         picture[2 * size] = (float)p.overlap;
+        picture += 3 * size;
     }
+    if (f->channels & CHANNEL_DISPLAY)
+        *(GLOBAL u32*)picture = display_word(display, p.rgba[0], p.rgba[1], p.rgba[2], p.rgba[3]);
 }
 
 #endif

@@ -235,13 +235,18 @@ typedef struct {
     u32 left, top, right, bottom;
 } ScreenBounds;
 
+#define MOST_CLIPS 6u
+
 // First the numbers that are `wide`, then what is the same in all precisions.
 typedef struct {
-    // Camera: ray of pixel (px, py) from the top left starts at eye + u*x + v*y, direction w + (perspective) u*x + v*y.
+    // Camera: the ray of the pixel in column c and row r from the top left starts at eye + u*x + v*y, direction
+    // w + (perspective) u*x + v*y, where x is first_x + c and y is first_y - r.
     wide eye[3];      // perspective: the eye. Orthographic: the middle of where rays start, before the whole model
     wide u[3], v[3];  // one pixel to the right, one pixel up, millimetres on the picture plane
     wide w[3];        // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
     wide center[3];   // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
+    wide first_x, first_y;  // of the first pixel's middle, in pixels to the right of the camera's middle and up from it
+    wide clip[MOST_CLIPS][4];  // a picture's planes: unit normal, distance; what is beyond any of them is gone
     wide radius;
     wide t_min;      // segments that end before this distance are not wanted
     wide tolerance;  // ends closer than this along the ray are one
@@ -259,13 +264,14 @@ typedef struct {
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
     u32 answer;                                               // to a list: ANSWER_x bits
+    u32 clip_count;
 } Frame;
 
 #define ANSWER_CUT 1u    // partitions are cut at the rays' ranges; else each that ends at t_near or later is whole
 #define ANSWER_FIRST 2u  // of each ray the first row alone
 
 // A float for each channel of a picture.
-#define MOST_CHANNELS 13
+#define MOST_CHANNELS 14
 typedef struct {
     float of[MOST_CHANNELS];
 } ChannelValues;
@@ -402,6 +408,15 @@ typedef struct {
 #define CHANNEL_NORMAL 4u    // N.X N.Y N.Z
 #define CHANNEL_IDS 8u       // region, solid
 #define CHANNEL_COUNTS 16u   // depth, partitions, overlap
+#define CHANNEL_DISPLAY 32u  // R G B A of 8 bits in a word
+
+// From light to a display's bytes: of each byte the least light that the next one shows; and of equal parts of 0 to 1
+// the byte of the least light. Few parts hold the ends of several bytes.
+#define DISPLAY_PARTS 4096u
+typedef struct {
+    float ends[256];  // the last one is never reached
+    unsigned char first[DISPLAY_PARTS];
+} DisplayBytes;
 
 FN u32 width_of(ScreenBounds w) { return w.right - w.left; }
 FN u32 tiles_across(ScreenBounds w) { return (width_of(w) + TILE - 1u) / TILE; }

@@ -14,8 +14,9 @@
 // Regions' terms and their trees.
 #define REGION_ARGS __global const StartRecord *starts, __global const u32 *trees
 
-// What regions look like, by number, and the frame's lights.
-#define APPEARANCE_ARGS __global const MaterialRecord *materials, __global const LightRecord *lights
+// What regions look like, by number, the frame's lights, and a display's bytes.
+#define APPEARANCE_ARGS \
+    __global const MaterialRecord *materials, __global const LightRecord *lights, __global const DisplayBytes *display
 
 #define EVALUATION_ARGS __global const SolidRecord *solids, REGION_ARGS
 

@@ -59,6 +59,7 @@ FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
     return r;
 }
 FN real t_min_along(GLOBAL const Frame* f, ray3 r) { return REAL(f->t_min - r.start); }
+FN real parameter_at(ray3 r, wide distance) { return REAL(distance - r.start); }
 FN wide distance_along(ray3 r, real t) { return r.start + (wide)t; }  // from where the ray begins
 #else
 FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
@@ -71,6 +72,10 @@ FN ray3 geometry_ray(GLOBAL const Frame* f, world_ray w) {
 FN real t_min_along(GLOBAL const Frame* f, ray3 r) {
     (void)r;
     return f->t_min;
+}
+FN real parameter_at(ray3 r, wide distance) {
+    (void)r;
+    return REAL(distance);
 }
 FN real distance_along(ray3 r, real t) {
     (void)r;
@@ -122,6 +127,12 @@ FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
     return wanted;
 }
 
+// What of a picture's ray is wanted begins here: before a plane by the tolerance, so that ends near it become one event
+// with those that they are one with without the plane.
+FN real wanted_from(GLOBAL const Frame* f, ray3 r, view_range seen) {
+    return parameter_at(r, f->clip_count ? seen.near - f->tolerance : seen.near);
+}
+
 // The number of the batch's ray `id`. `listed`: numbers of tiles or of pixels, see WORK_x.
 FN u32 number_of(GLOBAL const Frame* f, GLOBAL const u32* listed, u32 id) {
     if (f->work == WORK_RAYS) return id;
@@ -137,8 +148,9 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
         return 1;
     } else {
         pixel_position at = pixel_of(number, f->screen);
-        *r = geometry_ray(f, camera_ray(f, at));
-        wanted->t_min = t_min_along(f, *r);
+        const world_ray w = camera_ray(f, at);
+        *r = geometry_ray(f, w);
+        wanted->t_min = wanted_from(f, *r, range_in_view(f, w));
         wanted->t_max = REAL_INFINITY;
         return at.inside;
     }

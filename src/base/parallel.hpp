@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/shared_vector.hpp"
 #include "base/pool.hpp"
 
 namespace csgrt {
@@ -77,6 +78,10 @@ template <class T>
 void resize_cleared(std::vector<T>& all, std::size_t count) {
     reserve_cleared(all, count);
     all.resize(count);
+}
+template <class T>
+void resize_cleared(SharedVector<T>& all, std::size_t count) {
+    resize_cleared(all.own(), count);
 }
 
 /// Makes make(first, last) of such chunks, several at once, and calls take() with what they are, one at a time and in

@@ -119,7 +119,8 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
 
     auto [space, order] = space_of(measured->boxes);
     auto [logic, terms] = pack_regions(flat, order, measured->brlcad_boxes);
-    Looks looks = looks_of(scene, flat, measured->brlcad_boxes, options.display_shading, warnings);
+    Looks looks = looks_of({scene.lights, scene.ambient, scene.background}, logic.region_info.get(),
+                           logic.region_lights, options.display_shading, warnings);
     Shapes shapes = pack_solids(scene, flat, *measured, order, space, common_box(scene, flat, space), terms, warnings);
     join_equal(warnings);
     CompiledScene compiled{std::move(space),
@@ -128,7 +129,9 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
                            std::move(looks),
                            std::make_shared<LateStatusTree>(),
                            0,
+                           0,
                            std::move(warnings)};
+    compiled.geometry_hash = hash_of_geometry(compiled);
     compiled.hash = hash_of(compiled);
     return compiled;
 }

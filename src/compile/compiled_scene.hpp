@@ -9,6 +9,7 @@
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene.hpp>
 
+#include "base/shared_vector.hpp"
 #include "base/srgb.hpp"
 #include "kernel_host/kernels.hpp"
 
@@ -30,12 +31,18 @@ struct RegionWords {
     std::uint32_t first_word = 0, word_count = 0;
 };
 
+/// A region that shines.
+struct RegionLight {
+    std::uint32_t region = 0;
+    Matrix matrix = identity;  ///< of its first solid, by which its beam is turned
+};
+
 // What the steps of compilation make, each from the scene and what earlier steps have made. Solids are numbered: the
-// unbounded ones first, then in the order of the hierarchy's leaves.
+// unbounded ones first, then in the order of the hierarchy's leaves. Models that differ in looks alone share the rest.
 
 /// Where the solids stand.
 struct Space {
-    std::vector<kernel::BvhNode> nodes;
+    SharedVector<kernel::BvhNode> nodes;
     std::uint32_t unbounded_count = 0;
     Vec3 center;  ///< of the sphere around all bounded solids
     double radius = 0;
@@ -43,37 +50,40 @@ struct Space {
 
 /// Which regions claim a partition.
 struct Logic {
-    std::vector<std::uint32_t> trees;  ///< words; behind them where solids stand in large terms
-    std::vector<kernel::StartRecord> starts;
+    SharedVector<std::uint32_t> trees;  ///< words; behind them where solids stand in large terms
+    SharedVector<kernel::StartRecord> starts;
     std::uint32_t rank_ends[RANKS] = {};  ///< regions are numbered by rank: the number behind the last of each
     bool has_large_terms = false;         ///< of more than SCANNED_WORDS words
     // The rest stays on the host.
-    std::vector<RegionWords> regions;
-    std::vector<FlatTree> flat_trees;     ///< one a region
-    std::vector<RegionInfo> region_info;  ///< one a region
-    Box bounds;                           ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
+    SharedVector<RegionWords> regions;
+    SharedVector<FlatTree> flat_trees;       ///< one a region
+    SharedVector<RegionInfo> region_info;    ///< one a region
+    std::vector<RegionLight> region_lights;  ///< of the regions that shine
+    Box bounds;                         ///< of the regions (BRL-CAD's rules: a subtraction's box is its left side's)
+    SharedVector<std::uint8_t> claims;  ///< one a region, 0: it claims nothing; none: all do. See claimed_by
 };
 
 /// What rays meet.
 struct Shapes {
-    std::vector<kernel::SolidRecord> solids;
-    std::vector<double> reals;
-    std::vector<kernel::PlaneRecord> planes;
-    std::vector<std::uint32_t> words;  ///< of solids; behind them PlaneRefs
-    std::vector<kernel::BvhNode> inner_nodes;
+    SharedVector<kernel::SolidRecord> solids;
+    SharedVector<double> reals;
+    SharedVector<kernel::PlaneRecord> planes;
+    SharedVector<std::uint32_t> words;  ///< of solids; behind them PlaneRefs
+    SharedVector<kernel::BvhNode> inner_nodes;
     // The rest stays on the host.
-    std::vector<SolidInfo> solid_info;  ///< one a solid
-    std::vector<Box> solid_boxes;       ///< one a solid; infinite for the unbounded
-    std::uint32_t solid_types = 0;      ///< bit SOLID_x: the scene has such solids
-    double tolerance = 0;               ///< see Scene
+    SharedVector<SolidInfo> solid_info;  ///< one a solid
+    SharedVector<Box> solid_boxes;       ///< one a solid; infinite for the unbounded
+    std::uint32_t solid_types = 0;       ///< bit SOLID_x: the scene has such solids
+    double tolerance = 0;                ///< see Scene
 };
 
 /// What shading adds.
 struct Looks {
-    std::vector<kernel::MaterialRecord> materials;  ///< one a region
-    std::vector<kernel::LightRecord> lights;        ///< the scene's own; none: the view supplies one
+    SharedVector<kernel::MaterialRecord> materials;  ///< one a region
+    std::vector<kernel::LightRecord> lights;         ///< the scene's own; none: the view supplies one
     std::vector<double> background{0, 0, 0};
     double ambient = 0.4;
+    SharedVector<kernel::DisplayBytes> display;  ///< one
     bool display_shading = false;  ///< colours are those that the model gives, not decoded to linear light
 
     /// A colour of the model in the values that are shaded.
@@ -87,6 +97,7 @@ class LateStatusTree;  // regions/status_tree.hpp
 
 struct CompiledScene : Space, Logic, Shapes, Looks {
     std::shared_ptr<LateStatusTree> status_tree;  ///< made for the first deep ray of all
+    std::uint64_t geometry_hash = 0;              ///< FNV-1a over all that looks do not change
     std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
     std::vector<Warning> warnings;  ///< see Renderer::warnings
 };

@@ -165,6 +165,18 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
 }
 
+void put_clip(const std::vector<Plane>& planes, kernel::Frame& frame) {
+    if (planes.size() > MOST_CLIPS) refuse("a view has at most " + std::to_string(MOST_CLIPS) + " planes");
+    frame.clip_count = static_cast<std::uint32_t>(planes.size());
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        double size = 0;
+        const dvec3 normal = direction_of(in_range(planes[i].normal, "the normal of a plane of the view"), size);
+        if (!(size > 0)) refuse("the normal of a plane of the view has no length");
+        for (int k = 0; k < 3; ++k) frame.clip[i][k] = normal[k];
+        frame.clip[i][3] = in_range(planes[i].distance / size, -Limits::ray_origin, "the distance of a plane");
+    }
+}
+
 }  // namespace
 
 Box framing_box(const CompiledScene& scene) {
@@ -177,14 +189,20 @@ Box framing_box(const CompiledScene& scene) {
     return {from_glm(low), from_glm(high)};
 }
 
-PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance) {
+PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance, const Sampling& sampling) {
     const Camera& camera = view.camera;
     if (view.width < 1 || view.height < 1 || view.width > 32768 || view.height > 32768)
         refuse("the size of a picture must be 1 to 32768 pixels each way");
     if (!(camera.perspective >= 0 && camera.perspective < 180))
         refuse("perspective must be 0 or an angle below 180 degrees");
+    if (view.samples < 1 || view.samples > 256) refuse("a pixel has 1 to 256 samples");
+    const PixelRectangle part = view.part ? *view.part : PixelRectangle{0, 0, view.width, view.height};
+    if (part.left < 0 || part.top < 0 || part.width < 1 || part.height < 1 || part.left > view.width - part.width ||
+        part.top > view.height - part.height)
+        refuse("the part of a picture must lie in it");
 
     PreparedFrame result;
+    result.aspect = static_cast<double>(view.width) / view.height;
     const Surroundings model = surroundings_of(scene);
     const dvec3 center = center_of(camera, model);
     const Axes axes = axes_of(camera, center);
@@ -210,8 +228,13 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     kernel::Frame& frame = result.frame;
     fill_scene(scene, tolerance, frame);
     put(eye, frame.eye);
-    put(pixel * axes.right, frame.u);
-    put(pixel * axes.up, frame.v);
+    // All are exact, so each ray is the whole view's, to the last bit, unless it is moved by a part of a pixel.
+    const double step = sampling.step;
+    put(step * (pixel * axes.right), frame.u);
+    put(step * (pixel * axes.up), frame.v);
+    frame.first_x = (0.5 - 0.5 * view.width + part.left + sampling.column + sampling.right) / step;
+    frame.first_y = (0.5 * view.height - 0.5 - part.top - sampling.line - sampling.down) / step;
+    put_clip(view.clip, frame);
     put(perspective ? center - eye : -axes.back, frame.w);
     frame.t_min = 0;
     if (!view.transparent) {
@@ -219,12 +242,13 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
                        [](double x) { return static_cast<float>(x); });
         frame.background[3] = 1;
     }
-    frame.width = static_cast<std::uint32_t>(view.width);
-    frame.height = static_cast<std::uint32_t>(view.height);
+    frame.width = static_cast<std::uint32_t>((part.width - sampling.column + sampling.step - 1) / sampling.step);
+    frame.height = static_cast<std::uint32_t>((part.height - sampling.line + sampling.step - 1) / sampling.step);
     frame.perspective = perspective;
     // First hits are looked for in the order of the solids' boxes; a plate that a ray grazes begins far before its box.
     frame.every_partition = view.every_partition || (scene.solid_types >> SOLID_PLATE & 1u);
-    frame.channels = view.channels & (view.every_partition ? channel::all : channel::all & ~channel::counts);
+    frame.channels = view.channels & (view.every_partition ? channel::all | channel::display
+                                                           : (channel::all & ~channel::counts) | channel::display);
 
     result.lights = scene.lights;
     if (result.lights.empty()) {

@@ -14,12 +14,20 @@ struct PreparedFrame {
     double view_size = 0;      ///< height of the picture at the centre, millimetres
     Vec3 right, up, back;      ///< the view's axes; `back` points to the eye
     Vec3 center;
+    double aspect = 1;       ///< of the whole view: width / height
     std::uint64_t rays = 0;  ///< numbers of rays: pixels of the screen, filled up to whole tiles
+};
+
+/// Which rays of a view: of every `step`-th column and line from the first ones on, moved by a part of a pixel.
+struct Sampling {
+    int step = 1, column = 0, line = 0;  ///< a power of two; below it
+    double right = 0, down = 0;
 };
 
 /// BRL-CAD's view. A negative `tolerance` means the scene's. Throws Error (usage) for sizes and angles that make no
 /// sense.
-PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1);
+PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double tolerance = -1,
+                            const Sampling& sampling = {});
 
 /// The frame of a list of rays: no camera, no lights, everything along the whole line.
 PreparedFrame prepare_rays(const CompiledScene& scene, std::uint32_t count, double tolerance = -1);

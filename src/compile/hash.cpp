@@ -4,24 +4,24 @@
 
 namespace csgrt {
 
-/// Of what is large.
-static std::uint64_t hash_of_geometry(const CompiledScene& scene) {
+std::uint64_t hash_of_geometry(const CompiledScene& scene) {
     Fnv1a hash;
-    hash.add_all(scene.reals);
-    hash.add_all(scene.planes);
-    hash.add_all(scene.words);
-    hash.add_all(scene.inner_nodes);
-    hash.add_all(scene.nodes);
+    hash.add_all(scene.reals.get());
+    hash.add_all(scene.planes.get());
+    hash.add_all(scene.words.get());
+    hash.add_all(scene.inner_nodes.get());
+    hash.add_all(scene.nodes.get());
+    hash.add_all(scene.solids.get());
+    hash.add_all(scene.starts.get());
+    hash.add_all(scene.trees.get());
     return hash.state();
 }
 
 std::uint64_t hash_of(const CompiledScene& scene) {
     Fnv1a hash;
-    hash.add(hash_of_geometry(scene));
-    hash.add_all(scene.solids);
-    hash.add_all(scene.starts);
-    hash.add_all(scene.trees);
-    hash.add_all(scene.materials);
+    hash.add(scene.geometry_hash);
+    hash.add_all(scene.claims.get());
+    hash.add_all(scene.materials.get());
     hash.add(static_cast<std::uint64_t>(scene.lights.size()));
     for (const kernel::LightRecord& light : scene.lights) {
         // Field by field: a record may end in padding.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/parallel.hpp"
-#include "compile/bounds/bounds.hpp"
 #include "compile/linear.hpp"
 #include "scene/vector.hpp"
 
@@ -62,52 +62,60 @@ kernel::MaterialRecord material_of(const RegionInfo& info, double brightness, co
 }
 
 /// The lights of the regions that shine, by BRL-CAD's rules. Returns how bright each region is.
-std::vector<double> add_region_lights(const FlatScene& flat, const std::vector<Box>& boxes, Looks& looks,
-                                      std::vector<Warning>& warnings) {
+std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
+                                      Looks& looks, std::vector<Warning>& warnings) {
     double brightest = 0;
-    for (const FlatRegion& region : flat.regions) {
-        const auto& light = region.info.finish.light;
-        if (light && !(light->fraction > 0)) brightest = std::max(brightest, intensity_of(*light));
+    for (const RegionLight& of : shining) {
+        const Emission& light = *regions[of.region].finish.light;
+        if (!(light.fraction > 0)) brightest = std::max(brightest, intensity_of(light));
     }
     // BRL-CAD's: the brightest light and half of the ambient light together make white.
     const double full = brightest * (1 + 0.5 * looks.ambient);
-    std::vector<double> brightness(flat.regions.size());
-    for (std::size_t i = 0; i < flat.regions.size(); ++i) {
-        const FlatRegion& region = flat.regions[i];
-        const auto& light = region.info.finish.light;
-        if (!light) continue;
-        brightness[i] = light->fraction > 0 ? light->fraction : intensity_of(*light) / full;
-        const Box box = tree_box(region.tree, boxes);
-        if (is_empty(box) || !is_finite(box)) {
+    std::vector<double> brightness(regions.size());
+    for (const RegionLight& of : shining) {
+        const RegionInfo& region = regions[of.region];
+        const Emission& light = *region.finish.light;
+        const double bright = brightness[of.region] = light.fraction > 0 ? light.fraction : intensity_of(light) / full;
+        if (is_empty(region.bounds) || !is_finite(region.bounds)) {
             Warning& warning = warnings.emplace_back();
-            warning.object = region.info.path;
+            warning.object = region.path;
             warning.reason = "it gives no light: it has no end";
             warning.appearance = true;
             continue;
         }
         Light found;
-        found.position = 0.5 * (box.low + box.high);
-        found.color = looks.shaded(region.info.color);
-        found.intensity = brightness[i];
-        found.infinite = light->infinite;
-        found.angle = light->angle;
+        found.position = 0.5 * (region.bounds.low + region.bounds.high);
+        found.color = looks.shaded(region.color);
+        found.intensity = bright;
+        found.infinite = light.infinite;
+        found.angle = light.angle;
         Vec3 axis{0, 0, -1};
-        if (light->direction) axis = *light->direction;
-        if (light->target) axis = *light->target - found.position;
+        if (light.direction) axis = *light.direction;
+        if (light.target) axis = *light.target - found.position;
         // The first solid's, as in BRL-CAD, whatever was given.
-        found.direction =
-            narrow(transform_direction(*flat.instances[region.tree.nodes.front().solid].matrix, wide(axis)));
+        found.direction = narrow(transform_direction(of.matrix, wide(axis)));
         looks.lights.push_back(light_record(found));
     }
     return brightness;
 }
 
+SharedVector<kernel::DisplayBytes> display_bytes(bool are_display_values) {
+    kernel::DisplayBytes table;
+    for (int byte = 0; byte < 255; ++byte) table.ends[byte] = display_end(byte, are_display_values);
+    table.ends[255] = std::numeric_limits<float>::infinity();
+    for (std::uint32_t part = 0; part < DISPLAY_PARTS; ++part)
+        table.first[part] = display_byte(static_cast<double>(part) / DISPLAY_PARTS, are_display_values);
+    return {table};
+}
+
 }  // namespace
 
-Looks looks_of(const Scene& scene, const FlatScene& flat, const std::vector<Box>& boxes, bool display_shading,
-               std::vector<Warning>& warnings) {
+Looks looks_of(const SceneLooks& scene, std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
+               bool display_shading, std::vector<Warning>& warnings) {
     Looks looks;
     looks.display_shading = display_shading;
+    static const SharedVector<kernel::DisplayBytes> tables[] = {display_bytes(false), display_bytes(true)};
+    looks.display = tables[display_shading];
     looks.ambient = scene.ambient;
     const Vec3 background = looks.shaded(scene.background);
     looks.background = {background.x, background.y, background.z};
@@ -115,12 +123,12 @@ Looks looks_of(const Scene& scene, const FlatScene& flat, const std::vector<Box>
         light.color = looks.shaded(light.color);
         looks.lights.push_back(light_record(light));
     }
-    const std::vector<double> brightness = add_region_lights(flat, boxes, looks, warnings);
-    looks.materials.resize(flat.regions.size());
+    const std::vector<double> brightness = add_region_lights(regions, shining, looks, warnings);
+    std::vector<kernel::MaterialRecord>& materials = looks.materials.own();
+    materials.resize(regions.size());
     constexpr std::size_t many = 4096;
-    for_chunks(flat.regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
-        for (std::size_t i = first; i < last; ++i)
-            looks.materials[i] = material_of(flat.regions[i].info, brightness[i], looks);
+    for_chunks(regions.size(), many, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) materials[i] = material_of(regions[i], brightness[i], looks);
     });
     return looks;
 }

@@ -1,9 +1,10 @@
 // Materials, lights and background as the kernels read them.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "compile/flatten/flatten.hpp"
+#include "compile/compiled_scene.hpp"
 
 namespace csgrt {
 
@@ -14,9 +15,16 @@ inline kernel::LightRecord light_at(const Vec3& position, const Vec3& color) {
             to_float(color.x), to_float(color.y), to_float(color.z), 0};
 }
 
-/// Of the scene and its regions, by BRL-CAD's rules for those that shine. `boxes`: BRL-CAD's, one an instance. A region
-/// that shines and has no finite box gives no light, of which `warnings` tell.
-Looks looks_of(const Scene& scene, const FlatScene& flat, const std::vector<Box>& boxes, bool display_shading,
-               std::vector<Warning>& warnings);
+/// What a scene gives all of its regions.
+struct SceneLooks {
+    std::span<const Light> lights;
+    double ambient;
+    Vec3 background;
+};
+
+/// Of the scene and its regions, by BRL-CAD's rules for those that shine, which are `shining`. A region that shines and
+/// has no finite box gives no light, of which `warnings` tell.
+Looks looks_of(const SceneLooks& scene, std::span<const RegionInfo> regions, std::span<const RegionLight> shining,
+               bool display_shading, std::vector<Warning>& warnings);
 
 }  // namespace csgrt

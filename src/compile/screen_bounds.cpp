@@ -45,7 +45,7 @@ bool take_in(const kernel::Frame& f, const kernel::BvhNode& box, double more, Ex
             if (!(scale > 1e-6)) return false;
         }
         const double x = dot(p, f.u) / (scale * dot(f.u, f.u)), y = dot(p, f.v) / (scale * dot(f.v, f.v));
-        const double column = x + 0.5 * f.width - 0.5, line = 0.5 * f.height - 0.5 - y;
+        const double column = x - f.first_x, line = f.first_y - y;
         if (!std::isfinite(column) || !std::isfinite(line)) return false;
         extent.left = std::min(extent.left, column);
         extent.right = std::max(extent.right, column);

@@ -7,6 +7,7 @@
 
 #include "device/binary_cache.hpp"
 #include "device/discovery.hpp"
+#include "device/driver_call.hpp"
 
 namespace csgrt {
 
@@ -48,6 +49,7 @@ std::string key_of(const Device& device, const std::string& source, const std::s
 
 Program::Program(const Device& device, const std::string& source, const std::vector<std::string>& defines, bool single)
     : device_(&device) {
+    const DriverCall call(!is_native(device.info()));
     // -w: PoCL says on the standard error output how many warnings there were, one for each function that a scene does
     // not need.
     std::string options = std::string("-w -cl-std=CL1.2 -DCSGRT_REAL=") + (single ? "float" : "double");

@@ -1,7 +1,6 @@
 // What the numbers in a picture mean, for its header.
 #include <csgrt/renderer.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,19 +12,16 @@ namespace csgrt {
 
 namespace {
 
-/// The greatest number up to which a float tells each from the next.
-constexpr std::size_t most_told_apart = std::size_t{1} << 24;
-
 /// {"17": "/all.g/x.r"} of the numbers that occur; no attribute where the picture has no such channel.
 template <class Infos, class Name>
 void describe(Image& image, const char* channel, const char* attribute, const Infos& infos, Name name) {
     if (!image.has_channel(channel)) return;
-    std::vector<bool> occurs(std::min(infos.size(), most_told_apart) + 1);
-    float last = 0;
-    for (const float number : image.channel(channel)) {
+    std::vector<bool> occurs(infos.size() + 1);
+    std::uint32_t last = 0;
+    for (const std::uint32_t number : image.ids(channel)) {
         if (number == last) continue;  // as most are
         last = number;
-        if (number >= 1 && number < static_cast<float>(occurs.size())) occurs[static_cast<std::size_t>(number)] = true;
+        if (number < occurs.size()) occurs[number] = true;
     }
     std::string text;
     for (std::size_t i = 1; i < occurs.size(); ++i) {

@@ -99,6 +99,8 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
     OIIO::ImageSpec spec(image.width, image.height, count, exr ? OIIO::TypeFloat : OIIO::TypeUInt8);
     if (exr) {
         spec.channelnames = image.names;
+        for (std::size_t c = 0; c < image.names.size(); ++c)
+            spec.channelformats.push_back(image.holds_ids(c) ? OIIO::TypeUInt32 : OIIO::TypeFloat);
         spec.attribute("compression", "zip");
         spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day, and no two files are the same
     } else {
@@ -115,7 +117,7 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
         if (!good) throw_from(name + ": cannot be encoded: ", output->geterror());
     };
     check(output->open("csgrt." + format, spec));
-    check(exr ? output->write_image(OIIO::TypeFloat, floats.data())
+    check(exr ? output->write_image(OIIO::TypeUnknown, floats.data())
               : output->write_image(OIIO::TypeUInt8, colors.data(), 4));
     check(output->close());
     if (!is_whole(bytes, format, image.height) || (exr && !has_header(bytes, image)))

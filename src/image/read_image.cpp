@@ -34,9 +34,13 @@ Image read(const std::string& path) {
     const std::size_t count = spec.channelnames.size();
     const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
     std::vector<float> interleaved(count * pixels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, interleaved.data())) {
-        throw_from(path + ": cannot read: ", input->geterror());
-    }
+    const auto read_as = [&](OIIO::TypeDesc type, std::size_t first, std::size_t end, void* to) {
+        if (!input->read_image(0, 0, static_cast<int>(first), static_cast<int>(end), type, to))
+            throw_from(path + ": cannot read: ", input->geterror());
+    };
+    const auto holds_ids = [&](std::size_t c) { return spec.channelformat(static_cast<int>(c)) == OIIO::TypeUInt32; };
+    // Converted to floats, whole numbers are parts of the greatest.
+    read_as(OIIO::TypeFloat, 0, count, interleaved.data());
 
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -50,6 +54,11 @@ Image read(const std::string& path) {
     image.channels = Channels(pixels, std::vector<float>(count));
     for (std::size_t i = 0; i < count; ++i) {
         image.names.push_back(spec.channelnames[order[i]]);
+        image.are_ids.push_back(holds_ids(order[i]));
+        if (image.are_ids.back()) {
+            read_as(OIIO::TypeUInt32, order[i], order[i] + 1, image.channels.ids(i).data());
+            continue;
+        }
         const std::span<float> channel = image.channels[i];
         for (std::size_t p = 0; p < pixels; ++p) channel[p] = interleaved[p * count + order[i]];
     }

@@ -34,6 +34,5 @@ static_assert(sizeof(RowEnds) == 12 && sizeof(OverlapPiece) == 24);
 static_assert(sizeof(TileNode) == 8);
 static_assert(sizeof(DeepRay) == 52);
 static_assert(sizeof(DeepSegment) == 20);
-static_assert(sizeof(ChannelValues) == sizeof(Pixel));
 
 }  // namespace csgrt::kernel

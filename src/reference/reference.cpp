@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 
 #include "base/parallel.hpp"
@@ -64,12 +65,14 @@ Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, st
 Reference::Reference(const CompiledScene& scene, const ReferenceKernels& kernels)
     : scene_(scene), kernels_(kernels), near_(scene) {
     regions_of_.resize(scene.solids.size());
-    for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region)
+    for (std::uint32_t region = 0; region < scene.flat_trees.size(); ++region) {
+        if (!scene.claims.empty() && !scene.claims[region]) continue;
         for (const FlatTree::Node& node : scene.flat_trees[region].nodes) {
             if (node.op != Operator::leaf) continue;
             auto& list = regions_of_[node.solid];
             if (list.empty() || list.back() != region) list.push_back(region);
         }
+    }
 }
 
 // The tree's nodes stand in postfix order: an operator finds its operands' values on the stack.
@@ -132,8 +135,9 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
     const std::span<const WovenPartition> woven = kernels_.trace(frame, ray, near_, claims.ends, claims.weaver);
     if (claims.ends.empty()) return;
     claims.woven = woven.size();
-    const double t_min =
-        frame.work == WORK_RAYS ? 0 : kernels_.t_min(frame, {{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}});
+    const bool is_picture = frame.work != WORK_RAYS;
+    ReferenceKernels::Seen seen{0, std::numeric_limits<double>::infinity()};
+    if (is_picture) seen = kernels_.seen(frame, {{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}});
 
     auto &claimants = claims.claimants, &beside = claims.beside;
     for (const WovenPartition& partition : woven) {
@@ -171,7 +175,8 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
         claim.region = region;
         if (claimants.size() > 1) claim.claimants = claimants;
         claims.partitions.push_back(std::move(claim));
-        const bool is_seen = partition.out > t_min && rank_of(scene_.region_info[region]) != RANK_HIDDEN;
+        const bool is_in_range = partition.out > seen.near && partition.in < seen.far && seen.near < seen.far;
+        const bool is_seen = is_in_range && rank_of(scene_.region_info[region]) != RANK_HIDDEN;
         if (claims.first_seen == SIZE_MAX && is_seen) {
             claims.first_seen = claims.partitions.size() - 1;
             if (!frame.every_partition) return;

@@ -28,8 +28,11 @@ public:
     virtual void append_rows(const kernel::Frame& frame, const kernel::RayRecord& ray,
                              const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
                              Fields fields, RowMemory& rows, std::vector<kernel::OverlapPiece>& pieces) const = 0;
-    /// The frame's t_min as it is compared with ends.
-    virtual double t_min(const kernel::Frame& frame, const Ray& ray) const = 0;
+    /// Which part of a picture's ray is seen, as it is compared with ends (kernels/traversal/view.h).
+    struct Seen {
+        double near, far;
+    };
+    virtual Seen seen(const kernel::Frame& frame, const Ray& ray) const = 0;
     /// A pixel that shows a region's surface at an end; `leaves`: from within.
     virtual kernel::Pixel hit_pixel(const kernel::Frame& frame, const std::vector<kernel::LightRecord>& lights,
                                     std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,

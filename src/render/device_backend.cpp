@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "device/driver_call.hpp"
 
 namespace csgrt {
 
@@ -20,9 +21,16 @@ DeviceBackend::DeviceBackend(DevicePlan plan, std::shared_ptr<const ModelInUse> 
               group->keep(in_use);
               return group;
           },
-          settings.wait_for_device) {}
+          [this](DeviceGroup& group) { adapt(group); }, settings.wait_for_device) {}
+
+/// Gives it the model, if it has not got it.
+void DeviceBackend::adapt(DeviceGroup& group) const {
+    const std::shared_ptr<const ModelInUse> in_use = model();
+    if (group.owner() != in_use) group.set_scene(in_use->scene, *in_use->kernels, in_use);
+}
 
 void DeviceBackend::set_model(std::shared_ptr<const ModelInUse> model) {
+    if (model == model_) return;
     spot_check_.forget_scene();
     const std::lock_guard lock(mutex_);
     model_ = std::move(model);
@@ -30,9 +38,10 @@ void DeviceBackend::set_model(std::shared_ptr<const ModelInUse> model) {
 
 void DeviceBackend::prepare(bool every_partition) {
     const auto start = Clock::now();
-    drawer_ = &takeover_.drawer(every_partition);
+    drawer_ = &takeover_.drawer(every_partition, model_->scene);
     if (drawer_->owner() != model_) {
-        drawer_->set_scene(model_->scene, *model_->kernels, model_);
+        const DriverCall call(drawer_->uses_driver());
+        adapt(*drawer_);
         drawer_->prepare(every_partition);
     }
     build_ms_in_call_ = milliseconds_since(start);
@@ -40,6 +49,7 @@ void DeviceBackend::prepare(bool every_partition) {
 
 template <class Call>
 void DeviceBackend::counted(const Call& call) {
+    const DriverCall driver_call(drawer_->uses_driver());
     const double built_ms = drawer_->build_ms();
     counts_ = {};
     call();

@@ -32,6 +32,7 @@ private:
     template <class Call>
     void counted(const Call& call);
 
+    void adapt(DeviceGroup& group) const;
     std::shared_ptr<const ModelInUse> model() const {
         const std::lock_guard lock(mutex_);
         return model_;

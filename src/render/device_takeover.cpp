@@ -8,8 +8,13 @@
 
 namespace csgrt {
 
-DeviceTakeover::DeviceTakeover(DevicePlan plan, SetUp set_up, bool waits)
-    : plan_(std::move(plan)), set_up_(std::move(set_up)), waits_(waits), is_over_(!plan_.find_next), name_(plan_.next) {
+DeviceTakeover::DeviceTakeover(DevicePlan plan, SetUp set_up, Adapt adapt, bool waits)
+    : plan_(std::move(plan)),
+      set_up_(std::move(set_up)),
+      adapt_(std::move(adapt)),
+      waits_(waits),
+      is_over_(!plan_.find_next),
+      name_(plan_.next) {
     if (!is_over_) begin();
     if (waits_ && !is_over_) {
         job_.wait();
@@ -36,6 +41,8 @@ DeviceTakeover::Made DeviceTakeover::work(Made made) {
             for (const FoundDevice& device : devices) name_ += (name_.empty() ? "" : " + ") + device.info.name;
         }
         made.pipelines = set_up_(devices);
+    } else {
+        adapt_(*made.pipelines);
     }
     const auto compile = [&](bool every_partition) {
         if (made.ready[every_partition] || is_left_) return;
@@ -75,9 +82,10 @@ bool DeviceTakeover::has_ended() const {
     return job_.valid() && job_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
 }
 
-DeviceGroup& DeviceTakeover::drawer(bool every_partition) {
+DeviceGroup& DeviceTakeover::drawer(bool every_partition, const CompiledScene& scene) {
     wanted_[every_partition] = true;
     if (has_ended()) collect();
+    if (next_ && !next_->can_draw(scene)) ready_ = {};
     if (!is_over_ && !ready_[every_partition] && !job_.valid()) begin();
     if (waits_) await(every_partition);
     if (fault_ && !plan_.is_default) std::rethrow_exception(fault_);

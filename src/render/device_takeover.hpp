@@ -28,19 +28,21 @@ class DeviceTakeover {
 public:
     /// Sets devices up; the job calls it too.
     using SetUp = std::function<std::unique_ptr<DeviceGroup>(const std::vector<FoundDevice>&)>;
+    /// Gives devices the scene that the next kernels are compiled for; the job calls it, too.
+    using Adapt = std::function<void(DeviceGroup&)>;
 
     /// Sets the plan's first devices up and begins to look for the next. `waits`: these draw from the first call on, if
     /// there are any. Throws Error (out_of_memory, device_fault).
-    DeviceTakeover(DevicePlan plan, SetUp set_up, bool waits);
+    DeviceTakeover(DevicePlan plan, SetUp set_up, Adapt adapt, bool waits);
     DeviceTakeover(const DeviceTakeover&) = delete;
     DeviceTakeover& operator=(const DeviceTakeover&) = delete;
     /// Waits for what the job is about, at most until one mode's kernels are compiled.
     ~DeviceTakeover();
 
     /// Who draws such a call, every partition or first hits, with its kernels compiled. Valid until the next call. Next
-    /// devices that lack the mode's kernels get them from the job, and the first ones draw meanwhile. Throws what kept
-    /// named devices from becoming ready, at this call and all later ones.
-    DeviceGroup& drawer(bool every_partition);
+    /// devices that lack the mode's kernels, or whose kernels cannot draw the scene, get them from the job, and the
+    /// first ones draw meanwhile. Throws what kept named devices from becoming ready, at this call and all later ones.
+    DeviceGroup& drawer(bool every_partition, const CompiledScene& scene);
     /// Who would draw, were there a call now that all kernels are compiled for.
     const DeviceGroup& present() const { return next_ ? *next_ : *first_; }
 
@@ -65,6 +67,7 @@ private:
 
     DevicePlan plan_;
     SetUp set_up_;
+    Adapt adapt_;
     bool waits_;
     std::unique_ptr<DeviceGroup> first_, next_;
     Ready ready_{};  ///< modes that next_ draws

@@ -1,5 +1,6 @@
 // The memory of pictures, and what of it is background already.
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include <csgrt/renderer.hpp>
@@ -37,6 +38,7 @@ Image Framebuffer::take() {
 /// Makes it a picture of that form; new memory is background. Throws Error (interrupted) if `watch` says so.
 void Framebuffer::fit(int width, int height, std::vector<std::string> names, std::vector<float> background,
                       const Watch& watch) {
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };  // they may be ids
     const auto tiles_along = [](int size) { return (static_cast<std::size_t>(size) + TILE - 1) / TILE; };
     const std::size_t tiles = tiles_along(width) * tiles_along(height);
     const bool fits =  // what was moved away keeps its size, but no tiles
@@ -52,7 +54,7 @@ void Framebuffer::fit(int width, int height, std::vector<std::string> names, std
     }
     if (!fits)
         covered_.assign(tiles, 0);
-    else if (background != background_)
+    else if (!std::ranges::equal(background, background_, {}, bits, bits))
         std::fill(covered_.begin(), covered_.end(), std::uint8_t{1});
     background_ = std::move(background);
 }

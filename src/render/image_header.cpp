@@ -15,7 +15,7 @@ void describe_camera(const PreparedFrame& prepared, Image& image) {
             static_cast<float>(-dot(axes[row], prepared.center) - (row == 2 ? prepared.eye_to_center : 0));
     }
     world_to_camera[15] = 1;
-    const double aspect = static_cast<double>(prepared.frame.width) / prepared.frame.height;
+    const double aspect = prepared.aspect;
     const double zoom = 2 / prepared.view_size;
     if (prepared.frame.perspective) {
         camera_to_screen[0] = static_cast<float>(prepared.eye_to_center * zoom / aspect);

@@ -10,7 +10,7 @@ namespace csgrt {
 
 void find_partitions(const RayList& list, Partitions& answer, Fields fields, const TraceList& trace) {
     RowSink sink(answer, fields, list.size());
-    trace(list, sink);
+    trace(list, sink, fields.hidden ? Claims::all : Claims::shown);
     list.restore_lengths(answer);
 }
 
@@ -22,18 +22,18 @@ void find_hits(const RayList& list, Hits& answer, Fields fields, const TraceList
                   .solids = fields.solids ? &answer.solid_ids : nullptr,
                   .normals = fields.normals ? &answer.normals : nullptr},
                  list.size());
-    trace(list, sink);
+    trace(list, sink, Claims::shown);
     list.restore_lengths(answer.t_hit);
 }
 
 void find_occluded(const RayList& list, Array<std::uint8_t>& answer, const TraceList& trace) {
     HitSink sink({.hits = &answer}, list.size());
-    trace(list, sink);
+    trace(list, sink, Claims::shown);
 }
 
 void find_regions(std::span<const Vec3> points, Array<std::int32_t>& answer, const TraceList& trace) {
     HitSink sink({.regions = &answer}, points.size());
-    trace(RayList(points), sink);
+    trace(RayList(points), sink, Claims::all);
 }
 
 // A ray a line, along its pixels.
@@ -48,7 +48,7 @@ void find_pixels(const Slice& slice, Array<std::int32_t>& answer, const TraceLis
                         .rows = slice.height};
     const RayList list(lines, {.all = {0, static_cast<double>(slice.width)}, .each = {}});
     PixelSink sink(answer, static_cast<std::uint32_t>(slice.width), list.size());
-    trace(list, sink);
+    trace(list, sink, slice.hidden ? Claims::all : Claims::shown);
 }
 
 }  // namespace csgrt

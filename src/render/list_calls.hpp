@@ -12,8 +12,11 @@
 
 namespace csgrt {
 
+/// Which regions claim partitions: all; those that pictures show; or the ghosts alone.
+enum class Claims { all, shown, ghosts };
+
 /// Puts the rows of a list.
-using TraceList = std::function<void(const RayList&, RowTaker&)>;
+using TraceList = std::function<void(const RayList&, RowTaker&, Claims)>;
 
 void find_partitions(const RayList& list, Partitions& answer, Fields fields, const TraceList& trace);
 void find_hits(const RayList& list, Hits& answer, Fields fields, const TraceList& trace);

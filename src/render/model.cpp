@@ -11,7 +11,9 @@
 #include "compile/linear.hpp"
 #include "compile/lists/along_rays.hpp"
 #include "compile/lists/grid.hpp"
+#include "compile/regions/claimed_by.hpp"
 #include "device/host_memory.hpp"
+#include "kernel_host/geometry.hpp"
 #include "render/model_impl.hpp"
 #include "scene/vector.hpp"
 
@@ -29,24 +31,64 @@ double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     return std::max(of_size, coordinate_rounding * largest_coordinate(scene.center, scene.radius));
 }
 
-Model::Model(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings) {
-    const FloatingPoint own;
-    const AllowedThreads allowed(settings.threads);
+namespace {
+
+CompiledScene compiled(const ModelSource& source) {
+    const Settings& settings = source.settings;
     if (settings.max_instances > Limits::most_instances)
         throw Error(Status::usage, "max_instances is more than " + std::to_string(Limits::most_instances));
+    return compile(*source.scene, source.objects,
+                   {.air = settings.air,
+                    .skip_unsupported = settings.skip_unsupported,
+                    .display_shading = settings.display_shading,
+                    .max_instances = settings.max_instances});
+}
+
+double tolerance_in_double(const CompiledScene& scene, Settings settings) {
+    settings.precision = Precision::double_;
+    return tolerance_of(scene, settings);
+}
+
+}  // namespace
+
+Model::Impl::Impl(ModelSource of) : source(std::move(of)), compile_ms(0) {
     const auto start = Clock::now();
-    const auto impl = std::make_shared<Impl>();
-    impl->scene = compile(scene, objects,
-                          {.air = settings.air,
-                           .skip_unsupported = settings.skip_unsupported,
-                           .display_shading = settings.display_shading,
-                           .max_instances = settings.max_instances});
-    impl->compile_ms = milliseconds_since(start);
-    impl->title = scene.title;
-    Settings in_double = settings;
-    in_double.precision = Precision::double_;
-    impl->tolerance = tolerance_of(impl->scene, in_double);
-    impl_ = impl;
+    scene = compiled(source);
+    compile_ms = milliseconds_since(start);
+    tolerance = tolerance_in_double(scene, source.settings);
+    find_states();
+}
+
+Model::Impl::Impl(ModelSource of, CompiledScene made, const Impl& before)
+    : source(std::move(of)), scene(std::move(made)), tolerance(before.tolerance), compile_ms(before.compile_ms) {
+    find_states();
+}
+
+void Model::Impl::find_states() {
+    all_.emplace(scene, tolerance);
+    const std::vector<RegionInfo>& regions = scene.region_info;
+    const auto in_state = [&](State state) {
+        std::vector<std::uint8_t> are(regions.size());
+        std::ranges::transform(regions, are.begin(), [&](const RegionInfo& region) { return region.state == state; });
+        return are;
+    };
+    const auto is = [](State state) { return [state](const RegionInfo& region) { return region.state == state; }; };
+    if (std::ranges::any_of(regions, is(State::ghost))) some_ghosts = claimed_by(scene, in_state(State::ghost));
+    if (std::ranges::all_of(regions, is(State::shown))) return;
+    some_shown = claimed_by(scene, in_state(State::shown));
+    shown_.emplace(*some_shown, tolerance);
+}
+
+Model::Model(Scene scene, const std::vector<std::string>& objects, const Settings& settings) {
+    const FloatingPoint own;
+    const AllowedThreads allowed(settings.threads);
+    ModelSource source{std::make_shared<const Scene>(std::move(scene)), {}, {}, 0, {}, objects, settings};
+    source.settings.progress = nullptr;
+    source.looks = source.scene->looks;
+    source.lights = source.scene->lights;
+    source.ambient = source.scene->ambient;
+    source.background = source.scene->background;
+    impl_ = std::make_shared<Impl>(std::move(source));
 }
 
 const Box& Model::bounds() const { return impl_->scene.bounds; }
@@ -55,33 +97,42 @@ const std::vector<SolidInfo>& Model::solids() const { return impl_->scene.solid_
 const std::vector<Warning>& Model::warnings() const { return impl_->scene.warnings; }
 double Model::tolerance() const { return impl_->tolerance; }
 
-const NativeTracer* Model::Impl::tracer() const {
-    std::call_once(has_tracer_, [this] {
+Scene Model::scene() const {
+    const ModelSource& source = impl_->source;
+    Scene scene = *source.scene;
+    scene.looks = source.looks;
+    scene.lights = source.lights;
+    scene.ambient = source.ambient;
+    scene.background = source.background;
+    return scene;
+}
+
+const NativeTracer* CallerTracer::native() const {
+    std::call_once(has_native_, [this] {
         for (const native::Level& level : native::compiled_levels())
             if (native::can_run(level.name)) {
-                tracer_.emplace(level, scene, host_memory() / 2);
+                native_.emplace(level, scene_, host_memory() / 2);
                 break;
             }
     });
-    return tracer_ ? &*tracer_ : nullptr;
+    return native_ ? &*native_ : nullptr;
 }
 
-const Reference& Model::Impl::reference() const {
+const Reference& CallerTracer::reference() const {
     std::call_once(has_reference_, [this] {
-        kernels_ = make_kernels_to_run(scene, Precision::double_, Quartic::bracketed);
-        reference_.emplace(scene, *kernels_);
+        kernels_ = make_kernels_to_run(scene_, Precision::double_, Quartic::bracketed);
+        reference_.emplace(scene_, *kernels_);
     });
     return *reference_;
 }
 
-/// Puts the rows of a list, on this thread.
-void Model::Impl::trace(const RayList& list, RowTaker& taker) const {
-    kernel::Frame frame = prepare_rays(scene, static_cast<std::uint32_t>(list.size()), tolerance).frame;
+void CallerTracer::trace(const RayList& list, RowTaker& taker) const {
+    kernel::Frame frame = prepare_rays(scene_, static_cast<std::uint32_t>(list.size()), tolerance_).frame;
     frame.answer = taker.answer();
     if (list.is_grid()) list.put_camera(frame);
-    if (const NativeTracer* const native = tracer()) {
+    if (const NativeTracer* const tracer = native()) {
         PipelineCounts counts;
-        native->trace(frame, list, 0, list.size(), nullptr, taker, counts);
+        tracer->trace(frame, list, 0, list.size(), nullptr, taker, counts);
     } else {
         ReferenceCounts counts;
         reference().trace(frame, list, taker, nullptr, counts);
@@ -90,29 +141,41 @@ void Model::Impl::trace(const RayList& list, RowTaker& taker) const {
 
 RayGrid Model::grid_of(const View& view) const {
     const FloatingPoint own;
-    return csgrt::grid_of(prepare_frame(impl_->scene, view, impl_->tolerance).frame);
+    View whole = view;
+    whole.part = {};
+    return csgrt::grid_of(prepare_frame(impl_->scene, whole, impl_->tolerance).frame);
 }
 
 Pick Model::pick(const View& view, int column, int row) const {
     Pick pick;
     pick.ray = ray_of(view, column, row);
+    const kernel::Frame frame = prepare_frame(impl_->scene, view, impl_->tolerance).frame;
+    const auto [o, d] = pick.ray;
+    const kernel::view_range range = kernel::range_in_view(&frame, {{o.x, o.y, o.z}, {d.x, d.y, d.z}});
+    const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
     impl_->call([&](const TraceList& trace) {
         const RayList list(pick.ray);
-        Partitions all;
-        RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, 1, 0);
-        trace(list, sink);
-        pick.along = std::move(along_rays(all).front());
+        const auto along = [&](Claims claims) {
+            Partitions all;
+            RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, 1, 0);
+            trace(list, sink, claims);
+            return std::move(along_rays(all).front());
+        };
+        pick.along = along(Claims::all);
+        const RayPartitions shown = impl_->some_shown ? along(Claims::shown) : pick.along;
+        for (const Partition& p : shown.partitions) {
+            if (p.region >= seen_end || !(p.out > range.near)) continue;
+            if (!(p.in < range.far && range.near < range.far)) break;
+            const bool is_cut = range.plane != NO_PLANE && p.in < range.near;
+            const double* const plane = frame.clip[is_cut ? range.plane : 0];
+            pick.region = static_cast<std::int32_t>(p.region);
+            pick.solid = is_cut ? -1 : static_cast<std::int32_t>(p.in_solid);
+            pick.t = is_cut ? range.near : p.in;
+            pick.point = pick.ray.origin + pick.t * pick.ray.direction;
+            pick.normal = is_cut ? Vec3{plane[0], plane[1], plane[2]} : p.in_normal;
+            break;
+        }
     });
-    const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
-    for (const Partition& p : pick.along.partitions) {
-        if (p.region >= seen_end || !(p.out > 0)) continue;
-        pick.region = static_cast<std::int32_t>(p.region);
-        pick.solid = static_cast<std::int32_t>(p.in_solid);
-        pick.t = p.in;
-        pick.point = pick.ray.origin + p.in * pick.ray.direction;
-        pick.normal = p.in_normal;
-        break;
-    }
     return pick;
 }
 

@@ -11,10 +11,12 @@ void ReferenceBackend::render(const PreparedFrame& frame, const FrameMemory& mem
     memory.drawn_by = 0;
     memory.registered = nullptr;
     counts_ = {};
+    const kernel::DisplayBytes& display = model_->scene.display[0];
     const std::vector<kernel::Pixel> seen = reference_->render(frame, &watch, counts_);
     for_chunks(seen.size(), 16'384, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t c = 0; c < memory.sources.size(); ++c)
-            for (std::size_t i = first; i < last; ++i) memory.channels[c].pixels[i] = memory.sources[c]->value(seen[i]);
+            for (std::size_t i = first; i < last; ++i)
+                memory.channels[c].pixels[i] = memory.sources[c]->value(seen[i], display);
     });
 }
 

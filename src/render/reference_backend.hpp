@@ -11,6 +11,7 @@ public:
     explicit ReferenceBackend(std::shared_ptr<const ModelInUse> model) { set_model(std::move(model)); }
 
     void set_model(std::shared_ptr<const ModelInUse> model) override {
+        if (model == model_) return;
         reference_.emplace(model->scene, *model->kernels);
         model_ = std::move(model);
     }

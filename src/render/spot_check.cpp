@@ -50,7 +50,8 @@ void SpotCheck::look_at(const CompiledScene& scene, const PreparedFrame& frame, 
     const std::vector<kernel::Pixel> right = reference(scene).render(frame, &watch, counts, &pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::size_t c = 0; c < memory.channels.size(); ++c) {
-            const float found = memory.channels[c].pixels[pixels[i]], expected = memory.sources[c]->value(right[i]);
+            const float found = memory.channels[c].pixels[pixels[i]],
+                        expected = memory.sources[c]->value(right[i], scene.display[0]);
             if (std::bit_cast<std::uint32_t>(found) == std::bit_cast<std::uint32_t>(expected)) continue;
             fail(device, "the pixel in column " + std::to_string(pixels[i] % frame.frame.width) + " of line " +
                              std::to_string(pixels[i] / frame.frame.width) + " has " + text_of(found) +

@@ -1,7 +1,12 @@
 #include "scene/names.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <bit>
 #include <functional>
+#include <mutex>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "base/prefetch.hpp"
@@ -39,13 +44,51 @@ std::uint32_t Names::find(std::string_view name, std::uint32_t hash) const {
     }
 }
 
+/// Of most trees there is nothing to say. `sorted`: memory that is used again.
+void Names::name_legs(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
+                      LegNames& found) const {
+    const std::uint32_t* const own = children_.data() + first_child_[object];
+    bool is_simple = true;
+    sorted.clear();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        if (nodes[k].op != Operator::leaf) continue;
+        is_simple = is_simple && nodes[k].name.empty() && own[k] != none;
+        sorted.push_back(own[k]);
+    }
+    if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
+    if (is_simple && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return;
+    std::unordered_set<std::string> taken;
+    for (const TreeNode& node : nodes)
+        if (!node.name.empty()) taken.insert(node.name);
+    std::unordered_set<std::string> given;
+    std::unordered_map<std::string_view, std::uint32_t> times;
+    for (std::uint32_t k = 0; k < nodes.size(); ++k) {
+        if (nodes[k].op != Operator::leaf) continue;
+        std::string name = nodes[k].name;
+        if (name.empty() || !given.insert(name).second) {
+            const std::string& base = name.empty() ? nodes[k].object : nodes[k].name;
+            std::uint32_t& number = times[base];
+            do {
+                name = numbered(base, ++number);
+            } while (!taken.insert(name).second);
+        }
+        if (name != nodes[k].object) found.emplace(std::pair(object, k), std::move(name));
+    }
+}
+
+std::string numbered(std::string name, std::uint32_t number) {
+    return number < 2 ? std::move(name) : std::move(name) + "@" + std::to_string(number);
+}
+
 Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.size() + 1), kinds_(scene.objects.size()) {
     const std::size_t count = scene.objects.size(), slots = std::bit_ceil(2 * count + 2);
     reserve_cleared(slots_, slots);
     slots_.assign(slots, Slot{0, none});
     std::vector<std::uint32_t> hashes(count);
+    std::atomic<bool> is_doubtful = false;
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i) {
+            if (name_of(scene.objects[i]).find_first_of("/@") != std::string::npos) is_doubtful = true;
             hashes[i] = hash_of(name_of(scene.objects[i]));
             const auto* combination = std::get_if<Combination>(&scene.objects[i]);
             first_child_[i] = combination == nullptr ? 0 : combination->tree.nodes.size();
@@ -71,7 +114,10 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
     }
     first_child_[count] = children;
     children_.resize(children);
+    std::mutex mutex;
     for_chunks(count, chunk, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        std::vector<std::uint32_t> sorted;
+        LegNames legs;
         for (std::size_t i = first; i < last; ++i) {
             if (kinds_[i] >= Kind::solid) continue;
             const std::vector<TreeNode>& nodes = std::get<Combination>(scene.objects[i]).tree.nodes;
@@ -89,8 +135,14 @@ Names::Names(const Scene& scene) : scene_(scene), first_child_(scene.objects.siz
             }
             for (std::size_t k = 0; k < nodes.size(); ++k)
                 own[k] = nodes[k].op == Operator::leaf ? find(nodes[k].object, own[k]) : operation;
+            name_legs(static_cast<std::uint32_t>(i), nodes, sorted, legs);
         }
+        const std::lock_guard lock(mutex);
+        leg_names_.merge(legs);
     });
+    for (const auto& [leg, name] : leg_names_)
+        if (!node(leg.first, leg.second).name.empty()) is_doubtful = true;
+    has_doubtful_names_ = is_doubtful;
 }
 
 std::vector<std::string> Names::top_objects() const {

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <csgrt/scene.hpp>
 
 namespace csgrt {
+
+/// "name@2": the second of that name.
+std::string numbered(std::string name, std::uint32_t number);
 
 /// Refers to the scene, which must neither change nor go while this is used.
 class Names {
@@ -26,6 +31,13 @@ public:
     const TreeNode& node(std::uint32_t object, std::size_t node) const {
         return std::get<Combination>(scene_.objects[object]).tree.nodes[node];
     }
+    /// What a leaf is called in paths (TreeNode::name): no two of a tree have the same.
+    const std::string& leg_name(std::uint32_t object, std::size_t node) const {
+        const auto found = leg_names_.find(std::pair(object, static_cast<std::uint32_t>(node)));
+        return found != leg_names_.end() ? found->second : this->node(object, node).object;
+    }
+    /// Whether two paths may be the same though their legs differ: a name holds a '/', or what looks like a number.
+    bool has_doubtful_names() const { return has_doubtful_names_; }
     /// The children of all nodes of a combination's tree, which are walked several times and take far less memory than
     /// the objects: `operation` for what is no leaf, `left_out` for a leaf that is the empty set. None for a solid.
     std::span<const std::uint32_t> children(std::uint32_t object) const {
@@ -48,7 +60,11 @@ private:
         std::uint32_t hash, object;  // none: empty
     };
 
+    using LegNames = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
+
     static std::uint32_t hash_of(std::string_view name);
+    void name_legs(std::uint32_t object, const std::vector<TreeNode>& nodes, std::vector<std::uint32_t>& sorted,
+                   LegNames& found) const;
     std::uint32_t find(std::string_view name, std::uint32_t hash) const;
 
     const Scene& scene_;
@@ -56,6 +72,8 @@ private:
     std::vector<std::uint32_t> taken_;
     std::vector<std::uint64_t> first_child_;  // one an object, and the end: where its tree's nodes begin in `children_`
     std::vector<Kind> kinds_;                 // one an object
+    LegNames leg_names_;                      // of legs that are not called as their objects
+    bool has_doubtful_names_ = false;
     std::vector<std::uint32_t> children_;
 };
 

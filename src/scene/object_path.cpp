@@ -94,12 +94,18 @@ private:
         const auto* combination = std::get_if<Combination>(&scene_.objects[from]);
         if (combination == nullptr)
             return fail("'" + above + "' is a solid; it has no member '" + std::string(part()) + "'", {});
-        const auto found = longest([combination](std::string_view name) -> std::optional<std::uint32_t> {
-            const std::vector<TreeNode>& nodes = combination->tree.nodes;
-            for (std::size_t i = 0; i < nodes.size(); ++i)
-                if (nodes[i].op == Operator::leaf && nodes[i].object == name) return static_cast<std::uint32_t>(i);
-            return std::nullopt;
-        });
+        const auto find_leg = [&](const auto& is_called) {
+            return longest([&](std::string_view name) -> std::optional<std::uint32_t> {
+                const std::vector<TreeNode>& nodes = combination->tree.nodes;
+                for (std::uint32_t i = 0; i < nodes.size(); ++i)
+                    if (nodes[i].op == Operator::leaf && is_called(i, name)) return i;
+                return std::nullopt;
+            });
+        };
+        auto found = find_leg([&](std::uint32_t i, std::string_view name) { return names_.leg_name(from, i) == name; });
+        if (!found)
+            found = find_leg(
+                [&](std::uint32_t i, std::string_view name) { return combination->tree.nodes[i].object == name; });
         if (!found) {
             const std::vector<std::string_view> members = members_of(*combination);
             std::string suggestion = did_you_mean_one_of(part(), members);

@@ -24,7 +24,7 @@ struct ObjectPath {
 };
 
 /// An object of the whole name, else the way down that the parts between '/' give; one at the front or the end does not
-/// matter. Where a combination uses an object several times, the first time is meant, as in BRL-CAD.
+/// matter. A part is what a leg is called (Names::leg_name): of several places of one object its name is the first's.
 ObjectPath find_path(const Scene& scene, const Names& names, const std::string& text);
 
 /// The object that a wrong name was probably meant to be; see did_you_mean.

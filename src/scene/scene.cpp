@@ -1,6 +1,8 @@
 #include <csgrt/scene.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "base/floating_point.hpp"
 #include "scene/names.hpp"
@@ -19,6 +21,28 @@ const Object* Scene::find(const std::string& name) const {
         std::find_if(objects.begin(), objects.end(), [&](const Object& object) { return name_of(object) == name; });
     return found == objects.end() ? nullptr : &*found;
 }
+
+Object* Scene::find(const std::string& name) { return const_cast<Object*>(std::as_const(*this).find(name)); }
+
+Tree tree(std::string object, const Matrix& matrix) {
+    return {{{.op = Operator::leaf, .object = std::move(object), .matrix = matrix}}};
+}
+
+/// One operator over both; of an empty operand, what is left of it.
+static Tree joined(Tree a, Operator op, Tree b) {
+    if (b.nodes.empty()) return a;
+    if (a.nodes.empty()) return op == Operator::union_ || op == Operator::xor_ ? std::move(b) : std::move(a);
+    std::ranges::move(b.nodes, std::back_inserter(a.nodes));
+    a.nodes.push_back({.op = op, .arity = 2});
+    return a;
+}
+
+Tree operator|(Tree a, Tree b) { return joined(std::move(a), Operator::union_, std::move(b)); }
+Tree operator&(Tree a, Tree b) {
+    return b.nodes.empty() ? std::move(b) : joined(std::move(a), Operator::intersection, std::move(b));
+}
+Tree operator-(Tree a, Tree b) { return joined(std::move(a), Operator::difference, std::move(b)); }
+Tree operator^(Tree a, Tree b) { return joined(std::move(a), Operator::xor_, std::move(b)); }
 
 const std::string& name_of(const Object& object) {
     return std::visit([](const auto& it) -> const std::string& { return it.name; }, object);

@@ -29,10 +29,10 @@ TEST_CASE("an EXR names the regions and solids that occur in it, and no others")
         INFO(result.err);
         REQUIRE(result.status == 0);
         const csgrt::Image image = csgrt::read_image(exr);
-        const std::span<const float> regions = image.channel("region"), solid_numbers = image.channel("solid");
+        const std::span<const std::uint32_t> regions = image.ids("region"), solid_numbers = image.ids("solid");
         for (const auto& [channel, attribute, slash] :
              {std::tuple{regions, "csgrt:regions", "/"}, {solid_numbers, "csgrt:solids", ""}}) {
-            std::vector<int> numbers(channel.begin(), channel.end());
+            std::vector<std::uint32_t> numbers(channel.begin(), channel.end());
             std::sort(numbers.begin(), numbers.end());
             numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
             REQUIRE(numbers.size() > 3);

@@ -215,7 +215,7 @@ TEST_CASE("one render writes several pictures, whole and nothing beside them") {
     CHECK(image.attributes.at("csgrt:title") == "two balls");
     CHECK(image.attributes.at("csgrt:command") ==
           "csgrt balls.asc all.g --size 64x48 --azimuth 35 --elevation 25 --perspective 0 --tolerance 5e-04");
-    const std::span<const float> regions = image.channel("region");
+    const std::span<const std::uint32_t> regions = image.ids("region");
     CHECK(*std::max_element(regions.begin(), regions.end()) == 2);
 }
 
@@ -229,7 +229,7 @@ TEST_CASE("--transparent and --display-shading reach the picture and its header"
         return csgrt::read_image(exr);
     };
     const auto alpha_of_nothing = [](const csgrt::Image& image) {
-        return image.channel("A")[0] + 2 * image.channel("region")[0];
+        return image.channel("A")[0] + 2 * static_cast<float>(image.ids("region")[0]);
     };
     const csgrt::Image usual = draw({}), transparent = draw({"--transparent"}), display = draw({"--display-shading"});
     CHECK(alpha_of_nothing(usual) == 1);

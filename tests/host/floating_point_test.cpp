@@ -24,8 +24,8 @@ struct Answer {
 
 Answer ask(const std::string& text, const std::string& name, const std::string& who, const std::string& file) {
     Answer answer;
-    const State before;
-    const auto look = [&] { answer.kept = answer.kept && State() == before; };
+    const test::State before;
+    const auto look = [&] { answer.kept = answer.kept && test::State() == before; };
     Settings settings = on(who);
     settings.progress = [&](double) {
         look();
@@ -112,15 +112,15 @@ TEST_CASE("a verification judges alike whatever the host's floating-point state"
         const Scene scene = small_scene();
         static_cast<void>(renderer_on(scene, on("native")));
         const auto judge = [&](bool& kept) {
-            const State before;
+            const test::State before;
             Settings settings = on("native");
             settings.progress = [&](double) {
-                kept = kept && State() == before;
+                kept = kept && test::State() == before;
                 return true;
             };
             Verifier verifier(scene, {}, settings);
             verifier.shoot(verifier.sample(scene.camera, 50));
-            kept = kept && State() == before;
+            kept = kept && test::State() == before;
             const Verification& v = verifier.result();
             std::string bytes;
             append(bytes, &v.ends, 1);

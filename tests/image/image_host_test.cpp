@@ -39,9 +39,9 @@ TEST_CASE("whatever the host's floating-point state, pictures have the same byte
             bool is_kept = false;
             const std::string bytes = [&] {
                 const InState state(host);
-                const State before;
+                const test::State before;
                 const std::string mine = written(image, folder, is_read);
-                is_kept = State() == before;
+                is_kept = test::State() == before;
                 return mine;
             }();
             REQUIRE((bytes == usual));

@@ -37,7 +37,11 @@ Image full_picture() {
             image.channels[c][i] = static_cast<float>(c) * 1000 + static_cast<float>(i) + 1 / 3.0f;
     image.channels[4][6] = std::numeric_limits<float>::infinity();
     image.channels[5][7] = -std::numeric_limits<float>::denorm_min();
-    image.channels[8][0] = 16777215;  // the largest odd whole number of a float
+    image.are_ids.resize(10);
+    for (const std::size_t c : {std::size_t{8}, std::size_t{9}}) {
+        image.are_ids[c] = true;
+        for (std::uint32_t i = 0; i < 35; ++i) image.channels.ids(c)[i] = 0xffffffff - i;  // no float tells them apart
+    }
     image.attributes = {{"csgrt:title", "a \"title\" \xc3\xa4"}, {"csgrt:version", "1"}};
     image.matrices["worldToCamera"] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
     image.matrices["cameraToScreen"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -80,6 +84,7 @@ TEST_CASE("an EXR keeps every channel, bit by bit, and the header", "[image]") {
     CHECK(read.width == 7);
     CHECK(read.height == 5);
     CHECK(read.names == written.names);
+    for (std::size_t c = 0; c < read.names.size(); ++c) CHECK(read.holds_ids(c) == written.holds_ids(c));
     REQUIRE(read.channels.size() == written.channels.size());
     for (std::size_t c = 0; c < read.channels.size(); ++c) {
         INFO(read.names[c]);

@@ -216,13 +216,13 @@ TEST_CASE("every solid: a picture shows the first partition of each of its rays,
                 faults.add("partitions that are not counted", where);
             if ((at("depth", i) == 0) != (at("partitions", i) == 0)) faults.add("segments and no partitions", where);
             if (first == answer.partitions.end()) {
-                if (at("region", i) != 0 || at("solid", i) != 0 || at("A", i) != 0 ||
+                if (image.ids("region")[i] != 0 || image.ids("solid")[i] != 0 || at("A", i) != 0 ||
                     at("Z", i) != std::numeric_limits<float>::infinity())
                     faults.add("something where the ray meets nothing", where);
                 continue;
             }
             ++shown[sample_of(both.region(first->region))];
-            if (at("region", i) != static_cast<float>(first->region + 1)) faults.add("another region", where);
+            if (image.ids("region")[i] != first->region + 1) faults.add("another region", where);
             if (at("A", i) != 1) faults.add("A", where);
             if (first->in < 0) {
                 ++within;
@@ -230,7 +230,7 @@ TEST_CASE("every solid: a picture shows the first partition of each of its rays,
                 continue;
             }
             const double length = std::sqrt(dot(rays[i].direction, rays[i].direction));
-            if (at("solid", i) != static_cast<float>(first->in_solid + 1)) faults.add("another solid", where);
+            if (image.ids("solid")[i] != first->in_solid + 1) faults.add("another solid", where);
             if (std::abs(at("Z", i) - first->in * length) > 1e-6 * first->in * length)
                 faults.add("another distance", where);
             const Vec3 normal{at("N.X", i), at("N.Y", i), at("N.Z", i)};

@@ -228,8 +228,9 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
     if (rays.empty()) {
         each([&] {
             shade(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
-                  scene.inner_nodes.data(), scene.materials.data(), prepared.lights.data(), listed, run.offsets.data(),
-                  run.ends.data(), run.nodes.data(), run.tallies.data(), nullptr, values.data());
+                  scene.inner_nodes.data(), scene.materials.data(), prepared.lights.data(), scene.display.data(),
+                  listed, run.offsets.data(), run.ends.data(), run.nodes.data(), run.tallies.data(), nullptr,
+                  values.data());
         });
         run.picture = picture_of(frame, numbers, values, 13);
     }
@@ -254,8 +255,8 @@ inline std::uint32_t run_first_hits(const CompiledScene& scene, const PreparedFr
     for (global_id = 0; global_id < frame.ray_count; ++global_id)
         first_hits(&frame, scene.solids.data(), scene.reals.data(), scene.planes.data(), scene.words.data(),
                    scene.inner_nodes.data(), scene.nodes.data(), scene.starts.data(), scene.trees.data(),
-                   scene.materials.data(), prepared.lights.data(), tiles.lists.data(), numbers.data(), &report,
-                   overflown.data(), values.data());
+                   scene.materials.data(), prepared.lights.data(), scene.display.data(), tiles.lists.data(),
+                   numbers.data(), &report, overflown.data(), values.data());
     picture = picture_of(frame, numbers, values, 10);
     return report.overflows;
 }

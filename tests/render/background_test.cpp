@@ -27,7 +27,7 @@ TEST_CASE("the background is opaque, or with View::transparent nothing; `region`
 
     const float background[] = {static_cast<float>(linear_of_display(0.2)), static_cast<float>(linear_of_display(0.5)),
                                 1, 1};
-    const std::span<const float> region = opaque.channel("region");
+    const std::span<const std::uint32_t> region = opaque.ids("region");
     std::size_t hits = 0, right = 0;
     for (std::size_t i = 0; i < region.size(); ++i) {
         hits += region[i] > 0;
@@ -40,5 +40,5 @@ TEST_CASE("the background is opaque, or with View::transparent nothing; `region`
     CHECK(hits > 500);
     CHECK(hits < region.size() - 500);
     CHECK(right == 4 * region.size());
-    CHECK(std::ranges::equal(transparent.channel("region"), region));
+    CHECK(std::ranges::equal(transparent.ids("region"), region));
 }

@@ -115,6 +115,50 @@ TEST_CASE("frames before, while and after a GPU takes over have the same bits") 
     CHECK(renderer.warnings().size() == native.warnings().size());
 }
 
+TEST_CASE("where an edit brings a new type of solid, the native device draws until the GPU's kernels know it") {
+    if (!can_take_over()) return;
+    const std::string gpu_name = pocl_devices()[0].info.name;
+    const PretendedGpu gpu(pocl);
+    Settings settings;
+    settings.device = "gpu";
+    settings.wait_for_device = true;
+    const View view = view_from(35, false);
+    Scene scene;
+    scene.objects.push_back(Solid{"ball", Ell{{}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}}, {}});
+    scene.objects.push_back(Combination{.name = "part.r", .tree = tree("ball"), .region = true});
+    const auto with_ring = [](const csgrt::Model& model) {
+        return Edit(model)
+            .add(Solid{"ring", Tor{{}, {0, 0, 1}, 20, 3}, {}})
+            .add("part.r", Operator::union_, "ring")
+            .commit();
+    };
+    const csgrt::Model ball(scene), ring = with_ring(ball);
+    Settings on_native;
+    on_native.device = "native";
+    Renderer native(ring, on_native);
+    const Image expected = native.render(view);
+    Renderer waits(ball, settings);
+    waits.set_model(ring);
+    test::require_same(waits.render(view), expected);
+    CHECK(waits.statistics().device == gpu_name);
+    settings.wait_for_device = false;
+    Renderer renderer(ball, settings);
+    const auto end = std::chrono::steady_clock::now() + longest_wait;
+    while (renderer.statistics().device != gpu_name && std::chrono::steady_clock::now() < end) renderer.render(view);
+    REQUIRE(renderer.statistics().device == gpu_name);
+    while (!renderer.statistics().awaited_device.empty() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(20ms);
+    renderer.set_model(Edit(ball).set_color("/part.r", {1, 0, 0}).commit());
+    renderer.render(view);
+    CHECK(renderer.statistics().device == gpu_name);  // which needs nothing new
+    renderer.set_model(ring);
+    test::require_same(renderer.render(view), expected);
+    CHECK(renderer.statistics().device == native.statistics().device);
+    while (renderer.statistics().device != gpu_name && std::chrono::steady_clock::now() < end)
+        test::require_same(renderer.render(view), expected);
+    CHECK(renderer.statistics().device == gpu_name);
+}
+
 TEST_CASE("who waits for a GPU has it from the first frame on") {
     if (!can_take_over()) return;
     const std::string gpu_name = pocl_devices()[0].info.name;
@@ -174,18 +218,19 @@ TEST_CASE("a GPU that fails is a warning, and an error of who named it") {
 TEST_CASE("the first devices draw what the next have no kernels for yet") {
     if (!can_take_over()) return;
     const Compiled model;
-    DeviceTakeover takeover(model.plan(pocl_devices), model.set_up(), false);
+    DeviceTakeover takeover(
+        model.plan(pocl_devices), model.set_up(), [](DeviceGroup&) {}, false);
     const std::uint64_t first = takeover.present().number();
     wait_for_job(takeover);  // found and set up, while no call wanted kernels
-    CHECK(takeover.drawer(true).number() == first);
+    CHECK(takeover.drawer(true, model.compiled).number() == first);
     wait_for_job(takeover);
-    const std::uint64_t next = takeover.drawer(true).number();
+    const std::uint64_t next = takeover.drawer(true, model.compiled).number();
     CHECK(next != first);
-    CHECK(takeover.drawer(false).number() == first);
-    CHECK(takeover.drawer(false).name().starts_with("native"));
+    CHECK(takeover.drawer(false, model.compiled).number() == first);
+    CHECK(takeover.drawer(false, model.compiled).name().starts_with("native"));
     wait_for_job(takeover);
-    CHECK(takeover.drawer(false).number() == next);
-    CHECK(takeover.drawer(true).number() == next);
+    CHECK(takeover.drawer(false, model.compiled).number() == next);
+    CHECK(takeover.drawer(true, model.compiled).number() == next);
 }
 
 TEST_CASE("where no device is found the first ones go on, and nothing was wrong") {
@@ -193,13 +238,15 @@ TEST_CASE("where no device is found the first ones go on, and nothing was wrong"
     const Compiled model;
     for (const bool waits : {false, true}) {
         std::atomic<int> searches{0};
-        DeviceTakeover takeover(model.plan([&] {
-            ++searches;
-            return std::vector<FoundDevice>{};
-        }),
-                                model.set_up(), waits);
+        DeviceTakeover takeover(
+            model.plan([&] {
+                ++searches;
+                return std::vector<FoundDevice>{};
+            }),
+            model.set_up(), [](DeviceGroup&) {}, waits);
         wait_for_job(takeover);
-        for (const bool every : {true, false, true}) CHECK(takeover.drawer(every).name().starts_with("native"));
+        for (const bool every : {true, false, true})
+            CHECK(takeover.drawer(every, model.compiled).name().starts_with("native"));
         CHECK(!takeover.take_fault());
         CHECK(searches == 1);
     }
@@ -211,17 +258,19 @@ TEST_CASE("a fault of drivers is told once, or thrown at every call") {
     const auto fail = []() -> std::vector<FoundDevice> {
         throw Error(Status::device_fault, "the driver is broken\nin many words");
     };
-    DeviceTakeover by_default(model.plan(fail), model.set_up(), false);
+    DeviceTakeover by_default(
+        model.plan(fail), model.set_up(), [](DeviceGroup&) {}, false);
     wait_for_job(by_default);
-    CHECK(by_default.drawer(true).name().starts_with("native"));
+    CHECK(by_default.drawer(true, model.compiled).name().starts_with("native"));
     CHECK(by_default.take_fault() == "the GPU cannot be used, the processor draws: the driver is broken");
     CHECK(!by_default.take_fault());
-    CHECK(by_default.drawer(false).name().starts_with("native"));
+    CHECK(by_default.drawer(false, model.compiled).name().starts_with("native"));
 
-    DeviceTakeover by_name(model.plan(fail, false), model.set_up(), false);
+    DeviceTakeover by_name(
+        model.plan(fail, false), model.set_up(), [](DeviceGroup&) {}, false);
     wait_for_job(by_name);
     for (const bool every : {true, false})
-        CHECK_THROWS_WITH(by_name.drawer(every), Catch::Matchers::StartsWith("the driver is broken"));
+        CHECK_THROWS_WITH(by_name.drawer(every, model.compiled), Catch::Matchers::StartsWith("the driver is broken"));
     CHECK(!by_name.take_fault());
 }
 
@@ -241,8 +290,8 @@ TEST_CASE("a takeover goes when its job has ended, which begins nothing more") {
             ++set_ups;
             return model.set_up()(devices);
         },
-        false);
-    CHECK(takeover->drawer(true).name().starts_with("native"));
+        [](DeviceGroup&) {}, false);
+    CHECK(takeover->drawer(true, model.compiled).name().starts_with("native"));
     CHECK(takeover->awaited() == "gpu");
     begun.get_future().wait();  // else it may be left before it begins, and is not waited for
     std::thread leaving([&] {

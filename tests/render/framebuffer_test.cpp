@@ -48,7 +48,7 @@ TEST_CASE("a framebuffer holds the last frame alone") {
     Framebuffer framebuffer;
     CHECK(framebuffer.image().channels.empty());
     const auto seen = [&] {
-        const std::span<const float> region = framebuffer.image().channel("region");
+        const std::span<const std::uint32_t> region = framebuffer.image().ids("region");
         return std::count_if(region.begin(), region.end(), [](float id) { return id > 0; });
     };
     // The model moves away, is not there, and comes back.

@@ -21,16 +21,20 @@ static_assert(!has_channels<Image> && !has_channels<const Image>);
 static_assert(std::same_as<decltype(std::declval<Image&>().channel("Z")), std::span<const float>>);
 
 Image two_channels() {
-    return {.width = 2, .height = 1, .names = {"Z", "region"}, .channels = Channels({{1.5f, 2.5f}, {0.0f, 7.0f}})};
+    Image image{.width = 2, .height = 1, .names = {"Z", "region"}, .are_ids = {false, true}};
+    image.channels = Channels({{1.5f, 2.5f}, {0.0f, 0.0f}});
+    image.channels.ids(1)[1] = 16'777'217;  // which is no float
+    return image;
 }
 
 }  // namespace
 
 TEST_CASE("a channel is found by its name, and is the picture's own memory", "[image]") {
     const Image image = two_channels();
-    float sum = 0;
-    for (const float value : image.channel("region")) sum += value;
-    CHECK(sum == 7);
+    CHECK(image.ids("region")[0] == 0);
+    CHECK(image.ids("region")[1] == 16'777'217);
+    CHECK_THROWS_WITH(image.channel("region"), "the channel 'region' holds ids: see Image::ids()");
+    CHECK_THROWS_WITH(image.ids("Z"), "the channel 'Z' holds floats: see Image::channel()");
     CHECK(image.channel("Z").data() == image.channels[0].data());
     CHECK(image.channel("Z").size() == 2);
     CHECK(image.has_channel("Z"));

@@ -128,8 +128,8 @@ TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets
                 const auto i = static_cast<std::size_t>(row * view.width + column);
                 const Pick pick = model.pick(view, column, row);
                 REQUIRE(identical(pick.along, along[i]));
-                REQUIRE(static_cast<float>(pick.region + 1) == at("region", i));
-                REQUIRE(static_cast<float>(pick.solid + 1) == at("solid", i));
+                REQUIRE(static_cast<std::uint32_t>(pick.region + 1) == image.ids("region")[i]);
+                REQUIRE(static_cast<std::uint32_t>(pick.solid + 1) == image.ids("solid")[i]);
                 if (pick.region < 0) continue;
                 REQUIRE(static_cast<float>(pick.t) == at("Z", i));
                 REQUIRE(static_cast<float>(pick.normal.x) == at("N.X", i));

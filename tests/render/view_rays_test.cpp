@@ -123,7 +123,7 @@ TEST_CASE("a picture has 1 to 32,768 pixels each way") {
     Renderer renderer(scene_of(ball({0, 0, 0}, 1)), {}, on_reference());
     CHECK(renderer.rays_of(looking(0, 0, 32'768, 1)).size() == 32'768);
     const Image image = renderer.render(looking(0, 0, 1, 1));
-    CHECK(image.channel("region")[0] == 1);
+    CHECK(image.ids("region")[0] == 1);
     for (const auto& [width, height] : {std::pair{0, 1}, {1, 0}, {-1, 1}, {32'769, 1}, {1, 32'769}}) {
         CAPTURE(width, height);
         try {

@@ -3,7 +3,6 @@
 #ifdef CSGRT_HAVE_IMAGE
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -23,12 +22,24 @@ struct ChannelDifference {
     std::size_t position = 0;  ///< of the largest
 };
 
-ChannelDifference difference(std::span<const float> a, std::span<const float> b, std::optional<double> tolerance) {
+/// A channel's values, and what they mean.
+struct Values {
+    const Image& image;
+    std::size_t channel;
+
+    std::uint32_t bits(std::size_t i) const { return image.channels.ids(channel)[i]; }
+    double at(std::size_t i) const {
+        if (image.holds_ids(channel)) return image.channels.ids(channel)[i];
+        return static_cast<double>(image.channels[channel][i]);
+    }
+};
+
+ChannelDifference difference(const Values& a, const Values& b, std::size_t pixels, std::optional<double> tolerance) {
     ChannelDifference result;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (std::bit_cast<std::uint32_t>(a[i]) == std::bit_cast<std::uint32_t>(b[i])) continue;
-        if (tolerance && std::isnan(a[i]) && std::isnan(b[i])) continue;
-        double apart = std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (a.bits(i) == b.bits(i)) continue;
+        if (tolerance && std::isnan(a.at(i)) && std::isnan(b.at(i))) continue;
+        double apart = std::abs(a.at(i) - b.at(i));
         if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
         if (tolerance && apart <= *tolerance) continue;
         ++result.pixels;
@@ -65,21 +76,22 @@ Status compare_images(const CompareArguments& arguments) {
     bool differs = !text.empty();
     std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height), common = 0;
     for (std::size_t c = 0; c < a.names.size(); ++c) {
-        if (!b.has_channel(a.names[c])) continue;
-        const std::span<const float> other = b.channel(a.names[c]);
+        const auto in_b = std::ranges::find(b.names, a.names[c]);
+        if (in_b == b.names.end()) continue;
+        const Values own{a, c}, other{b, static_cast<std::size_t>(in_b - b.names.begin())};
         ++common;
-        ChannelDifference found = difference(a.channels[c], other, arguments.tolerance);
+        ChannelDifference found = difference(own, other, pixels, arguments.tolerance);
         differs |= found.pixels > 0;
         char line[256];
         if (found.pixels == 0) {
             std::snprintf(line, sizeof line, "%-10s  equal\n", a.names[c].c_str());
         } else {
             std::size_t at = found.position, width = static_cast<std::size_t>(a.width);
-            std::snprintf(
-                line, sizeof line, "%-10s  %s (%.3g %%) differ, by at most %.9g at x %zu y %zu: %.9g and %.9g\n",
-                a.names[c].c_str(), counted(found.pixels, "pixel").c_str(),
-                100.0 * static_cast<double>(found.pixels) / static_cast<double>(pixels), found.largest, at % width,
-                at / width, static_cast<double>(a.channels[c][at]), static_cast<double>(other[at]));
+            std::snprintf(line, sizeof line,
+                          "%-10s  %s (%.3g %%) differ, by at most %.9g at x %zu y %zu: %.9g and %.9g\n",
+                          a.names[c].c_str(), counted(found.pixels, "pixel").c_str(),
+                          100.0 * static_cast<double>(found.pixels) / static_cast<double>(pixels), found.largest,
+                          at % width, at / width, own.at(at), other.at(at));
         }
         text += line;
     }

@@ -9,6 +9,7 @@
 
 #include "compile/flatten/flattener.hpp"
 #include "compile/flatten/instance_table.hpp"
+#include "compile/flatten/look_table.hpp"
 #include "compile/flatten/region_forest.hpp"
 #include "base/prefetch.hpp"
 #include "base/parallel.hpp"
@@ -39,6 +40,19 @@ std::vector<std::string> fastgen_regions(const FlatScene& flat) {
         if (region.info.fastgen != Fastgen::none)
             names.push_back(region.info.path + (region.info.fastgen == Fastgen::plate ? " (plate)" : " (volume)"));
     return names;
+}
+
+/// Different regions get different paths where their legs do not tell them apart.
+void tell_apart(std::vector<FlatRegion>& regions) {
+    std::unordered_set<std::string> taken;
+    std::unordered_map<std::string, std::uint32_t> times;
+    for (FlatRegion& region : regions) {
+        const std::string path = region.info.path;
+        while (!taken.insert(region.info.path).second) {
+            std::uint32_t& number = times.try_emplace(path, 1).first->second;
+            region.info.path = numbered(path, ++number);
+        }
+    }
 }
 
 /// Instances that only dropped parts of trees used are dropped, too.
@@ -200,7 +214,8 @@ struct Asked {
 struct Found {
     std::vector<Asked> objects;  ///< in their order
     std::vector<Term> terms;
-    double solids = 0;  ///< in all terms
+    double solids = 0;             ///< in all terms
+    bool has_equal_paths = false;  ///< some may be
 };
 
 Found find_regions(const Source& source, const std::vector<std::string>& objects, bool air,
@@ -225,6 +240,9 @@ Found find_regions(const Source& source, const std::vector<std::string>& objects
         check(object, found.solids);
         asked.forest->for_each_term([&](std::uint32_t term) { found.terms.push_back({asked.forest.get(), term}); });
         asked.end = found.terms.size();
+        // One object may stand inside another that is asked for.
+        const bool is_inside = path.steps.size() > 1 && objects.size() > 1;
+        found.has_equal_paths = found.has_equal_paths || asked.forest->has_equal_paths() || is_inside;
     }
     return found;
 }
@@ -245,6 +263,13 @@ std::vector<NoRegion> add_trees(const Source& source, const Found& found, FlatSc
         },
         [&](TermsPart& part) { joiner.add(part); });
     if (joiner.has_unused()) drop_unused(result);
+    if (source.names.has_doubtful_names() || found.has_equal_paths) tell_apart(result.regions);
+    if (const std::vector<Look>& looks = source.scene.looks; !looks.empty()) {
+        const LookTable table(looks);
+        for_chunks(result.regions.size(), part_size, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t i = first; i < last; ++i) table.apply(result.regions[i].info);
+        });
+    }
     const auto before = [](const FlatRegion& a, const FlatRegion& b) { return rank_of(a.info) < rank_of(b.info); };
     if (!std::is_sorted(result.regions.begin(), result.regions.end(), before))
         std::stable_sort(result.regions.begin(), result.regions.end(), before);

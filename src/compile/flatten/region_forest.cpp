@@ -35,7 +35,7 @@ RegionStart RegionForest::start_of(const ObjectPath& path) {
         const Names::Kind kind = source_.names.kind(start.object);
         const bool region = kind == Names::Kind::region || kind == Names::Kind::air_region;
         if (region && inside_ == none) inside_ = start.object;
-        paths_.push_back({start.path, start.object});
+        paths_.push_back({start.path, start.object, start.node});
         start = {path.steps[i].object, static_cast<std::uint32_t>(paths_.size() - 1),
                  static_cast<std::uint32_t>(above_.size() - 1), path.steps[i].node};
     }
@@ -65,7 +65,7 @@ std::optional<RegionForest::Level> RegionForest::visit(RegionStart start) {
         return {};
     }
     const auto path = static_cast<std::uint32_t>(paths_.size());
-    paths_.push_back({start.path, object});
+    paths_.push_back({start.path, object, start.node});
     start.path = path;
     const Names::Kind kind = source_.names.kind(inside_ == none ? object : inside_);
     if (kind == Names::Kind::combination) {
@@ -142,6 +142,7 @@ double RegionForest::solids_in_terms() const {
 
 void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call) {
     if (root_.value != Value::tree) return;
+    std::vector<bool> starts_with_terms(starts_.size());
 
     // What still has to be done to a term that is found further down, innermost first: a list that terms share.
     enum class Pending { subtract_right, intersect_right, intersect_left };
@@ -187,20 +188,28 @@ void RegionForest::for_each_term(const std::function<void(std::uint32_t)>& call)
                 break;
             }
         }
-        if (term != none) call(term);
+        if (term == none) continue;
+        std::vector<bool>::reference has_term = starts_with_terms[leftmost(term)];
+        has_equal_paths_ = has_equal_paths_ || has_term;
+        has_term = true;
+        call(term);
     }
 }
 
-const RegionStart& RegionForest::leftmost_start(std::uint32_t node) const {
+std::uint32_t RegionForest::leftmost(std::uint32_t node) const {
     while (nodes_[node].op != Operator::leaf) node = nodes_[node].left;
-    return starts_[nodes_[node].left];
+    return nodes_[node].left;
 }
 
 std::string RegionForest::path(std::uint32_t number) const {
-    std::vector<std::uint32_t> steps;
-    for (; number != none; number = paths_[number].above) steps.push_back(paths_[number].object);
+    std::vector<const std::string*> steps;
+    for (; number != none; number = paths_[number].above) {
+        const PathStep& step = paths_[number];
+        steps.push_back(step.above == none ? &name_of(source_.scene.objects[step.object])
+                                           : &source_.names.leg_name(paths_[step.above].object, step.node));
+    }
     std::string text;
-    for (auto step = steps.rbegin(); step != steps.rend(); ++step) text += "/" + name_of(source_.scene.objects[*step]);
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step) text += "/" + **step;
     return text;
 }
 

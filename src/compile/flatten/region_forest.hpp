@@ -81,7 +81,7 @@ public:
 
     const Node& node(std::uint32_t number) const { return nodes_[number]; }
     const RegionStart& start(std::uint32_t number) const { return starts_[number]; }
-    const RegionStart& leftmost_start(std::uint32_t node) const;
+    const RegionStart& leftmost_start(std::uint32_t node) const { return starts_[leftmost(node)]; }
     /// The object whose id, air code and the like a region has: where it starts, or the region that the path to the
     /// named object leads through.
     std::uint32_t origin_of(const RegionStart& start) const { return inside_ == none ? start.object : inside_; }
@@ -89,8 +89,10 @@ public:
     /// thread's.
     Matrix matrix_of(const RegionStart& start) const;
     Attributes attributes_of(const RegionStart& start) const;
-    /// "/top/.../name"
+    /// "/top/.../name": what the legs are called on the way.
     std::string path(std::uint32_t number) const;
+    /// Several terms have one leftmost start, and so one path. Known when for_each_term() has been called.
+    bool has_equal_paths() const { return has_equal_paths_; }
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -114,6 +116,7 @@ private:
     friend class Walk<Level>;
     struct PathStep {
         std::uint32_t above, object;
+        std::uint32_t node;  ///< the leaf that leads here, of the tree of the step above
     };
 
     /// Where a path leads, with what is above it.
@@ -126,6 +129,7 @@ private:
     void nothing() { operands_.push_back({Value::nothing, none}); }
     void leave(const Open& done);
 
+    std::uint32_t leftmost(std::uint32_t node) const;
     std::uint32_t add_node(Operator op, std::uint32_t left, std::uint32_t right = 0);
 
     const Source& source_;
@@ -140,6 +144,7 @@ private:
     std::vector<PathStep> paths_;
     std::vector<std::string> air_regions_;
     std::uint64_t air_path_bytes_ = 0;
+    bool has_equal_paths_ = false;
 };
 
 }  // namespace csgrt

@@ -60,6 +60,8 @@ void put_grid(const RayGrid& grid, kernel::Frame& frame) {
     frame.perspective = grid.is_pinhole;
     frame.width = static_cast<std::uint32_t>(grid.columns);
     frame.height = static_cast<std::uint32_t>(grid.rows);
+    frame.first_x = 0.5 - 0.5 * grid.columns;
+    frame.first_y = 0.5 * grid.rows - 0.5;
 }
 
 RayGrid grid_of(const kernel::Frame& frame) {

@@ -38,27 +38,35 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
         for (std::size_t i = first; i < last; ++i) number[order[i]] = static_cast<std::uint32_t>(i);
     });
 
-    resize_cleared(logic.regions, count);
-    resize_cleared(logic.region_info, count);
-    resize_cleared(logic.flat_trees, count);
+    std::vector<RegionWords>& regions = logic.regions.own();
+    std::vector<RegionInfo>& infos = logic.region_info.own();
+    std::vector<FlatTree>& trees = logic.flat_trees.own();
+    resize_cleared(regions, count);
+    resize_cleared(infos, count);
+    resize_cleared(trees, count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         RegionChunk& chunk = chunks[c];
         for (std::size_t i = first; i < last; ++i) {
             const FlatRegion& region = flat.regions[i];
-            RegionInfo& info = logic.region_info[i] = region.info;
+            RegionInfo& info = infos[i] = region.info;
             info.bounds = tree_box(region.tree, brlcad_boxes);
             if (is_finite(info.bounds) && !is_empty(info.bounds)) chunk.bounds = united(chunk.bounds, info.bounds);
-            FlatTree& numbered = logic.flat_trees[i] = region.tree;
+            FlatTree& numbered = trees[i] = region.tree;
             for (FlatTree::Node& node : numbered.nodes) {
                 if (node.op == Operator::leaf) node.solid = number[node.solid];
             }
             const LinearTree tree = linearize(numbered, chunk.words);
-            logic.regions[i] = {tree.first_word, tree.word_count};
+            regions[i] = {tree.first_word, tree.word_count};
         }
     });
 
-    for (const RegionInfo& region : logic.region_info) ++logic.rank_ends[rank_of(region)];
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const FlatRegion& region = flat.regions[i];
+        ++logic.rank_ends[rank_of(region.info)];
+        if (region.info.finish.light)
+            logic.region_lights.push_back({i, *flat.instances[region.tree.nodes.front().solid].matrix});
+    }
     std::partial_sum(std::begin(logic.rank_ends), std::end(logic.rank_ends), std::begin(logic.rank_ends));
 
     logic.bounds = empty_box;
@@ -69,12 +77,13 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
         logic.bounds = united(logic.bounds, chunk.bounds);
         check_tree_words(words);
     }
-    logic.trees.resize(words);
+    std::vector<std::uint32_t>& all_words = logic.trees.own();
+    all_words.resize(words);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         const RegionChunk& chunk = chunks[c];
-        for (std::size_t i = first; i < last; ++i) logic.regions[i].first_word += chunk.first_word;
+        for (std::size_t i = first; i < last; ++i) regions[i].first_word += chunk.first_word;
         std::transform(
-            chunk.words.begin(), chunk.words.end(), logic.trees.begin() + chunk.first_word,
+            chunk.words.begin(), chunk.words.end(), all_words.begin() + chunk.first_word,
             [&](std::uint32_t word) { return word >> TREE_SHIFT == OP_LEAF ? word : word + chunk.first_word; });
     });
     std::vector<kernel::SolidRecord> solids = list_terms(logic, order.size());

@@ -18,7 +18,8 @@ public:
     explicit Builder(const CompiledScene& scene) : scene_(scene) {}
 
     StatusTree build() {
-        for (std::uint32_t region = 0; region < scene_.regions.size(); ++region) add_region(region);
+        for (std::uint32_t region = 0; region < scene_.regions.size(); ++region)
+            if (scene_.claims.empty() || scene_.claims[region]) add_region(region);
         list_leaves();
         find_outside();
         return std::move(result_);

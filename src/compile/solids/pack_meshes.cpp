@@ -65,7 +65,7 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
 
     std::vector<Vec3> local;
     local.reserve(mesh.vertices.size());
-    make_room(scene.reals, 3 * mesh.vertices.size());
+    make_room(scene.reals.own(), 3 * mesh.vertices.size());
     for (const Vec3& vertex : mesh.vertices) {
         local.push_back(frame(vertex));
         for (const double x : {local.back().x, local.back().y, local.back().z}) scene.reals.push_back(x);
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> add_mesh(const Triangles& mesh, const MeshFrame& fram
         scene.inner_nodes.insert(scene.inner_nodes.end(), hierarchy.nodes.begin(), hierarchy.nodes.end());
     }
 
-    make_room(scene.words, MESH_TRIANGLES + 3 * mesh.faces.size());
+    make_room(scene.words.own(), MESH_TRIANGLES + 3 * mesh.faces.size());
     scene.words.resize(first_word + MESH_TRIANGLES);
     scene.words[first_word + MESH_VERTICES] = static_cast<std::uint32_t>(first_real);
     scene.words[first_word + MESH_NODES] = static_cast<std::uint32_t>(first_node);

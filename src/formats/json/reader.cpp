@@ -64,6 +64,7 @@ public:
             if (section.name == "solids") read_solids(o["solids"]);
             if (section.name == "combinations") read_combinations(o["combinations"]);
         }
+        for (const JsonNode& item : items_of(o["looks"])) scene_.looks.push_back(read_look(item));
         read_order(o["order"]);
         read_top(o["objects"]);
         if (scene_.objects.empty() && file_.findings.empty()) {
@@ -171,6 +172,20 @@ private:
             }
         }
         return c;
+    }
+
+    Look read_look(const JsonNode& node) {
+        const JsonObject o = json_object(node, form::of<Look>);
+        Look look;
+        read_members(o, form::of<Look>, look);
+        if (const JsonNode material = o["material"]; material.present()) {
+            Material read = find_material(material);
+            look.color = read.color;
+            look.finish = std::move(read.finish);
+        }
+        if (const JsonNode state = o["state"]; state.present())
+            look.state = static_cast<State>(state.choice(form::states.words, 0));
+        return look;
     }
 
     Material find_material(const JsonNode& node) {

@@ -18,6 +18,8 @@ namespace form {
 
 inline constexpr Words<10> units{{"nm", "um", "mm", "cm", "m", "km", "in", "ft", "yd", "mi"}};
 
+inline constexpr Words<3> states{{"shown", "ghost", "hidden"}};
+
 constexpr Bounds beam = {0,    180, true,
                          true, "",  "must be an angle from 0 to 180 degrees, between the beam's axis and its edge"};
 inline constexpr const char* beam_help = "Degrees between the beam's axis and its edge.";
@@ -69,6 +71,16 @@ inline constexpr auto of<RegionColor> = Form{
     required("low", &RegionColor::low, integer),
     required("high", &RegionColor::high, integer),
     required("color", &RegionColor::color, color),
+};
+
+template <>
+inline constexpr auto of<Look> = Form{
+    plain("look", "What the regions at a path have in place of what their combinations say."),
+    required("path", &Look::path, name, "As csgrt info shows it, or the beginning of such paths up to a '/'."),
+    optional("material", nothing,
+             Other{R"({"oneOf": [{"$ref": "#/$defs/name", "description": "A name from 'materials'."},
+                 {"$ref": "#/$defs/material"}]})"}),
+    optional("state", nothing, states, "Whether pictures show them."),
 };
 
 template <>
@@ -141,6 +153,7 @@ inline constexpr auto of<Scene> = Form{
     optional("order", nothing, Other{R"({"type": "array", "items": {"$ref": "#/$defs/name"}, "uniqueItems": true})"},
              "All objects in the order of the regions, if that is not the order of the file."),
     optional("region_colors", &Scene::region_colors, List{object<RegionColor>}),
+    optional("looks", nothing, List{object<Look>}, "Of two that concern one region the later counts."),
 };
 
 // ---- Trees ----
@@ -167,7 +180,16 @@ inline constexpr Other one_or_more{R"({"type": "array", "items": {"$ref": "#/$de
     two_or_more{R"({"type": "array", "items": {"$ref": "#/$defs/tree"}, "minItems": 2})"},
     one{R"({"oneOf": [{"$ref": "#/$defs/tree"},
         {"type": "array", "items": {"$ref": "#/$defs/tree"}, "minItems": 1, "maxItems": 1}]})"};
-inline constexpr auto leaf = node("leaf", "object", name);
+inline constexpr auto leaf = Form{
+    plain("leaf"),
+    required("object", nothing, name),
+    optional("matrix", nothing, Other{R"({"$ref": "#/$defs/matrix"})"}, "Not together with the three others."),
+    optional("translate", nothing, lengths, "Third."),
+    optional("rotate", nothing, object<Rotation>, "Second."),
+    optional("scale", nothing, Other{R"({"$ref": "#/$defs/scale"})"}, "First."),
+    optional("name", nothing, name,
+             "In paths; that of the object, with a number from its second leaf on, if not given."),
+};
 inline constexpr auto union_ = node("union", "union", one_or_more, "In any of them.");
 inline constexpr auto intersection = node("intersection", "intersection", one_or_more, "In all of them.");
 inline constexpr auto difference =

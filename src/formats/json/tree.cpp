@@ -54,12 +54,15 @@ public:
             node.fault("'postfix' may stand for a whole tree only");
             return;
         }
-        const JsonObject o = json_object(node, form::node("", kind, form::nothing));
+        const bool is_leaf = kind == "object";
+        const JsonObject o =
+            is_leaf ? json_object(node, form::leaf) : json_object(node, form::node("", kind, form::nothing));
         std::optional<Matrix> matrix = read_json_placement(o);
         if (matrix && outer != nullptr) matrix = compose(*outer, *matrix);
         const Matrix* placed = matrix ? &*matrix : outer;
-        if (kind == "object") {
+        if (is_leaf) {
             add_leaf(node, o["object"], placed);
+            if (o.has("name")) tree_.nodes.back().name = o["name"].name();
         } else {
             read_operator(node, operator_called(kind), o[kind], placed);
         }

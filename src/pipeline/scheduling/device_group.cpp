@@ -165,6 +165,14 @@ void DeviceGroup::trace_list(const kernel::Frame& frame, const RayList& rays, Ro
           });
 }
 
+bool DeviceGroup::can_draw(const CompiledScene& scene) const {
+    return std::ranges::all_of(pipelines_, [&](const auto& pipeline) { return pipeline->can_draw(scene); });
+}
+
+bool DeviceGroup::uses_driver() const {
+    return !std::ranges::all_of(devices_, [](const auto& device) { return is_native(device->info()); });
+}
+
 std::string DeviceGroup::name() const {
     std::string all;
     for (const auto& device : devices_) all += (all.empty() ? "" : " + ") + device->info().name;

@@ -25,6 +25,8 @@ public:
 
     /// From now on another scene is drawn. `owner`: keeps it and its kernels.
     void set_scene(const CompiledScene& scene, const HostKernels& kernels, std::shared_ptr<const void> owner);
+    /// With the kernels that are compiled.
+    bool can_draw(const CompiledScene& scene) const;
     /// As set_scene() was given it, or keep(); null: neither was called.
     const std::shared_ptr<const void>& owner() const { return owner_; }
     void keep(std::shared_ptr<const void> owner) { owner_ = std::move(owner); }
@@ -37,6 +39,7 @@ public:
     void trace_list(const kernel::Frame& frame, const RayList& rays, RowTaker& sink, Watch* watch,
                     PipelineCounts& counts);
 
+    bool uses_driver() const;            ///< some device is not native
     std::string name() const;            ///< "A", or "A + B"
     std::uint64_t device_bytes() const;  ///< of all devices: in buffers, and what drivers hold of registered memory
     double build_ms() const;  ///< to set up the devices, and of the one that took longest to compile its kernels

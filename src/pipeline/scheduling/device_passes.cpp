@@ -11,7 +11,7 @@ DevicePasses::DevicePasses(Device& on, const CompiledScene& compiled, const Host
 }
 
 void DevicePasses::set_scene(const CompiledScene& compiled, const HostKernels& host_kernels) {
-    tables.reset();  // there may be no room for both
+    if (tables && !tables->takes(compiled)) tables.reset();  // there may be no room for both
     scene_ = &compiled;
     kernels_ = &host_kernels;
     const ProgramNeeds needs(compiled);
@@ -22,7 +22,10 @@ void DevicePasses::set_scene(const CompiledScene& compiled, const HostKernels& h
     } else if (partitions_) {
         partitions_->set_scene(compiled, host_kernels);
     }
-    tables.emplace(device, compiled, host_kernels.tables());
+    if (tables)
+        tables->take(compiled, host_kernels.tables());
+    else
+        tables.emplace(device, compiled, host_kernels.tables());
 }
 
 template <class Build>

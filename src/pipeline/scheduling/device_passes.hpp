@@ -43,6 +43,9 @@ public:
     /// scene. Throws Error (out_of_memory, device_fault).
     void set_scene(const CompiledScene& scene, const HostKernels& kernels);
 
+    /// With the programs that are compiled.
+    bool can_draw(const CompiledScene& scene) const { return draws(device, needs_, ProgramNeeds(scene)); }
+
     Device& device;
     const HostKernels& kernels() const { return *kernels_; }
     std::optional<SceneTables> tables;

@@ -32,6 +32,7 @@ public:
     /// From now on another scene is drawn and traced; both must outlive the pipeline. Programs that can draw it stay,
     /// and buffers. Throws Error (out_of_memory, device_fault).
     void set_scene(const CompiledScene& scene, const HostKernels& kernels);
+    bool can_draw(const CompiledScene& scene) const { return passes_.can_draw(scene); }
     /// Compiles the kernels of such frames, if that was not done.
     void prepare(bool every_partition);
     /// Draws the frame's rays, so far as `take` gives them; each range begins with a tile. Some pixels may come into

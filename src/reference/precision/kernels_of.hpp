@@ -135,11 +135,12 @@ k::world_ray convert_ray(const Ray& r) {
 class Kernels : public ReferenceKernels {
 public:
     Kernels(const CompiledScene& scene, Quartic quartic)
-        : solids_(convert_all<k::SolidRecord>(scene.solids, [&](const auto& s) { return convert_solid(s, scene); })),
-          reals_(convert_all<real>(scene.reals, [](double x) { return convert(x); })),
-          planes_(convert_all<k::PlaneRecord>(scene.planes, [](const auto& p) { return convert(p); })),
-          inner_nodes_(convert_all<k::BvhNode>(scene.inner_nodes, [](const auto& n) { return convert_node(n); })),
-          nodes_(convert_all<k::BvhNode>(scene.nodes, [](const auto& n) { return convert_node(n); })),
+        : solids_(
+              convert_all<k::SolidRecord>(scene.solids.get(), [&](const auto& s) { return convert_solid(s, scene); })),
+          reals_(convert_all<real>(scene.reals.get(), [](double x) { return convert(x); })),
+          planes_(convert_all<k::PlaneRecord>(scene.planes.get(), [](const auto& p) { return convert(p); })),
+          inner_nodes_(convert_all<k::BvhNode>(scene.inner_nodes.get(), [](const auto& n) { return convert_node(n); })),
+          nodes_(convert_all<k::BvhNode>(scene.nodes.get(), [](const auto& n) { return convert_node(n); })),
           g_(k::make_geometry(solids_.data(), reals_.data(), planes_.data(), scene.words.data(), inner_nodes_.data())) {
         g_.quartic = static_cast<k::u32>(quartic);
     }
@@ -244,7 +245,9 @@ public:
         const k::Frame& frame = convert_frame(f);
         const k::RayRecord record = convert(ray);
         const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
-        const real t_min = frame.work == WORK_RAYS ? k::range_of(&frame, record, r).t_min : k::t_min_along(&frame, r);
+        const real t_min = frame.work == WORK_RAYS
+                               ? k::range_of(&frame, record, r).t_min
+                               : k::wanted_from(&frame, r, k::range_in_view(&frame, k::listed_ray(record)));
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
             const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
@@ -264,18 +267,24 @@ public:
         ends = ends_of(std::move(own));
         return woven;
     }
-    double t_min(const kernel::Frame& f, const Ray& ray) const override {
+    Seen seen(const kernel::Frame& f, const Ray& ray) const override {
         const k::Frame& frame = convert_frame(f);
-        return static_cast<double>(k::t_min_along(&frame, k::geometry_ray(&frame, convert_ray(ray))));
+        const k::world_ray w = convert_ray(ray);
+        const k::ray3 r = k::geometry_ray(&frame, w);
+        const k::view_range range = k::range_in_view(&frame, w);
+        return {static_cast<double>(k::parameter_at(r, range.near)),
+                static_cast<double>(k::parameter_at(r, range.far))};
     }
     kernel::Pixel hit_pixel(const kernel::Frame& f, const std::vector<kernel::LightRecord>& lights,
                             std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
                             const kernel::End& end, bool leaves) const override {
         const k::Frame& frame = convert_frame(f);
-        const k::ray3 r = k::geometry_ray(&frame, convert_ray(ray));
+        const k::world_ray w = convert_ray(ray);
+        const k::ray3 r = k::geometry_ray(&frame, w);
         const auto& records = lights_of(lights);
         const k::End seen{static_cast<real>(end.t), end.solid, end.surface};
-        const k::Pixel pixel = k::seen_pixel(&frame, records.data(), convert(material), g_, r, seen, leaves, region);
+        const k::Pixel pixel = k::seen_pixel(&frame, records.data(), convert(material), g_, r,
+                                             k::range_in_view(&frame, w), seen, leaves, region);
         kernel::Pixel result;
         static_assert(sizeof result == sizeof pixel && std::is_trivially_copyable_v<k::Pixel>);
         std::memcpy(&result, &pixel, sizeof result);

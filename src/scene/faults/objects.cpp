@@ -111,6 +111,12 @@ void check_settings(const Scene& scene, const Report& report) {
         settings.require(in_range(light.angle, 0, 180), "/lights", "the angle of a beam must be from 0 to 180 degrees");
         settings.require(is_axis(light.direction), "/lights", "the direction of a beam must be finite, and not 0");
     }
+    for (const Look& look : scene.looks)
+        check_attributes({.name = look.path,
+                          .color = look.color,
+                          .finish = look.finish,
+                          .place = {.file = {}, .pointer = "/looks/" + look.path}},
+                         report);
     const Camera& camera = scene.camera;
     settings.require(std::isfinite(camera.azimuth) && std::isfinite(camera.elevation), "/camera",
                      "azimuth and elevation must be finite");

@@ -32,8 +32,8 @@ void require_as_one_by_one(const Scene& scene, const CompiledScene& compiled) {
         test::pack_one(shape_of(scene, flat, instance), *instance.matrix, compiled.solid_boxes[i], alone, planes,
                        surfaces, shared);
     }
-    CHECK((alone.reals == compiled.reals));
-    CHECK((alone.words == compiled.words));
+    CHECK((alone.reals.get() == compiled.reals.get()));
+    CHECK((alone.words.get() == compiled.words.get()));
     CHECK(planes.records().size() == compiled.planes.size());
 }
 

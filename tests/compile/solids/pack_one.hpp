@@ -22,7 +22,7 @@ inline void pack_one(const Shape& shape, const Matrix& matrix, const Box& box, C
         const std::size_t count = scene.reals.size() - record.first_real;
         const std::uint32_t first = surfaces.add(
             *surface, record.first_real,
-            [&](std::uint32_t real) { return std::span<double>(scene.reals).subspan(real, count); },
+            [&](std::uint32_t real) { return std::span<double>(scene.reals.own()).subspan(real, count); },
             [&](std::uint32_t) { return packer.axes_in_world; });
         if (first != record.first_real) scene.reals.resize(record.first_real);
         record.first_real = first;

@@ -30,7 +30,7 @@ struct Packed {
     }
 
     const kernel::SolidRecord& solid() const { return scene.solids.back(); }
-    double real(std::size_t i) const { return scene.reals.at(solid().first_real + i); }
+    double real(std::size_t i) const { return scene.reals.get().at(solid().first_real + i); }
     std::size_t reals() const { return scene.reals.size() - solid().first_real; }
 
     Wide local(const Wide& world) const {
@@ -44,8 +44,8 @@ struct Packed {
     }
     /// n . p - d with the outward normal.
     long double above(std::size_t face, const Wide& p) const {
-        const kernel::PlaneRef ref = scene.words.at(solid().first_plane + face);
-        const kernel::PlaneRecord& plane = scene.planes.at(ref >> 1);
+        const kernel::PlaneRef ref = scene.words.get().at(solid().first_plane + face);
+        const kernel::PlaneRecord& plane = scene.planes.get().at(ref >> 1);
         const long double value = glm::dot(Wide(plane.nx, plane.ny, plane.nz), p) - plane.d;
         return ref & 1u ? -value : value;
     }

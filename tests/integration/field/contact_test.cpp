@@ -435,7 +435,8 @@ TEST_CASE("pictures of a part and its mirror image, straight on: no background b
             view.camera.elevation = 0;
             const Image image = renderer.render(view);
             INFO("kind " << kind << ", azimuth " << azimuth);
-            const auto regions = image.channel("region"), overlaps = image.channel("overlap");
+            const auto regions = image.ids("region");
+            const auto overlaps = image.channel("overlap");
             CHECK(std::all_of(overlaps.begin(), overlaps.end(), [](float n) { return n == 0; }));
             for (std::size_t x = 30; x <= 34; ++x) CHECK(regions[32 * 65 + x] != 0);
         }

@@ -28,13 +28,13 @@ inline constexpr int picture_size = 64;
 
 /// The pixels whose eight neighbours are all of one region, which is not their own.
 inline std::vector<std::size_t> lone_pixels(const Image& image) {
-    const std::span<const float> region = image.channel("region");
+    const std::span<const std::uint32_t> region = image.ids("region");
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     std::vector<std::size_t> lone;
     for (std::size_t y = 1; y + 1 < height; ++y)
         for (std::size_t x = 1; x + 1 < width; ++x) {
             const std::size_t at = y * width + x;
-            const float around = region[at - 1];
+            const std::uint32_t around = region[at - 1];
             bool agreed = region[at] != around;
             for (const std::size_t row : {at - width, at, at + width})
                 for (const std::size_t n : {row - 1, row, row + 1}) agreed = agreed && (n == at || region[n] == around);
@@ -84,7 +84,7 @@ inline Speckles look(const stress::StressScene& made, const Settings& settings) 
             std::uint32_t expected = 0;
             for (std::uint32_t i = 0; i < compiled.region_info.size() && !sequence.empty(); ++i)
                 if (compiled.region_info[i].path == "/" + made.objects[sequence.front().region]) expected = i + 1;
-            if (tie || static_cast<float>(expected) == image.channel("region")[at]) continue;
+            if (tie || static_cast<std::uint32_t>(expected) == image.ids("region")[at]) continue;
             if (found.speckles++ == 0) keep_finding("speckle", made, made.scene, ray);
         }
         for (std::size_t c = 0; c < changes.size(); ++c) {

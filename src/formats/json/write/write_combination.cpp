@@ -20,15 +20,19 @@ ordered_json json_of_leaf(const TreeNode& leaf, JsonUnit& unit) {
     const Matrix& m = leaf.matrix;
     Matrix moved = identity;
     for (const std::size_t i : {3, 7, 11}) moved[i] = m[i];
-    if (same_bits(m, identity)) return leaf.object;
-    if (same_bits(m, moved)) {
-        return {{"object", leaf.object}, {"translate", unit.lengths({m[3], m[7], m[11]})}};
+    const bool is_placed = !same_bits(m, identity);
+    if (!is_placed && leaf.name.empty()) return leaf.object;
+    ordered_json out = {{"object", leaf.object}};
+    if (is_placed && same_bits(m, moved)) {
+        out["translate"] = unit.lengths({m[3], m[7], m[11]});
+    } else if (is_placed) {
+        ordered_json matrix = ordered_json::array();
+        for (std::size_t i = 0; i < 16; ++i)
+            matrix.push_back(i == 3 || i == 7 || i == 11 ? unit.length(m[i]) : unit.number(m[i]));
+        out["matrix"] = std::move(matrix);
     }
-    ordered_json matrix = ordered_json::array();
-    for (std::size_t i = 0; i < 16; ++i) {
-        matrix.push_back(i == 3 || i == 7 || i == 11 ? unit.length(m[i]) : unit.number(m[i]));
-    }
-    return {{"object", leaf.object}, {"matrix", std::move(matrix)}};
+    if (!leaf.name.empty()) out["name"] = leaf.name;
+    return out;
 }
 
 /// How many operators stand above the deepest leaf; nothing if the nodes are no tree.
@@ -90,12 +94,12 @@ ordered_json json_of(const Tree& tree, JsonUnit& unit, std::string& fault) {
 }
 
 /// The shader is always written, so that the finish is there again when all else is at its default.
-ordered_json json_of_material(const Combination& combination, JsonUnit& unit) {
+ordered_json json_of_material(const std::optional<Vec3>& color, const std::optional<Finish>& finish, JsonUnit& unit) {
     ordered_json material = ordered_json::object();
-    if (combination.color) material["color"] = unit.vector(*combination.color);
-    if (combination.finish) {
-        write_members(material, form::of<Finish>, *combination.finish, unit);
-        if (combination.finish->light) material["light"] = write_form(*combination.finish->light, unit);
+    if (color) material["color"] = unit.vector(*color);
+    if (finish) {
+        write_members(material, form::of<Finish>, *finish, unit);
+        if (finish->light) material["light"] = write_form(*finish->light, unit);
     }
     return material;
 }
@@ -106,11 +110,19 @@ ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string
     ordered_json out = ordered_json::object();
     out["tree"] = json_of(combination.tree, unit, fault);
     write_members(out, form::of<Combination>, combination, unit);
-    if (combination.color || combination.finish) out["material"] = json_of_material(combination, unit);
+    if (combination.color || combination.finish)
+        out["material"] = json_of_material(combination.color, combination.finish, unit);
     ordered_json inherit = ordered_json::array();
     if (combination.color_inherits) inherit.push_back("color");
     if (combination.finish_inherits) inherit.push_back("finish");
     if (!inherit.empty()) out["inherit"] = std::move(inherit);
+    return out;
+}
+
+ordered_json json_of(const Look& look, JsonUnit& unit) {
+    ordered_json out = {{"path", look.path}};
+    if (look.color || look.finish) out["material"] = json_of_material(look.color, look.finish, unit);
+    if (look.state) out["state"] = form::states.words.at(static_cast<std::size_t>(*look.state));
     return out;
 }
 

@@ -17,4 +17,7 @@ nlohmann::ordered_json json_of(const Shape& shape, JsonUnit& unit);
 /// {"tree": ...} with the attributes that differ from their defaults. A tree that is not one sets `fault`.
 nlohmann::ordered_json json_of(const Combination& combination, JsonUnit& unit, std::string& fault);
 
+/// {"path": ..., "material": ..., "state": ...}
+nlohmann::ordered_json json_of(const Look& look, JsonUnit& unit);
+
 }  // namespace csgrt

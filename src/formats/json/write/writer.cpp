@@ -72,6 +72,9 @@ private:
         }
         if (ordered_json camera = json_of_camera(); !camera.empty()) out["camera"] = std::move(camera);
         write_members(out, form::of<Scene>, scene_, unit_);
+        ordered_json looks = ordered_json::array();
+        for (const Look& look : scene_.looks) looks.push_back(json_of(look, unit_));
+        if (!looks.empty()) out["looks"] = std::move(looks);
         check({}, "the scene", out);
         check({}, "the list of objects", scene_.top);
         return out;

@@ -1,0 +1,68 @@
+// A vector that copies share.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace csgrt {
+
+/// As std::vector, but for copies: they share the elements until one of them is about to change its own. Whoever holds
+/// the only copy may write to different elements from several threads.
+template <class T>
+class SharedVector {
+public:
+    using value_type = T;
+    using Vector = std::vector<T>;
+
+    SharedVector() = default;
+    SharedVector(Vector values) : values_(std::make_shared<Vector>(std::move(values))) {}  // NOLINT: it is the same
+    SharedVector(std::initializer_list<T> values) : SharedVector(Vector(values)) {}
+
+    const Vector& get() const noexcept {
+        static const Vector none;
+        return values_ ? *values_ : none;
+    }
+    /// To be changed: no other copy has these elements any more.
+    Vector& own() {
+        if (!values_)
+            values_ = std::make_shared<Vector>();
+        else if (values_.use_count() > 1)
+            values_ = std::make_shared<Vector>(*values_);
+        return *values_;
+    }
+    operator const Vector&() const noexcept { return get(); }
+    operator Vector&() { return own(); }
+
+    /// Do both have the same elements, in one place?
+    bool shares(const SharedVector& other) const noexcept { return values_ == other.values_; }
+
+    std::size_t size() const noexcept { return get().size(); }
+    bool empty() const noexcept { return get().empty(); }
+    const T* data() const noexcept { return get().data(); }
+    auto begin() const noexcept { return get().begin(); }
+    auto end() const noexcept { return get().end(); }
+    const T& operator[](std::size_t i) const noexcept { return (*values_)[i]; }
+    const T& back() const noexcept { return values_->back(); }
+
+    auto begin() { return own().begin(); }
+    auto end() { return own().end(); }
+    T& operator[](std::size_t i) { return own()[i]; }
+    void resize(std::size_t size) { own().resize(size); }
+    void push_back(T value) { own().push_back(std::move(value)); }
+    template <class... Arguments>
+    auto insert(Arguments&&... arguments) {
+        return own().insert(std::forward<Arguments>(arguments)...);
+    }
+    template <class... Arguments>
+    void assign(Arguments&&... arguments) {
+        own().assign(std::forward<Arguments>(arguments)...);
+    }
+
+private:
+    std::shared_ptr<Vector> values_;
+};
+
+}  // namespace csgrt

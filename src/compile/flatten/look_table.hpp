@@ -1,0 +1,27 @@
+// What a scene gives single regions, or all below a path, in place of their combinations' colours and finish.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include <csgrt/model.hpp>
+
+namespace csgrt {
+
+/// Refers to the looks.
+class LookTable {
+public:
+    explicit LookTable(const std::vector<Look>& looks);
+    /// The numbers of those that concern a region, ascending.
+    std::vector<std::uint32_t> find(std::string_view path) const;
+    /// Gives a region, whose path is known, what concerns it.
+    void apply(RegionInfo& region) const;
+
+private:
+    const std::vector<Look>& looks_;
+    std::unordered_map<std::string_view, std::vector<std::uint32_t>> by_path_;
+};
+
+}  // namespace csgrt

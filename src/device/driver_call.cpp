@@ -1,0 +1,67 @@
+#include "device/driver_call.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+
+#include "base/process.hpp"
+
+namespace csgrt {
+
+namespace {
+
+thread_local int own_calls = 0;  // of the thread that calls exit(), which it does not wait for
+
+class Gate {
+public:
+    /// What is older than its first call goes after it: the drivers.
+    static Gate& of_process() {
+        static Gate* const gate = [] {
+            auto* const made = new Gate;  // for ever: threads may wait in it while the process ends
+            std::atexit([] { of_process().close(); });
+            return made;
+        }();
+        return *gate;
+    }
+
+    void enter() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return !is_closed_ || own_calls > 0; });
+        ++inside_;
+        ++own_calls;
+    }
+    void leave() {
+        const std::lock_guard lock(mutex_);
+        --inside_;
+        --own_calls;
+        changed_.notify_all();
+    }
+
+private:
+    void close() {
+        constexpr std::chrono::seconds longest(30);
+        if (process_ != process_number()) return;  // a child has none of the threads
+        std::unique_lock lock(mutex_);
+        is_closed_ = true;
+        changed_.wait_for(lock, longest, [this] { return inside_ == own_calls; });
+    }
+
+    const unsigned process_ = process_number();
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    int inside_ = 0;
+    bool is_closed_ = false;
+};
+
+}  // namespace
+
+DriverCall::DriverCall(bool used) : used_(used) {
+    if (used_) Gate::of_process().enter();
+}
+
+DriverCall::~DriverCall() {
+    if (used_) Gate::of_process().leave();
+}
+
+}  // namespace csgrt

@@ -1,0 +1,227 @@
+#include <csgrt/edit.hpp>
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "compile/flatten/look_table.hpp"
+#include "compile/hash.hpp"
+#include "compile/looks.hpp"
+#include "render/model_impl.hpp"
+#include "scene/edit_scene.hpp"
+#include "scene/faults/finding_list.hpp"
+#include "scene/faults/objects.hpp"
+
+namespace csgrt {
+
+struct Edit::Impl {
+    std::shared_ptr<const Model::Impl> before;
+    ModelSource source;          ///< with all edits but looks
+    std::optional<Scene> scene;  ///< in place of the source's, if that changes
+    std::vector<Look> looks;     ///< in addition to the source's
+
+    Scene& changed() {
+        if (scene) return *scene;
+        scene = *source.scene;
+        if (source.objects.empty()) scene->top = top_objects(*scene);  // of which an edit shall change none
+        return *scene;
+    }
+    std::vector<std::string>& rendered() { return source.objects.empty() ? changed().top : source.objects; }
+    void add(Look look);
+    void check_values() const;
+    bool changes_tables_alone(const LookTable& table) const;
+    ModelSource next() const;
+};
+
+namespace {
+
+/// As paths of regions are.
+std::string normal(const std::string& path) {
+    const std::size_t first = path.find_first_not_of('/'), last = path.find_last_not_of('/');
+    if (first == std::string::npos) throw Error(Status::usage, "the path '" + path + "' names nothing");
+    return "/" + path.substr(first, last - first + 1);
+}
+
+/// Those before that the later ones leave something of, then these: as long as there are paths, however often they are
+/// edited.
+std::vector<Look> joined(std::vector<Look> all, const std::vector<Look>& later) {
+    all.insert(all.end(), later.begin(), later.end());
+    struct Last {
+        std::size_t color = SIZE_MAX, finish = SIZE_MAX, state = SIZE_MAX;
+    };
+    std::unordered_map<std::string, Last> last;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Last& of = last[all[i].path];
+        if (all[i].color) of.color = i;
+        if (all[i].finish) of.finish = i;
+        if (all[i].state) of.state = i;
+    }
+    std::vector<Look> kept;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Last& of = last[all[i].path];
+        if (of.color != i) all[i].color = {};
+        if (of.finish != i) all[i].finish = {};
+        if (of.state != i) all[i].state = {};
+        if (all[i].color || all[i].finish || all[i].state) kept.push_back(std::move(all[i]));
+    }
+    return kept;
+}
+
+/// Throws Error (usage) for a look that concerns none of the regions.
+void check_paths(const std::vector<Look>& looks, const LookTable& table, const std::vector<RegionInfo>& regions) {
+    std::vector<bool> used(looks.size());
+    for (const RegionInfo& region : regions)
+        for (const std::uint32_t i : table.find(region.path)) used[i] = true;
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        if (!used[i]) throw Error(Status::usage, "the model has no region at '" + looks[i].path + "'");
+}
+
+/// The same solids and regions, which look as `source` says and `table` has it.
+CompiledScene repainted(const CompiledScene& before, const ModelSource& source, const LookTable& table) {
+    CompiledScene made = before;
+    for (RegionInfo& region : made.region_info.own()) table.apply(region);
+    std::vector<Warning> known;  // they were told when the scene was compiled
+    static_cast<Looks&>(made) = looks_of({source.lights, source.ambient, source.background}, made.region_info.get(),
+                                         made.region_lights, made.display_shading, known);
+    made.hash = hash_of(made);
+    return made;
+}
+
+}  // namespace
+
+Edit::Edit(Model model) : impl_(new Impl{model.impl_, model.impl_->source, {}, {}}) {}
+Edit::~Edit() = default;
+Edit::Edit(Edit&&) noexcept = default;
+Edit& Edit::operator=(Edit&&) noexcept = default;
+
+void Edit::Impl::add(Look look) {
+    look.path = normal(look.path);
+    looks.push_back(std::move(look));
+}
+
+Edit& Edit::set_color(const std::string& path, const Vec3& color) {
+    impl_->add({.path = path, .color = color});
+    return *this;
+}
+
+Edit& Edit::set_finish(const std::string& path, const Finish& finish) {
+    impl_->add({.path = path, .finish = finish});
+    return *this;
+}
+
+Edit& Edit::set_state(const std::string& path, State state) {
+    impl_->add({.path = path, .state = state});
+    return *this;
+}
+
+Edit& Edit::set_lights(std::vector<Light> lights) {
+    impl_->source.lights = std::move(lights);
+    return *this;
+}
+
+Edit& Edit::set_ambient(double intensity) {
+    impl_->source.ambient = intensity;
+    return *this;
+}
+
+Edit& Edit::set_background(const Vec3& color) {
+    impl_->source.background = color;
+    return *this;
+}
+
+Edit& Edit::set_matrix(const std::string& path, const Matrix& matrix, Share share) {
+    const FloatingPoint own;
+    set_leg_matrix(impl_->changed(), impl_->rendered(), path, matrix, share == Share::alone);
+    return *this;
+}
+
+Edit& Edit::replace(const std::string& solid, Shape shape) {
+    const FloatingPoint own;
+    replace_shape(impl_->changed(), solid, std::move(shape));
+    return *this;
+}
+
+Edit& Edit::add(Object object, bool top) {
+    Scene& scene = impl_->changed();
+    if (scene.find(name_of(object)) != nullptr)
+        throw Error(Status::usage, "the scene has an object '" + name_of(object) + "' already");
+    if (top) impl_->rendered().push_back(name_of(object));
+    scene.objects.push_back(std::move(object));
+    return *this;
+}
+
+Edit& Edit::add(const std::string& combination, Operator op, const std::string& object, const Matrix& matrix) {
+    const FloatingPoint own;
+    add_leg(impl_->changed(), combination, op, object, matrix);
+    return *this;
+}
+
+Edit& Edit::remove(const std::string& path) {
+    const FloatingPoint own;
+    std::vector<std::string>& rendered = impl_->rendered();
+    const std::string whole = normal(path);
+    const auto root = std::ranges::find_if(rendered, [&](const std::string& name) { return normal(name) == whole; });
+    if (root == rendered.end()) {
+        remove_leg(impl_->changed(), path);
+        return *this;
+    }
+    if (rendered.size() == 1) throw Error(Status::usage, "'" + path + "' is all that is rendered");
+    rendered.erase(root);
+    return *this;
+}
+
+/// Throws Error (scene) for colours and the like that a scene must not have.
+void Edit::Impl::check_values() const {
+    Scene values;
+    values.lights = source.lights;
+    values.ambient = source.ambient;
+    values.background = source.background;
+    values.looks = looks;
+    FindingList findings;
+    check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
+        findings.add({place, message, suggestion, {}});
+    });
+    if (!findings.empty()) throw Error(Status::scene, findings.take());
+}
+
+/// A region that begins or ceases to shine may get another number.
+bool Edit::Impl::changes_tables_alone(const LookTable& table) const {
+    if (scene) return false;
+    const auto is_finish = [&](std::uint32_t i) { return looks[i].finish.has_value(); };
+    if (std::ranges::any_of(looks, [](const Look& look) { return look.finish && look.finish->light; })) return false;
+    for (const RegionLight& light : before->scene.region_lights)
+        if (std::ranges::any_of(table.find(before->scene.region_info[light.region].path), is_finish)) return false;
+    return true;
+}
+
+ModelSource Edit::Impl::next() const {
+    ModelSource made = source;
+    made.looks = joined(made.looks, looks);
+    return made;
+}
+
+Model Edit::commit() const {
+    const FloatingPoint own;
+    const Impl& edit = *impl_;
+    const AllowedThreads allowed(edit.source.settings.threads);
+    edit.check_values();
+    const LookTable table(edit.looks);
+    ModelSource source = edit.next();
+    std::shared_ptr<const Model::Impl> made;
+    if (edit.changes_tables_alone(table)) {
+        CompiledScene painted = repainted(edit.before->scene, source, table);
+        made = std::make_shared<Model::Impl>(std::move(source), std::move(painted), *edit.before);
+    } else {
+        Scene whole = edit.scene ? *edit.scene : *source.scene;
+        whole.looks = source.looks;
+        whole.lights = source.lights;
+        whole.ambient = source.ambient;
+        whole.background = source.background;
+        source.scene = std::make_shared<const Scene>(std::move(whole));
+        made = std::make_shared<Model::Impl>(std::move(source));
+    }
+    check_paths(edit.looks, table, made->scene.region_info);
+    return Model(std::move(made));
+}
+
+}  // namespace csgrt
