@@ -1,4 +1,4 @@
-// The steps: validate; flatten and measure, until all stand where they may; number; regions, looks, shapes.
+// The steps: validate; flatten and measure, until all stand where they may; clip; number; regions, looks, shapes.
 
 #include "compile/regions/status_tree.hpp"
 #include "compile/compiled_scene.hpp"
@@ -13,6 +13,7 @@
 #include "compile/bvh/space.hpp"
 #include "compile/bounds/extent.hpp"
 #include "compile/flatten/flatten.hpp"
+#include "compile/half_spaces.hpp"
 #include "compile/hash.hpp"
 #include "compile/looks.hpp"
 #include "compile/linear.hpp"
@@ -117,11 +118,13 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     warnings.insert(warnings.end(), flat.warnings.begin(), flat.warnings.end());
     if (flat.regions.empty()) throw Error(Status::scene, nothing_to_render(warnings));
 
-    auto [space, order] = space_of(measured->boxes);
-    auto [logic, terms] = pack_regions(flat, order, measured->brlcad_boxes);
+    const Clipped clipped = clip_by_half_spaces(scene, flat, measured->boxes);
+    auto [space, order] = space_of(measured->boxes, clipped.reaches.empty() ? measured->boxes : clipped.reaches);
+    auto [logic, terms] = pack_regions(flat, clipped.trees, order, measured->brlcad_boxes);
     Looks looks = looks_of({scene.lights, scene.ambient, scene.background}, logic.region_info.get(),
                            logic.region_lights, options.display_shading, warnings);
-    Shapes shapes = pack_solids(scene, flat, *measured, order, space, common_box(scene, flat, space), terms, warnings);
+    Shapes shapes =
+        pack_solids(scene, flat, *measured, clipped, order, space, common_box(scene, flat, space), terms, warnings);
     join_equal(warnings);
     CompiledScene compiled{std::move(space),
                            std::move(logic),

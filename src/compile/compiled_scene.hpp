@@ -38,13 +38,14 @@ struct RegionLight {
 };
 
 // What the steps of compilation make, each from the scene and what earlier steps have made. Solids are numbered: the
-// unbounded ones first, then in the order of the hierarchy's leaves. Models that differ in looks alone share the rest.
+// unbounded ones first, then in the order of the hierarchy's leaves (some may stand in none: see Clipped). Models that
+// differ in looks alone share the rest.
 
 /// Where the solids stand.
 struct Space {
     SharedVector<kernel::BvhNode> nodes;
     std::uint32_t unbounded_count = 0;
-    Vec3 center;  ///< of the sphere around all bounded solids
+    Vec3 center;                      ///< of the sphere around all bounded solids
     double radius = 0;
 };
 

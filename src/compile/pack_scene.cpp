@@ -40,12 +40,13 @@ namespace {
 
 class ScenePacker {
 public:
-    ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured,
+    ScenePacker(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
                 const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
                 const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings)
         : scene_(scene),
           flat_(flat),
           measured_(measured),
+          clipped_(clipped),
           order_(order),
           common_(common),
           terms_(terms),
@@ -115,6 +116,10 @@ private:
                 packer.faces(measured_.faces(order_[number]));
             } else {
                 std::visit(packer, shape);
+                if (packer.record.type == SOLID_HALF && ends(order_[number])) {
+                    packer.record.type = SOLID_ARB;  // of which the plane of the half-space is face 0, too
+                    for (const Plane& side : sides_of(clipped_.end)) packer.face(side);
+                }
             }
             part.faces = static_cast<std::uint32_t>(planes.size() - first_plane);
             for (const Plane& cut : cuts_of(flat_, instance)) planes.push_back(transform_plane(*instance.matrix, cut));
@@ -129,6 +134,12 @@ private:
                 chunk.surfaces.emplace_back(static_cast<std::uint32_t>(chunk.parts.size()), *surface);
         }
         chunk.parts.push_back(part);
+    }
+
+    /// Of a half-space.
+    bool ends(std::uint32_t instance) const {
+        return !clipped_.reaches.empty() && is_finite(clipped_.reaches[instance]) &&
+               !is_empty(clipped_.reaches[instance]);
     }
 
     void append_keys(const std::vector<Plane>& planes, std::vector<PackedPlane>& keys) const {
@@ -225,6 +236,7 @@ private:
     const Scene& scene_;
     const FlatScene& flat_;
     const Measured& measured_;
+    const Clipped& clipped_;
     const std::vector<std::uint32_t>& order_;
     const Box& common_;
     const std::vector<kernel::SolidRecord>& terms_;
@@ -238,10 +250,10 @@ private:
 
 }  // namespace
 
-Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
+Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
                    const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
                    const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings) {
-    return ScenePacker(scene, flat, measured, order, space, common, terms, warnings).pack();
+    return ScenePacker(scene, flat, measured, clipped, order, space, common, terms, warnings).pack();
 }
 
 }  // namespace csgrt

@@ -2,12 +2,14 @@
 
 #include <limits>
 
+#include "compile/bvh/space.hpp"
 #include "compile/linear.hpp"
 
 namespace csgrt {
 
 NearSolids::NearSolids(const CompiledScene& scene)
     : count_(scene.solid_boxes.size()), groups_((count_ + size - 1) / size) {
+    const std::vector<bool> met = met_solids(scene, count_);
     for (std::size_t i = 0; i < count_; ++i) {
         Spheres& spheres = groups_[i / size];
         const auto set = [&](const Vec3& center, double radius2) {
@@ -16,6 +18,10 @@ NearSolids::NearSolids(const CompiledScene& scene)
             spheres.z[i % size] = center.z;
             spheres.radius2[i % size] = radius2;
         };
+        if (!met[i]) {
+            set({}, -std::numeric_limits<double>::infinity());
+            continue;
+        }
         const Box& box = scene.solid_boxes[i];
         if (!is_finite(box)) {
             set({}, std::numeric_limits<double>::infinity());

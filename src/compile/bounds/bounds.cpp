@@ -161,7 +161,11 @@ SolidBoxes solid_boxes(const Shape& shape, const Matrix& matrix, const std::vect
     return {rounded_outward(exact), std::visit(BrlCad{matrix, exact}, shape)};
 }
 
-Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {
+namespace {
+
+/// Calls with the box of each node's subtree, in the order of the nodes.
+template <class Call>
+void for_each_subtree(const FlatTree& tree, const std::vector<Box>& boxes, const Call& call) {
     // Of the set and of its complement, so that a set has one box however its tree is written.
     struct Both {
         Box inside, outside;
@@ -174,6 +178,7 @@ Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {
     for (const FlatTree::Node& node : tree.nodes) {
         if (node.op == Operator::leaf) {
             stack.push_back({boxes[node.solid], whole_space});
+            call(stack.back().inside);
             continue;
         }
         const std::size_t first = stack.size() - node.arity;
@@ -194,8 +199,22 @@ Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {
         if (node.op == Operator::not_) std::swap(box.inside, box.outside);
         stack.resize(first);
         stack.push_back(box);
+        call(box.inside);
     }
-    return stack.empty() ? empty_box : stack.back().inside;
+}
+
+}  // namespace
+
+Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes) {
+    Box last = empty_box;
+    for_each_subtree(tree, boxes, [&](const Box& box) { last = box; });
+    return last;
+}
+
+std::vector<Box> subtree_boxes(const FlatTree& tree, const std::vector<Box>& boxes) {
+    std::vector<Box> all;
+    for_each_subtree(tree, boxes, [&](const Box& box) { all.push_back(box); });
+    return all;
 }
 
 }  // namespace csgrt

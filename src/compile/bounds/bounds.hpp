@@ -31,5 +31,7 @@ inline Box brlcad_box(const Shape& shape, const Matrix& matrix, const std::vecto
 /// BRL-CAD's rules for a tree: union and xor hold both, intersection what is common, difference the left side;
 /// `boxes` is one a solid. A complement is the whole space.
 Box tree_box(const FlatTree& tree, const std::vector<Box>& boxes);
+/// The same of the subtree of each node.
+std::vector<Box> subtree_boxes(const FlatTree& tree, const std::vector<Box>& boxes);
 
 }  // namespace csgrt

@@ -13,7 +13,11 @@ struct NumberedSpace {
     std::vector<std::uint32_t> order;  ///< the instances as solids are numbered
 };
 
-/// `boxes`: one an instance, infinite for those that are not bounded.
-NumberedSpace space_of(const std::vector<Box>& boxes);
+/// `boxes`: one an instance, infinite for those that are not bounded; of the others is the sphere. `reaches`: as
+/// Clipped has them. What no ray has to meet is left out of the hierarchy, so that solids are numbered as without.
+NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& reaches);
+
+/// Which of so many solids rays may meet.
+std::vector<bool> met_solids(const Space& space, std::size_t solids);
 
 }  // namespace csgrt

@@ -98,19 +98,13 @@ std::uint32_t Flattener::instance_of(std::uint32_t object, std::uint32_t piece, 
 
 void Flattener::operate(Operator op, std::size_t arity) {
     const std::size_t base = values_.size() - arity, first = firsts_[base];
-    const Folded folded = fold(op, std::span(values_).subspan(base));
+    const std::size_t end = tree_->nodes.size();
+    const Value value = append_folded(tree_->nodes, first, op, std::span(values_).subspan(base));
     const Value outside = fold(op, std::span(outsides_).subspan(base)).value;
-    std::vector<FlatTree::Node>& nodes = tree_->nodes;
-    if (folded.value == Value::tree) {
-        if (folded.trees > 1) nodes.push_back({folded.op, static_cast<std::uint32_t>(folded.trees), 0});
-        if (folded.complement) nodes.push_back({Operator::not_, 1, 0});
-    } else {
-        result_.has_unused = result_.has_unused || nodes.size() > first;
-        nodes.resize(first);
-    }
+    result_.has_unused = result_.has_unused || (value != Value::tree && end > first);
     firsts_.resize(base + 1);  // the first operand's stays
     values_.resize(base);
-    values_.push_back(folded.value);
+    values_.push_back(value);
     outsides_.resize(base);
     outsides_.push_back(outside);
 }

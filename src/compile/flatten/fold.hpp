@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <csgrt/scene.hpp>
+
+#include "compile/compiled_scene.hpp"
 
 namespace csgrt {
 
@@ -47,6 +50,20 @@ inline Folded fold(Operator op, std::span<const Value> operands) {
         default:  // complement
             return result(operands[0], op, true);
     }
+}
+
+/// Puts the operator behind its operands, whose nodes begin at `first`; of a constant no nodes are left. Returns what
+/// it comes to.
+inline Value append_folded(std::vector<FlatTree::Node>& nodes, std::size_t first, Operator op,
+                           std::span<const Value> operands) {
+    const Folded folded = fold(op, operands);
+    if (folded.value == Value::tree) {
+        if (folded.trees > 1) nodes.push_back({folded.op, static_cast<std::uint32_t>(folded.trees), 0});
+        if (folded.complement) nodes.push_back({Operator::not_, 1, 0});
+    } else {
+        nodes.resize(first);
+    }
+    return folded.value;
 }
 
 }  // namespace csgrt

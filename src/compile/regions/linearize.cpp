@@ -230,6 +230,7 @@ LinearTree Linearizer::write(std::uint32_t root, std::vector<std::uint32_t>& wor
 }  // namespace
 
 LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words) {
+    if (tree.nodes.empty()) return {static_cast<std::uint32_t>(words.size()), 0, 0};
     Linearizer linearizer;
     const std::uint32_t root = linearizer.build(tree);
     return linearizer.write(root, words);

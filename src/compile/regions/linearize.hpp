@@ -13,7 +13,7 @@ struct LinearTree {
     std::uint32_t stack = 0;                       ///< entries that the walk needs at most
 };
 
-/// Appends the tree to `words`. It must be false where no solid is.
+/// Appends the tree to `words`. It must be false where no solid is. One without nodes has no words.
 /// Throws Error (scene) if it does not fit 29 bits of position or of solid.
 LinearTree linearize(const FlatTree& tree, std::vector<std::uint32_t>& words);
 

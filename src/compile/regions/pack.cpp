@@ -28,8 +28,8 @@ struct RegionChunk {
 
 }  // namespace
 
-PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_t>& order,
-                           const std::vector<Box>& brlcad_boxes) {
+PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
+                           const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes) {
     Logic logic;
     const std::size_t count = flat.regions.size();
     std::vector<std::uint32_t> number(order.size());
@@ -40,10 +40,10 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
 
     std::vector<RegionWords>& regions = logic.regions.own();
     std::vector<RegionInfo>& infos = logic.region_info.own();
-    std::vector<FlatTree>& trees = logic.flat_trees.own();
+    std::vector<FlatTree>& flat_trees = logic.flat_trees.own();
     resize_cleared(regions, count);
     resize_cleared(infos, count);
-    resize_cleared(trees, count);
+    resize_cleared(flat_trees, count);
     std::vector<RegionChunk> chunks((count + chunk_size - 1) / chunk_size);
     for_chunks(count, chunk_size, 0, [&](std::size_t first, std::size_t last, std::size_t c) {
         RegionChunk& chunk = chunks[c];
@@ -52,11 +52,13 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
             RegionInfo& info = infos[i] = region.info;
             info.bounds = tree_box(region.tree, brlcad_boxes);
             if (is_finite(info.bounds) && !is_empty(info.bounds)) chunk.bounds = united(chunk.bounds, info.bounds);
-            FlatTree& numbered = trees[i] = region.tree;
-            for (FlatTree::Node& node : numbered.nodes) {
-                if (node.op == Operator::leaf) node.solid = number[node.solid];
-            }
-            const LinearTree tree = linearize(numbered, chunk.words);
+            const auto numbered = [&](FlatTree tree) {
+                for (FlatTree::Node& node : tree.nodes)
+                    if (node.op == Operator::leaf) node.solid = number[node.solid];
+                return tree;
+            };
+            flat_trees[i] = numbered(region.tree);
+            const LinearTree tree = linearize(trees.empty() ? flat_trees[i] : numbered(trees[i]), chunk.words);
             regions[i] = {tree.first_word, tree.word_count};
         }
     });
@@ -86,7 +88,9 @@ PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_
             chunk.words.begin(), chunk.words.end(), all_words.begin() + chunk.first_word,
             [&](std::uint32_t word) { return word >> TREE_SHIFT == OP_LEAF ? word : word + chunk.first_word; });
     });
-    std::vector<kernel::SolidRecord> solids = list_terms(logic, order.size());
+    std::vector<bool> halves(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) halves[i] = !is_finite(brlcad_boxes[order[i]]);
+    std::vector<kernel::SolidRecord> solids = list_terms(logic, halves);
     return {std::move(logic), std::move(solids)};
 }
 

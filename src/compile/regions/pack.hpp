@@ -14,8 +14,9 @@ struct PackedRegions {
     std::vector<kernel::SolidRecord> solids;  ///< see list_terms
 };
 
-/// `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance.
-PackedRegions pack_regions(const FlatScene& flat, const std::vector<std::uint32_t>& order,
-                           const std::vector<Box>& brlcad_boxes);
+/// `order`: the instances as solids are numbered; `brlcad_boxes`: one an instance; `trees`: what terms are made of, see
+/// Clipped.
+PackedRegions pack_regions(const FlatScene& flat, const std::vector<FlatTree>& trees,
+                           const std::vector<std::uint32_t>& order, const std::vector<Box>& brlcad_boxes);
 
 }  // namespace csgrt

@@ -55,6 +55,7 @@ private:
 
     void add_region(std::uint32_t region) {
         const RegionWords& record = scene_.regions[region];
+        if (record.word_count == 0) return;
         first_word_ = record.first_word;
         sizes_.resize(record.word_count);
         for (std::uint32_t node = first_word_ + record.word_count; node-- > first_word_;)

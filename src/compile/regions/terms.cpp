@@ -23,6 +23,7 @@ struct Term {
 void add_terms(const std::vector<std::uint32_t>& trees, const RegionWords& record, std::uint32_t region,
                std::vector<Term>& terms) {
     const Term whole{region, record.first_word, record.first_word + record.word_count};
+    if (record.word_count == 0) return;
     if (trees[whole.first] >> TREE_SHIFT != OP_UNION) return terms.push_back(whole);
     std::vector<Term> rest{whole};
     while (!rest.empty()) {
@@ -154,10 +155,14 @@ void add_alone(const std::vector<std::uint32_t>& trees, const Term& term, std::s
     }
 }
 
-void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermChunk& chunk) {
+/// `halves`: whether each solid is a half-space, which nearly every ray meets. Of an intersection what has fewer of
+/// those starts the term, and of two such operands the one with fewer leaves.
+void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, const std::vector<bool>& halves,
+                TermChunk& chunk) {
     // Lists of leaves are linked: nodes, by their place in the term.
     struct Part {
-        std::uint32_t first, last, leaves;
+        std::uint32_t first, last;
+        std::uint32_t halves, leaves;
         kernel::SolidFilter needed;
     };
     const auto solid_at = [&](std::uint32_t node) { return trees[node] & TREE_MASK; };
@@ -176,7 +181,7 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
         for (std::uint32_t node = term.end; node-- > term.first;) {
             const std::uint32_t op = trees[node] >> TREE_SHIFT;
             if (op == OP_LEAF) {
-                stack.push_back({node, node, 1, kernel::filter_of(solid_at(node))});
+                stack.push_back({node, node, halves[solid_at(node)], 1, kernel::filter_of(solid_at(node))});
                 solids = kernel::with(solids, stack.back().needed);
                 continue;
             }
@@ -187,12 +192,13 @@ void add_starts(const std::vector<std::uint32_t>& trees, const Term& term, TermC
             if (op == OP_DIFFERENCE) {
                 right = left;
             } else if (op == OP_INTERSECTION) {
-                if (left.leaves <= right.leaves) right = left;
+                if (std::pair(left.halves, left.leaves) <= std::pair(right.halves, right.leaves)) right = left;
                 right.needed = kernel::with(left.needed, needed);
             } else if (op != OP_REVERSE_DIFFERENCE) {
                 next[right.last - term.first] = left.first;
                 right = {right.first,
                          left.last,
+                         left.halves + right.halves,
                          left.leaves + right.leaves,
                          {left.needed.even & needed.even, left.needed.odd & needed.odd}};
             }
@@ -289,10 +295,10 @@ void mark_begins(const std::vector<std::uint32_t>& trees, std::uint32_t first, s
     }
 }
 
-std::vector<kernel::SolidRecord> list_terms(Logic& logic, std::size_t count) {
+std::vector<kernel::SolidRecord> list_terms(Logic& logic, const std::vector<bool>& halves) {
     kernel::SolidRecord unclaimed{};
     unclaimed.alone = NONE;
-    std::vector<kernel::SolidRecord> solids(count, unclaimed);
+    std::vector<kernel::SolidRecord> solids(halves.size(), unclaimed);
     std::vector<Term> terms;
     terms.reserve(logic.regions.size());
     for (std::uint32_t region = 0; region < logic.regions.size(); ++region)
@@ -306,7 +312,7 @@ std::vector<kernel::SolidRecord> list_terms(Logic& logic, std::size_t count) {
         chunk.ends.reserve(last - first);
         for (std::size_t i = first; i < last; ++i) {
             mark_begins(logic.trees, terms[i].first, terms[i].end, solids);
-            add_starts(logic.trees, terms[i], chunk);
+            add_starts(logic.trees, terms[i], halves, chunk);
         }
         for (const std::uint32_t solid : chunk.starts)
             std::atomic_ref(solids[solid].start_count).fetch_add(1, std::memory_order_relaxed);

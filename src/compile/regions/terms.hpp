@@ -7,9 +7,9 @@ namespace csgrt {
 
 /// Finds the terms of all regions' trees: which of them each solid starts (`starts`), where it stands in large ones
 /// (appended to `trees`), and the roles of solids in those that are not short, which are appended to `trees`; and
-/// where a term may begin (`begins`), and what claims where a solid alone covers (`alone`). Returns records of as many
-/// `solids` that say no more than this.
-std::vector<kernel::SolidRecord> list_terms(Logic& logic, std::size_t solids);
+/// where a term may begin (`begins`), and what claims where a solid alone covers (`alone`). `halves`: one a solid,
+/// whether it is a half-space. Returns records of as many solids that say no more than this.
+std::vector<kernel::SolidRecord> list_terms(Logic& logic, const std::vector<bool>& halves);
 
 /// Appends the table of roles of the term in the words from `first` to `end`. Returns where it begins; NONE: there is
 /// no room.

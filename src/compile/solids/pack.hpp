@@ -8,6 +8,7 @@
 
 #include "compile/compiled_scene.hpp"
 #include "compile/flatten/flatten.hpp"
+#include "compile/half_spaces.hpp"
 #include "compile/bounds/instance_bounds.hpp"
 #include "compile/solids/planes.hpp"
 #include "compile/solids/surfaces.hpp"
@@ -19,9 +20,9 @@ namespace csgrt {
 using SharedParts = std::unordered_map<const void*, std::uint32_t>;
 
 /// Each instance of `order` becomes a solid, whose record begins as `terms` gives it; `common` stands for the box of
-/// those that are not bounded. The arithmetic is done by several threads.
-/// Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
-Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured,
+/// those that are not bounded; `clipped` says which half-spaces end, and where. The arithmetic is done by several
+/// threads. Throws Error (scene) for a type that csgrt does not know, or when the tables exceed 32 bits.
+Shapes pack_solids(const Scene& scene, const FlatScene& flat, const Measured& measured, const Clipped& clipped,
                    const std::vector<std::uint32_t>& order, const Space& space, const Box& common,
                    const std::vector<kernel::SolidRecord>& terms, std::vector<Warning>& warnings);
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 
+#include "compile/bvh/space.hpp"
 #include "reference/reference_kernels.hpp"
 
 namespace csgrt {
@@ -135,7 +136,8 @@ k::world_ray convert_ray(const Ray& r) {
 class Kernels : public ReferenceKernels {
 public:
     Kernels(const CompiledScene& scene, Quartic quartic)
-        : solids_(
+        : met_(met_solids(scene, scene.solids.size())),
+          solids_(
               convert_all<k::SolidRecord>(scene.solids.get(), [&](const auto& s) { return convert_solid(s, scene); })),
           reals_(convert_all<real>(scene.reals.get(), [](double x) { return convert(x); })),
           planes_(convert_all<k::PlaneRecord>(scene.planes.get(), [](const auto& p) { return convert(p); })),
@@ -259,7 +261,8 @@ public:
         if constexpr (sizeof(real) == sizeof(double)) {
             near.for_each({{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}}, meet);
         } else if constexpr (sizeof(real) < sizeof(double)) {
-            for (std::uint32_t solid = 0; solid < solids_.size(); ++solid) meet(solid);
+            for (std::uint32_t solid = 0; solid < solids_.size(); ++solid)
+                if (met_[solid]) meet(solid);
         } else {
             meet_boxes(frame, r, t_min, meet);
         }
@@ -315,6 +318,7 @@ private:
         return convert_all<k::LightRecord>(lights, [](const auto& l) { return convert(l); });
     }
 
+    const std::vector<bool> met_;
     const Converted<k::SolidRecord, kernel::SolidRecord> solids_;
     const Converted<real, double> reals_;
     const Converted<k::PlaneRecord, kernel::PlaneRecord> planes_;

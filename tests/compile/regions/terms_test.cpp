@@ -147,7 +147,7 @@ TEST_CASE("what claims where a solid alone covers is known, or said not to be") 
         const std::uint32_t third = second + random.below(regions - second + 1);
         scene.rank_ends[RANK_SOLID] = scene.rank_ends[RANK_PLATE] = second;
         scene.rank_ends[RANK_VOLUME] = third;
-        const std::vector<kernel::SolidRecord> records = list_terms(scene, solids);
+        const std::vector<kernel::SolidRecord> records = list_terms(scene, std::vector<bool>(solids));
         for (std::uint32_t s = 0; s < solids; ++s) {
             std::vector<bool> covered(solids);
             covered[s] = true;
