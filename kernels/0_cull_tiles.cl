@@ -66,10 +66,15 @@ static void store_sorted(beam b, TileNode* list, u32 count, int by_distance, __g
 }
 
 // Counts the listed nodes and all below them, up to what a byte holds. The time of a tile's rays is about proportional.
-static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count) {
-    u32 i, sum = 0;
-    for (i = 0; i < count; ++i) sum += nodes[list[i].node].skip - list[i].node;
-    return sum < 254 ? sum : 254;
+// 0: all of them are before the starting node.
+static u32 count_nodes(__global const BvhNode* nodes, const TileNode* list, u32 count, u32 starting_node) {
+    u32 i, sum = 0, starts = 0;
+    for (i = 0; i < count; ++i) {
+        const u32 end = nodes[list[i].node].skip;
+        sum += end - list[i].node;
+        starts |= end > starting_node;
+    }
+    return !starts ? 0 : sum < 254 ? sum : 254;
 }
 
 // Returns 1 if the beam meets any leaf.
@@ -82,8 +87,8 @@ static u32 meets_anything(beam b, __global const BvhNode* nodes, u32 count) {
     return 0;
 }
 
-// One work-item a tile. It stores the tile's cost, 0 if none of its rays meets a solid, and, unless `lists` is 0, the
-// tile's list of at most LISTED_NODES nodes.
+// One work-item a tile. It stores the tile's cost, 0 if none of its rays meets a solid that can be seen, and, unless
+// `lists` is 0, the tile's list of at most LISTED_NODES nodes.
 __kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* nodes, __global unsigned char* costs,
                          __global TileNode* lists, __global BatchReport* report) {
     const u32 id = (u32)get_global_id(0), tiles = frame->ray_count / (TILE * TILE);
@@ -97,7 +102,7 @@ __kernel void cull_tiles(__global const Frame* frame, __global const BvhNode* no
         u32 count = 0;
         if (b.slabs.hits_sphere && frame->node_count > 0) count = list_nodes(b, nodes, list);
         store_sorted(b, list, count, !frame->every_partition, lists + (size_t)id * LISTED_NODES);
-        cost = count_nodes(nodes, list, count);
+        cost = count_nodes(nodes, list, count, frame->starting_node);
     } else if (b.slabs.hits_sphere) {
         cost = meets_anything(b, nodes, frame->node_count);
     }

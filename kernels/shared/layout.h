@@ -256,7 +256,8 @@ typedef struct {
     u32 perspective;           // 0 or 1
     u32 work;                  // WORK_x: which rays the kernels are run for
     u32 first_ray, ray_count;  // this batch
-    u32 solid_count, unbounded_count, node_count, light_count;
+    u32 starting_node;         // the hierarchy's leaves before it are not seen alone: their solids start no term
+    u32 unbounded_count, node_count, light_count;
     u32 every_partition;   // 0: only the first hits are wanted
     u32 channels;          // of the picture: CHANNEL_x bits
     ScreenBounds screen;   // the picture's pixels that can show anything; none of the others has a ray

@@ -121,6 +121,7 @@ CompiledScene compile(const Scene& scene, const std::vector<std::string>& object
     const Clipped clipped = clip_by_half_spaces(scene, flat, measured->boxes);
     auto [space, order] = space_of(measured->boxes, clipped.reaches.empty() ? measured->boxes : clipped.reaches);
     auto [logic, terms] = pack_regions(flat, clipped.trees, order, measured->brlcad_boxes);
+    space.starting_node = starting_node(space.nodes, terms);
     Looks looks = looks_of({scene.lights, scene.ambient, scene.background}, logic.region_info.get(),
                            logic.region_lights, options.display_shading, warnings);
     Shapes shapes =

@@ -45,6 +45,7 @@ struct RegionLight {
 struct Space {
     SharedVector<kernel::BvhNode> nodes;
     std::uint32_t unbounded_count = 0;
+    std::uint32_t starting_node = 0;  ///< see kernel::Frame
     Vec3 center;                      ///< of the sphere around all bounded solids
     double radius = 0;
 };

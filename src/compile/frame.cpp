@@ -157,7 +157,6 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.radius = scene.radius;
     frame.tolerance = tolerance < 0 ? scene.tolerance : tolerance;
     frame.ambient = scene.ambient;
-    frame.solid_count = static_cast<std::uint32_t>(scene.solids.size());
     frame.unbounded_count = scene.unbounded_count;
     frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
     frame.every_partition = 1;
@@ -247,8 +246,9 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     frame.perspective = perspective;
     // First hits are looked for in the order of the solids' boxes; a plate that a ray grazes begins far before its box.
     frame.every_partition = view.every_partition || (scene.solid_types >> SOLID_PLATE & 1u);
-    frame.channels = view.channels & (view.every_partition ? channel::all | channel::display
-                                                           : (channel::all & ~channel::counts) | channel::display);
+    if (!frame.every_partition) frame.starting_node = scene.starting_node;
+    const std::uint32_t counts = view.every_partition ? channel::counts : 0;
+    frame.channels = view.channels & ((channel::all & ~channel::counts) | counts | channel::display);
 
     result.lights = scene.lights;
     if (result.lights.empty()) {

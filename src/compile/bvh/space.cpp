@@ -137,6 +137,14 @@ NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& re
     return result;
 }
 
+std::uint32_t starting_node(const std::vector<kernel::BvhNode>& nodes, const std::vector<kernel::SolidRecord>& solids) {
+    const auto starts = [&](const kernel::BvhNode& node) {
+        const auto first = solids.begin() + (node.leaf >> BVH_LEAF_SHIFT);
+        return std::any_of(first, first + (node.leaf & BVH_LEAF_MASK), [](const auto& s) { return s.start_count > 0; });
+    };
+    return static_cast<std::uint32_t>(std::find_if(nodes.begin(), nodes.end(), starts) - nodes.begin());
+}
+
 std::vector<bool> met_solids(const Space& space, std::size_t solids) {
     std::vector<bool> met(solids);
     const auto add = [&](std::uint32_t first, std::uint32_t count) { std::fill_n(met.begin() + first, count, true); };

@@ -17,6 +17,9 @@ struct NumberedSpace {
 /// Clipped has them. What no ray has to meet is left out of the hierarchy, so that solids are numbered as without.
 NumberedSpace space_of(const std::vector<Box>& boxes, const std::vector<Box>& reaches);
 
+/// The first leaf with a solid that starts a term, or the number of nodes.
+std::uint32_t starting_node(const std::vector<kernel::BvhNode>& nodes, const std::vector<kernel::SolidRecord>& solids);
+
 /// Which of so many solids rays may meet.
 std::vector<bool> met_solids(const Space& space, std::size_t solids);
 

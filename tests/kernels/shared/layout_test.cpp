@@ -32,7 +32,7 @@ using namespace csgrt;
     FIELD(Frame, eye) FIELD(Frame, u) FIELD(Frame, v) FIELD(Frame, w) FIELD(Frame, center) FIELD(Frame, radius) \
     FIELD(Frame, t_min) FIELD(Frame, tolerance) FIELD(Frame, ambient) FIELD(Frame, background) FIELD(Frame, width) \
     FIELD(Frame, height) FIELD(Frame, perspective) FIELD(Frame, work) FIELD(Frame, first_ray) \
-    FIELD(Frame, ray_count) FIELD(Frame, solid_count) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
+    FIELD(Frame, ray_count) FIELD(Frame, starting_node) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
     FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, answer) \
