@@ -38,6 +38,10 @@ inline Scene with_every_type(Scene scene, std::vector<std::string>& objects) {
     scene.objects.emplace_back(
         Solid{crossed, Eto{middle(box), {0, 0, 1}, {0.9 * reach, 0, 0.9 * reach}, reach, 0.8 * reach}, {}});
     all.tree.nodes.push_back({Operator::leaf, 0, crossed, identity, {}});
+    // One that ends with the model is a polyhedron: this has no end, far below all else.
+    const std::string half = all.name + "/half";
+    scene.objects.emplace_back(Solid{half, Half{{{0, 0, 1}, box.low.z - 10 * diagonal(box)}}, {}});
+    all.tree.nodes.push_back({Operator::leaf, 0, half, identity, {}});
     for (const char* name : {"solids", "quadrics", "blobs", "meshes", "sketches"}) {
         const Scene own = load_scene(folder + "/" + name + ".json");
         const std::string before = all.name + "/" + name + "/";
