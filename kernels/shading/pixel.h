@@ -80,10 +80,11 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
 
 // A display's byte for so much light; of no number, 0.
 FN u32 byte_of_light(GLOBAL const DisplayBytes* display, float light) {
-    u32 byte;
+    u32 byte, part;
     if (!(light > 0)) return 0;
     if (light >= 1) return 255;
-    byte = display->first[(u32)(light * DISPLAY_PARTS)];
+    part = (u32)(light * DISPLAY_PARTS);
+    byte = display->first[part / 4u] >> part % 4u * 8u & 255u;
     while (light >= display->ends[byte]) ++byte;
     return byte;
 }

@@ -414,9 +414,10 @@ typedef struct {
 // From light to a display's bytes: of each byte the least light that the next one shows; and of equal parts of 0 to 1
 // the byte of the least light. Few parts hold the ends of several bytes.
 #define DISPLAY_PARTS 4096u
+#define DISPLAY_WORDS 1024u
 typedef struct {
-    float ends[256];  // the last one is never reached
-    unsigned char first[DISPLAY_PARTS];
+    float ends[256];           // the last one is never reached
+    u32 first[DISPLAY_WORDS];  // of four parts, the first in the lowest byte
 } DisplayBytes;
 
 FN u32 width_of(ScreenBounds w) { return w.right - w.left; }

@@ -100,11 +100,12 @@ std::vector<double> add_region_lights(std::span<const RegionInfo> regions, std::
 }
 
 SharedVector<kernel::DisplayBytes> display_bytes(bool are_display_values) {
-    kernel::DisplayBytes table;
+    kernel::DisplayBytes table{};
     for (int byte = 0; byte < 255; ++byte) table.ends[byte] = display_end(byte, are_display_values);
     table.ends[255] = std::numeric_limits<float>::infinity();
     for (std::uint32_t part = 0; part < DISPLAY_PARTS; ++part)
-        table.first[part] = display_byte(static_cast<double>(part) / DISPLAY_PARTS, are_display_values);
+        table.first[part / 4] |=
+            std::uint32_t{display_byte(static_cast<double>(part) / DISPLAY_PARTS, are_display_values)} << part % 4 * 8;
     return {table};
 }
 

@@ -105,13 +105,6 @@ DevicePlan plan_chosen(const Settings& settings) {
     return plan;
 }
 
-/// Whether such a Renderer loads drivers.
-bool looks_for_devices(const Settings& settings) {
-    if (settings.reference) return false;
-    if (settings.device.empty()) return native_by_default(settings).empty() || may_have_gpu();
-    return chosen_native(settings).empty();
-}
-
 #ifdef __linux__
 /// exit() destroys what belongs to the thread that calls it, and then all else, the youngest first: a driver's
 /// libraries before what was there when their loading began. So the main thread waits here.
@@ -127,13 +120,19 @@ struct WaitAtExit {
 
 }  // namespace
 
+bool may_use_drivers(const Settings& settings) {
+    if (settings.reference) return false;
+    if (settings.device.empty()) return native_by_default(settings).empty() || may_have_gpu();
+    return chosen_native(settings).empty();
+}
+
 DevicePlan plan_devices(const Settings& settings) {
     return settings.device.empty() ? plan_default(settings) : plan_chosen(settings);
 }
 
 void prepare_devices(const Settings& settings) {
     const FloatingPoint own;
-    if (!looks_for_devices(settings) || !has_drivers()) return;
+    if (!may_use_drivers(settings) || !has_drivers()) return;
     // Whoever needs the devices waits for find_devices(), and is told what is wrong with them. Where there is no thread
     // to be had, nothing is looked for before.
     static const std::unique_ptr<std::future<void>, DeleteOwn> looking(new std::future<void>(start_async([] {

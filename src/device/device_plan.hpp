@@ -24,4 +24,7 @@ struct DevicePlan {
 /// native, or no native one can draw. Throws Error (no_device) if a named device is not there, or none has the method.
 DevicePlan plan_devices(const Settings& settings);
 
+/// Whether a Renderer of these settings loads drivers.
+bool may_use_drivers(const Settings& settings);
+
 }  // namespace csgrt

@@ -1,3 +1,4 @@
+#include "device/driver_call.hpp"
 #include "device/discovery.hpp"
 
 #include <algorithm>
@@ -161,7 +162,10 @@ Discovery find_devices() {
         const std::lock_guard lock(mutex);
         const BlockedSignals blocked;
         const OpenClLoader& loader = opencl_loader();
-        if (loader.functions) add_devices(*loader.functions, found);
+        if (loader.functions) {
+            add_devices(*loader.functions, found);
+            wait_for_driver_calls_at_exit();
+        }
         if (!loader.fault.empty()) found.notes.push_back("the OpenCL loader cannot be opened: " + loader.fault);
     } else {
         found.notes.push_back(

@@ -15,19 +15,15 @@ thread_local int own_calls = 0;  // of the thread that calls exit(), which it do
 
 class Gate {
 public:
-    /// What is older than its first call goes after it: the drivers.
     static Gate& of_process() {
-        static Gate* const gate = [] {
-            auto* const made = new Gate;  // for ever: threads may wait in it while the process ends
-            std::atexit([] { of_process().close(); });
-            return made;
-        }();
+        static Gate* const gate = new Gate;  // for ever: threads may wait in it while the process ends
         return *gate;
     }
 
     void enter() {
         std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return !is_closed_ || own_calls > 0; });
+        // Who is inside may wait for who comes.
+        changed_.wait(lock, [this] { return !is_closed_ || inside_ > 0; });
         ++inside_;
         ++own_calls;
     }
@@ -38,7 +34,6 @@ public:
         changed_.notify_all();
     }
 
-private:
     void close() {
         constexpr std::chrono::seconds longest(30);
         if (process_ != process_number()) return;  // a child has none of the threads
@@ -47,6 +42,7 @@ private:
         changed_.wait_for(lock, longest, [this] { return inside_ == own_calls; });
     }
 
+private:
     const unsigned process_ = process_number();
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -58,6 +54,11 @@ private:
 
 DriverCall::DriverCall(bool used) : used_(used) {
     if (used_) Gate::of_process().enter();
+}
+
+void wait_for_driver_calls_at_exit() {
+    static const int registered = std::atexit([] { Gate::of_process().close(); });
+    static_cast<void>(registered);
 }
 
 DriverCall::~DriverCall() {

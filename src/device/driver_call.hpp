@@ -18,4 +18,7 @@ private:
     bool used_;
 };
 
+/// Has exit() do so. To be called when drivers are loaded: what is loaded later is destroyed before it waits.
+void wait_for_driver_calls_at_exit();
+
 }  // namespace csgrt

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/thread.hpp"
+#include "device/driver_call.hpp"
 
 namespace csgrt {
 
@@ -32,6 +33,7 @@ DeviceTakeover::~DeviceTakeover() {
 /// go the exact way, whose kernels no frame waits for either.
 DeviceTakeover::Made DeviceTakeover::work(Made made) {
     if (is_left_) return made;  // without a thread this is run by who waits for it
+    const DriverCall driver_call;
     if (!made.pipelines) {
         const std::vector<FoundDevice> devices = plan_.find_next();
         if (devices.empty() || is_left_) return {};

@@ -18,6 +18,8 @@
 #include "compile/frame.hpp"
 #include "compile/lists/along_rays.hpp"
 #include "device/choice.hpp"
+#include "device/device_plan.hpp"
+#include "device/driver_call.hpp"
 #include "kernel_host/geometry.hpp"
 #include "render/device_backend.hpp"
 #include "render/image_header.hpp"
@@ -97,6 +99,7 @@ Renderer::Renderer(Scene scene, const std::vector<std::string>& objects, const S
 Renderer::Renderer(Model model, const Settings& settings) : impl_(new Impl(std::move(model), checked(settings))) {
     const FloatingPoint own;
     const AllowedThreads allowed(settings.threads);
+    const DriverCall driver_call(may_use_drivers(settings));
     Impl& impl = *impl_;
     prepare_devices(settings);
     impl.statistics.precision = name_of(precision_names, settings.precision);
@@ -221,7 +224,10 @@ void Renderer::Impl::end_call(Clock::time_point start) {
     statistics.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();
 }
 
-void Renderer::Delete::operator()(Impl* impl) const { DeleteOwn{impl->process}(impl); }
+void Renderer::Delete::operator()(Impl* impl) const {
+    const DriverCall driver_call(impl->process == process_number() && may_use_drivers(impl->settings));
+    DeleteOwn{impl->process}(impl);
+}
 
 Renderer::Impl& Renderer::impl() const {
     if (!impl_) throw Error(Status::usage, "this Renderer was moved from");

@@ -36,8 +36,8 @@ TEST_CASE("whatever their number, parts cover the picture about alike, about as 
         View view;
         view.width = view.height = 96;
         const Image image = renderer.render(view);
-        const std::span<const float> region = image.channel("region");
-        const auto hits = std::count_if(region.begin(), region.end(), [](float r) { return r > 0; });
+        const std::span<const std::uint32_t> region = image.ids("region");
+        const auto hits = std::count_if(region.begin(), region.end(), [](std::uint32_t r) { return r > 0; });
         covered.push_back(static_cast<double>(hits) / (96 * 96));
         deep.push_back(static_cast<double>(renderer.statistics().segments) / static_cast<double>(hits));
     }

@@ -242,8 +242,10 @@ TEST_CASE("every solid: a picture shows the first partition of each of its rays,
         view.every_partition = false;
         const Image first_hits = both.render(view);
         REQUIRE(first_hits.names.size() == image.names.size() - 3);
-        for (std::size_t c = 0; c < first_hits.names.size(); ++c)
-            CHECK(std::ranges::equal(first_hits.channels[c], image.channel(first_hits.names[c])));
+        for (std::size_t c = 0; c < first_hits.names.size(); ++c) {
+            REQUIRE(first_hits.names[c] == image.names[c]);  // the counts come last
+            CHECK(std::ranges::equal(first_hits.channels.ids(c), image.channels.ids(c)));
+        }
     }
     CHECK(within > 15'000);
     for (const test::Sample& sample : tested) {

@@ -1,5 +1,6 @@
 // All five kernels as C++ in exactly sized buffers against the reference: under the sanitizers this finds what a device
 // would do in silence.
+#include <bit>
 #include <cstring>
 
 #include <csgrt/scene_io.hpp>
@@ -35,10 +36,19 @@ TEST_CASE("the kernels, run on the host, draw what the reference draws", "[kerne
                 const std::size_t size = expected.size();
                 for (std::size_t i = 0; i < size; ++i) {
                     const kernel::Pixel& p = expected[i];
-                    const float values[] = {
-                        p.rgba[0],      p.rgba[1],           p.rgba[2],       p.rgba[3],       p.z,
-                        p.normal[0],    p.normal[1],         p.normal[2],     float(p.region), float(p.solid),
-                        float(p.depth), float(p.partitions), float(p.overlap)};
+                    const float values[] = {p.rgba[0],
+                                            p.rgba[1],
+                                            p.rgba[2],
+                                            p.rgba[3],
+                                            p.z,
+                                            p.normal[0],
+                                            p.normal[1],
+                                            p.normal[2],
+                                            std::bit_cast<float>(p.region),
+                                            std::bit_cast<float>(p.solid),
+                                            float(p.depth),
+                                            float(p.partitions),
+                                            float(p.overlap)};
                     for (std::size_t c = 0; c < (counted ? 13 : 10); ++c)
                         different += std::memcmp(&picture[c * size + i], &values[c], sizeof(float)) != 0;
                 }

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "../integration/region_paths.hpp"
 #include "print.hpp"
 
 namespace csgrt::oracle {
@@ -19,8 +20,9 @@ SceneJudge::SceneJudge(const SceneOracle& oracle, const std::vector<RegionInfo>&
         known[oracle.regions()[i].path].push_back(static_cast<std::uint32_t>(i));
     std::map<std::string, std::size_t> used;
     for (const RegionInfo& region : regions) {
-        const std::vector<std::uint32_t>& same = known[region.path];
-        const std::size_t n = used[region.path]++;
+        const std::string path = test::without_numbers(region.path);
+        const std::vector<std::uint32_t>& same = known[path];
+        const std::size_t n = used[path]++;
         if (n < same.size())
             to_oracle_.push_back(same[n]);
         else

@@ -221,7 +221,8 @@ TEST_CASE("planes cut pictures open: a pixel shows the first partition of its ra
                         t = std::max(along.t_in[row], from);
                     }
                     if (is_close || std::abs(from - to) < slack) continue;
-                    INFO("pixel " << i << ", " << count << " planes");
+                    INFO("pixel " << i << ", " << count << " planes, " << scene.title << ", every partition "
+                                  << view.every_partition << ", from " << from << " to " << to << ", t " << t);
                     REQUIRE(image.ids("region")[i] == static_cast<std::uint32_t>(region + 1));
                     if (region < 0) continue;
                     REQUIRE(std::abs(image.channel("Z")[i] - t) <= 1e-6 * t);

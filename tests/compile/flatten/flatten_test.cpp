@@ -88,16 +88,16 @@ TEST_CASE("operators above regions: unions are pulled up, the leftmost region gi
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), both}) == Lines{"/top/A: a c +", "/top/B: b c +"});
     // What is subtracted stays one tree; an intersection is taken apart on both sides.
     CHECK(terms({leg("C"), leg("A"), leg("B"), either, less}) == Lines{"/top/C: c a b u -"});
-    CHECK(terms({leg("C"), leg("A"), leg("B"), either, both}) == Lines{"/top/C: c a +", "/top/C: c b +"});
+    CHECK(terms({leg("C"), leg("A"), leg("B"), either, both}) == Lines{"/top/C: c a +", "/top/C@2: c b +"});
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), leg("D"), either, both}) ==
-          Lines{"/top/A: a c +", "/top/A: a d +", "/top/B: b c +", "/top/B: b d +"});
+          Lines{"/top/A: a c +", "/top/A@2: a d +", "/top/B: b c +", "/top/B@2: b d +"});
     // Through several levels.
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), less, leg("D"), less}) ==
           Lines{"/top/A: a c - d -", "/top/B: b c - d -"});
     CHECK(terms({leg("A"), leg("B"), leg("C"), op(Operator::difference, 3), leg("D"), either}) ==
           Lines{"/top/A: a b - c -", "/top/D: d"});
     CHECK(terms({leg("A"), leg("B"), leg("C"), either, both, leg("D"), less}) ==
-          Lines{"/top/A: a b + d -", "/top/A: a c + d -"});
+          Lines{"/top/A: a b + d -", "/top/A@2: a c + d -"});
     // (A u B) ^ C is not (A ^ C) u (B ^ C).
     CHECK(terms({leg("A"), leg("B"), either, leg("C"), one_of}) == Lines{"/top/A: a b u c ^"});
     CHECK(terms({leg("A"), leg("B"), either, not_, leg("C"), both}) == Lines{"/top/A: a b u ! c +"});

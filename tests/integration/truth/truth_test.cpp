@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 #include "oracle/scene_judge.hpp"
+#include "integration/region_paths.hpp"
 #include "integration/scenes.hpp"
 #include "integration/truth/partition_file.hpp"
 
@@ -112,7 +113,7 @@ std::vector<Stretches> stretches_of(const Renderer& renderer, const std::vector<
     for (const RayPartitions& along : answers) {
         Stretches ray;
         for (const Partition& p : along.partitions)
-            ray.push_back({last_name(renderer.regions()[p.region].path), p.in, p.out,
+            ray.push_back({last_name(test::without_numbers(renderer.regions()[p.region].path)), p.in, p.out,
                            renderer.solids()[p.in_solid].name, renderer.solids()[p.out_solid].name,
                            renderer.solids()[p.in_solid].type, renderer.solids()[p.out_solid].type});
         rays.push_back(std::move(ray));
@@ -177,7 +178,7 @@ void check_set(const Set& set, const std::string& rays_name, const Scene& scene,
     if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
     Renderer renderer(scene, set.objects, settings);
     std::set<std::string> ours;
-    for (const RegionInfo& region : renderer.regions()) ours.insert(last_name(region.path));
+    for (const RegionInfo& region : renderer.regions()) ours.insert(last_name(test::without_numbers(region.path)));
     const std::vector<RayPartitions> answers = renderer.shoot(file.rays);
     const std::vector<Stretches> found = stretches_of(renderer, answers);
     std::vector<double> lengths;

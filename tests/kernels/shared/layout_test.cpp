@@ -36,6 +36,8 @@ using namespace csgrt;
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
     FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, answer) \
+    FIELD(Frame, first_x) FIELD(Frame, first_y) FIELD(Frame, clip) FIELD(Frame, clip_count) \
+    RECORD(DisplayBytes) FIELD(DisplayBytes, ends) FIELD(DisplayBytes, first) \
     RECORD(ScreenBounds) \
     FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
     RECORD(RayRecord) \
@@ -96,7 +98,7 @@ std::set<std::string> names_in_layout() {
     text = std::regex_replace(text, std::regex("//[^\n]*"), "");
     std::set<std::string> names;
     const std::regex record("typedef struct \\{([^}]*)\\}\\s*(\\w+);"), statement("\\s*\\w+\\s+([^;]*);"),
-        field("(\\w+)(\\[\\w+\\])?");
+        field("(\\w+)(\\[\\w+\\])*");
     for (std::sregex_iterator r(text.begin(), text.end(), record), end; r != end; ++r) {
         names.insert((*r)[2]);
         const std::string body = (*r)[1];

@@ -39,8 +39,8 @@ TEST_CASE("the first-hit pass draws the tiles that are listed, in the order of t
         if (!pixel) continue;
         INFO("ray " << i << " of the batch, pixel " << *pixel);
         REQUIRE(std::bit_cast<std::uint32_t>(drawn[i]) == std::bit_cast<std::uint32_t>(expected[*pixel].z));
-        REQUIRE(drawn[on.frame.ray_count + i] == static_cast<float>(expected[*pixel].region));
-        REQUIRE(drawn[2 * on.frame.ray_count + i] == static_cast<float>(expected[*pixel].solid));
+        REQUIRE(std::bit_cast<std::uint32_t>(drawn[on.frame.ray_count + i]) == expected[*pixel].region);
+        REQUIRE(std::bit_cast<std::uint32_t>(drawn[2 * on.frame.ray_count + i]) == expected[*pixel].solid);
         hits += expected[*pixel].region > 0;
     }
     CHECK(hits > 20);

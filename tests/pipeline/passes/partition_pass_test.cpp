@@ -35,7 +35,7 @@ TEST_CASE("the partition pass draws the pixels that are listed") {
         if (!pixel) continue;
         INFO("ray " << list[i]);
         REQUIRE(std::bit_cast<std::uint32_t>(drawn[i]) == std::bit_cast<std::uint32_t>(expected[*pixel].z));
-        REQUIRE(drawn[list.size() + i] == static_cast<float>(expected[*pixel].region));
+        REQUIRE(std::bit_cast<std::uint32_t>(drawn[list.size() + i]) == expected[*pixel].region);
         hits += expected[*pixel].region > 0;
         segments += expected[*pixel].depth;
     }
