@@ -88,6 +88,9 @@ typedef struct {
     real t_min, t_max;
 } ray_range;
 
+// From where on boxes are met.
+FN real boxes_from(GLOBAL const Frame* f, real t_min) { return f->whole_lines ? -REAL_INFINITY : t_min; }
+
 FN wide largest_of(wide3 d) { return wide_max(wide_abs(d.x), wide_max(wide_abs(d.y), wide_abs(d.z))); }
 
 FN world_ray listed_ray(RayRecord record) {

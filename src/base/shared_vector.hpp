@@ -22,8 +22,8 @@ public:
     SharedVector(std::initializer_list<T> values) : SharedVector(Vector(values)) {}
 
     const Vector& get() const noexcept {
-        static const Vector none;
-        return values_ ? *values_ : none;
+        static const Vector* const none = new Vector;  // for ever: threads read it while the process ends
+        return values_ ? *values_ : *none;
     }
     /// To be changed: no other copy has these elements any more.
     Vector& own() {

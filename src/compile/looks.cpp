@@ -1,6 +1,7 @@
 #include "compile/looks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -115,8 +116,10 @@ Looks looks_of(const SceneLooks& scene, std::span<const RegionInfo> regions, std
                bool display_shading, std::vector<Warning>& warnings) {
     Looks looks;
     looks.display_shading = display_shading;
-    static const SharedVector<kernel::DisplayBytes> tables[] = {display_bytes(false), display_bytes(true)};
-    looks.display = tables[display_shading];
+    // For ever: a thread may compile while the process ends.
+    static const auto* const tables =
+        new std::array<SharedVector<kernel::DisplayBytes>, 2>{display_bytes(false), display_bytes(true)};
+    looks.display = (*tables)[display_shading];
     looks.ambient = scene.ambient;
     const Vec3 background = looks.shaded(scene.background);
     looks.background = {background.x, background.y, background.z};

@@ -5,6 +5,10 @@
 #include <cstdlib>
 #include <mutex>
 
+#ifdef __linux__
+#include <unistd.h>
+#endif
+
 #include "base/process.hpp"
 
 namespace csgrt {
@@ -50,10 +54,29 @@ private:
     bool is_closed_ = false;
 };
 
+#ifdef __linux__
+/// exit() destroys what belongs to the thread that calls it before all else: before what a compiler has made since our
+/// handler was registered, too. A program's main thread is nearly always that thread, and does not end otherwise.
+struct CloseFirst {
+    CloseFirst() = default;
+    CloseFirst(const CloseFirst&) = delete;
+    CloseFirst& operator=(const CloseFirst&) = delete;
+    ~CloseFirst() { Gate::of_process().close(); }
+};
+void close_first() {
+    if (gettid() != getpid()) return;
+    static thread_local const CloseFirst at_exit;
+}
+#else
+void close_first() {}
+#endif
+
 }  // namespace
 
 DriverCall::DriverCall(bool used) : used_(used) {
-    if (used_) Gate::of_process().enter();
+    if (!used_) return;
+    close_first();
+    Gate::of_process().enter();
 }
 
 void wait_for_driver_calls_at_exit() {

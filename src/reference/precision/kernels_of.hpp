@@ -300,8 +300,8 @@ private:
     template <class Meet>
     void meet_boxes(const k::Frame& frame, const k::ray3& r, real t_min, const Meet& meet) const {
         for (std::uint32_t solid = 0; solid < frame.unbounded_count; ++solid) meet(solid);
-        const k::slab_ray slab =
-            k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius), t_min);
+        const k::slab_ray slab = k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius),
+                                                  k::boxes_from(&frame, t_min));
         if (!slab.hits_sphere) return;
         for (std::size_t i = 0; i < nodes_.size();) {
             const k::BvhNode& node = nodes_[i];

@@ -119,6 +119,8 @@ std::string scene_with(const std::string& form, const json& object) {
         scene["materials"]["m"] = {{"light", object}};
     else if (form == "region_color")
         scene["region_colors"] = json::array({object});
+    else if (form == "look")
+        scene["looks"] = json::array({object});
     else if (form == "combination")
         scene["combinations"]["c"] = object;
     else if (form == "postfix_operator")
