@@ -225,15 +225,13 @@ FN float event_distance(const sweep* w, real tolerance, wide offset) {
     return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + tolerance) - offset) : BOX_MISSED;
 }
 
-// `next`: the nodes of the ray's tile.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, view_range visible,
-                 sweep* w) {
-    const real t_min = wanted_from(f, r, visible), near = parameter_at(r, visible.near),
-               far = parameter_at(r, visible.far), tolerance = tolerance_along(f, r);
+// `next`: the nodes of the ray's tile. What ends before t_min is not seen.
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real t_min, sweep* w) {
+    const real tolerance = tolerance_along(f, r);
     const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
     const wide offset = offset_along(f, r);
     bvh_cursor cursor = bvh_over(0);
-    u32 solid = 0, end = f->unbounded_count, leaf, result = near < far ? RAY_GOES_ON : RAY_MISSES;
+    u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
     start_sweep(w);
     // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Loops
     // have one way out, here and in the functions that they call: work-items that leave a loop in several ways stay
@@ -251,8 +249,8 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         if (e.node != NONE) ++next;
         if (result == RAY_GOES_ON && (e.entry > event_distance(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
-            if (advance(w, s, tolerance, near, horizon)) {
-                result = w->seen.t < far ? RAY_HITS : RAY_MISSES;
+            if (advance(w, s, tolerance, t_min, horizon)) {
+                result = RAY_HITS;
             } else if (e.node == NONE) {
                 result = RAY_MISSES;
             }

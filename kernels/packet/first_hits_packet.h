@@ -27,7 +27,7 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;
     p->lanes = lanes_of(p->rays);
-    p->t_min = packet_wanted_from(f, p->range);
+    p->t_min = p->range.near;
     p->slabs = slabs_of(f, from_eye, p->t_min);
 }
 

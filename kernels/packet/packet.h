@@ -102,11 +102,6 @@ FN packet_slab_ray slabs_of(__global const Frame* f, packet_world_ray r, double8
                          t_min);
 }
 
-// As wanted_from (traversal/camera.h).
-FN double8 packet_wanted_from(__global const Frame* f, packet_view_range visible) {
-    return f->clip_count ? visible.near - f->tolerance : visible.near;
-}
-
 // As one ray's (traversal/bvh_cursor.h), for the active rays; *hit_mask: those of them that hit the leaf.
 FN u32 next_leaf(packet_slab_ray s, __global const BvhNode* nodes, bvh_cursor* c, u32 active_mask, u32* hit_mask) {
     u32 leaf = 0;

@@ -266,7 +266,6 @@ typedef struct {
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
     u32 answer;                                               // to a list: ANSWER_x bits
     u32 clip_count;
-    u32 whole_lines;  // boxes are met along whole rays: a plate that a ray grazes reaches far beyond its box
 } Frame;
 
 #define ANSWER_CUT 1u    // partitions are cut at the rays' ranges; else each that ends at t_near or later is whole

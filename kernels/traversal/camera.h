@@ -88,9 +88,6 @@ typedef struct {
     real t_min, t_max;
 } ray_range;
 
-// From where on boxes are met.
-FN real boxes_from(GLOBAL const Frame* f, real t_min) { return f->whole_lines ? -REAL_INFINITY : t_min; }
-
 FN wide largest_of(wide3 d) { return wide_max(wide_abs(d.x), wide_max(wide_abs(d.y), wide_abs(d.z))); }
 
 FN world_ray listed_ray(RayRecord record) {
@@ -130,12 +127,6 @@ FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
     return wanted;
 }
 
-// What of a picture's ray is wanted begins here: before a plane by the tolerance, so that ends near it become one event
-// with those that they are one with without the plane.
-FN real wanted_from(GLOBAL const Frame* f, ray3 r, view_range seen) {
-    return parameter_at(r, f->clip_count ? seen.near - f->tolerance : seen.near);
-}
-
 // The number of the batch's ray `id`. `listed`: numbers of tiles or of pixels, see WORK_x.
 FN u32 number_of(GLOBAL const Frame* f, GLOBAL const u32* listed, u32 id) {
     if (f->work == WORK_RAYS) return id;
@@ -153,7 +144,7 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
         pixel_position at = pixel_of(number, f->screen);
         const world_ray w = camera_ray(f, at);
         *r = geometry_ray(f, w);
-        wanted->t_min = wanted_from(f, *r, range_in_view(f, w));
+        wanted->t_min = parameter_at(*r, range_in_view(f, w).near);
         wanted->t_max = REAL_INFINITY;
         return at.inside;
     }

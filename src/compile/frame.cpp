@@ -160,7 +160,6 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.unbounded_count = scene.unbounded_count;
     frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
     frame.every_partition = 1;
-    frame.whole_lines = scene.solid_types >> SOLID_PLATE & 1u;
     std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
     frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
 }

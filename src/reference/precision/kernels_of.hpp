@@ -249,7 +249,7 @@ public:
         const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
         const real t_min = frame.work == WORK_RAYS
                                ? k::range_of(&frame, record, r).t_min
-                               : k::wanted_from(&frame, r, k::range_in_view(&frame, k::listed_ray(record)));
+                               : k::parameter_at(r, k::range_in_view(&frame, k::listed_ray(record)).near);
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
             const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
@@ -300,8 +300,8 @@ private:
     template <class Meet>
     void meet_boxes(const k::Frame& frame, const k::ray3& r, real t_min, const Meet& meet) const {
         for (std::uint32_t solid = 0; solid < frame.unbounded_count; ++solid) meet(solid);
-        const k::slab_ray slab = k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius),
-                                                  k::boxes_from(&frame, t_min));
+        const k::slab_ray slab =
+            k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius), t_min);
         if (!slab.hits_sphere) return;
         for (std::size_t i = 0; i < nodes_.size();) {
             const k::BvhNode& node = nodes_[i];

@@ -48,6 +48,7 @@ const json& sound_example(const std::string& form) {
         "scene": {"csgrt": 1, "solids": {"s": {"type": "sphere", "center": [0, 0, 0], "radius": 1}}},
         "model_units": {"name": "cubit", "millimetres": 457},
         "camera": {}, "light": {"position": [0, 0, 0]}, "emission": {}, "material": {},
+        "look": {"path": "/c/s", "state": "hidden"},
         "region_color": {"low": 0, "high": 1, "color": [0, 0, 0]},
         "combination": {"tree": "s"},
         "leaf": {"object": "s"}, "union": {"union": ["s"]}, "intersection": {"intersection": ["s"]},
