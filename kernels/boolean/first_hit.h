@@ -197,7 +197,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizo
         const real t = w->next_event;
         event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
-        // What ends before t_min is not seen.
+        // What ends before `near` is not seen.
         found = matters && w->region != NONE && t > t_min;
         if (matters && !found) {
             const u32 before = w->region;
@@ -225,10 +225,11 @@ FN float event_distance(const sweep* w, real tolerance, wide offset) {
     return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + tolerance) - offset) : BOX_MISSED;
 }
 
-// `next`: the nodes of the ray's tile. What ends before t_min is not seen.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real t_min, sweep* w) {
+// `next`: the nodes of the ray's tile. What ends before `near` is not seen.
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real near, sweep* w) {
     const real tolerance = tolerance_along(f, r);
-    const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), t_min);
+    const slab_ray slabs =
+        make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), seen_from(f, r, near));
     const wide offset = offset_along(f, r);
     bvh_cursor cursor = bvh_over(0);
     u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
@@ -240,7 +241,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         TileNode e;
         do {
             for (; solid < end && result == RAY_GOES_ON; ++solid)
-                if (!take_solid(w, s.g, solid, r, t_min)) result = RAY_OVERFLOWS;
+                if (!take_solid(w, s.g, solid, r, seen_from(f, r, near))) result = RAY_OVERFLOWS;
             leaf = next_leaf(slabs, s.nodes, &cursor);
             solid = leaf >> BVH_LEAF_SHIFT;
             end = solid + (leaf & BVH_LEAF_MASK);
@@ -249,7 +250,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         if (e.node != NONE) ++next;
         if (result == RAY_GOES_ON && (e.entry > event_distance(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
-            if (advance(w, s, tolerance, t_min, horizon)) {
+            if (advance(w, s, tolerance, seen_from(f, r, near), horizon)) {
                 result = RAY_HITS;
             } else if (e.node == NONE) {
                 result = RAY_MISSES;

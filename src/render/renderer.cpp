@@ -31,6 +31,7 @@ namespace csgrt {
 struct Renderer::Impl {
     const unsigned process = process_number();  ///< where it works: its threads, and what drivers keep, are there alone
     Settings settings;
+    bool uses_drivers = false;
     Model model;                                              ///< of the calls; another may be next
     double tolerance = 0;                                     ///< as kernels get it, in millimetres
     std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by Claims; null: not needed yet
@@ -99,8 +100,9 @@ Renderer::Renderer(Scene scene, const std::vector<std::string>& objects, const S
 Renderer::Renderer(Model model, const Settings& settings) : impl_(new Impl(std::move(model), checked(settings))) {
     const FloatingPoint own;
     const AllowedThreads allowed(settings.threads);
-    const DriverCall driver_call(may_use_drivers(settings));
     Impl& impl = *impl_;
+    impl.uses_drivers = may_use_drivers(settings);
+    const DriverCall driver_call(impl.uses_drivers);
     prepare_devices(settings);
     impl.statistics.precision = name_of(precision_names, settings.precision);
     if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
@@ -225,7 +227,7 @@ void Renderer::Impl::end_call(Clock::time_point start) {
 }
 
 void Renderer::Delete::operator()(Impl* impl) const {
-    const DriverCall driver_call(impl->process == process_number() && may_use_drivers(impl->settings));
+    const DriverCall driver_call(impl->process == process_number() && impl->uses_drivers);
     DeleteOwn{impl->process}(impl);
 }
 
