@@ -228,8 +228,7 @@ FN float event_distance(const sweep* w, real tolerance, wide offset) {
 // `next`: the nodes of the ray's tile. What ends before `near` is not seen.
 FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real near, sweep* w) {
     const real tolerance = tolerance_along(f, r);
-    const slab_ray slabs =
-        make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), seen_from(f, r, near));
+    const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), near);
     const wide offset = offset_along(f, r);
     bvh_cursor cursor = bvh_over(0);
     u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
@@ -241,7 +240,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         TileNode e;
         do {
             for (; solid < end && result == RAY_GOES_ON; ++solid)
-                if (!take_solid(w, s.g, solid, r, seen_from(f, r, near))) result = RAY_OVERFLOWS;
+                if (!take_solid(w, s.g, solid, r, near)) result = RAY_OVERFLOWS;
             leaf = next_leaf(slabs, s.nodes, &cursor);
             solid = leaf >> BVH_LEAF_SHIFT;
             end = solid + (leaf & BVH_LEAF_MASK);
@@ -250,7 +249,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         if (e.node != NONE) ++next;
         if (result == RAY_GOES_ON && (e.entry > event_distance(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
-            if (advance(w, s, tolerance, seen_from(f, r, near), horizon)) {
+            if (advance(w, s, tolerance, near, horizon)) {
                 result = RAY_HITS;
             } else if (e.node == NONE) {
                 result = RAY_MISSES;

@@ -14,11 +14,10 @@
 FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __global const TileNode* list,
             pixel_position at, __global float* picture, u32* hit_mask) {
     const world_ray from_eye = camera_ray(f, at);
+    const view_range visible = range_in_view(f, from_eye);
     const ray3 r = geometry_ray(f, from_eye);
     sweep w;
-    u32 found = first_hit(f, s, list, r, parameter_at(r, range_in_view(f, from_eye).near), &w);
-    // Found once more: kept meanwhile it would take a GPU's registers.
-    const view_range visible = range_in_view(f, camera_ray(f, at));
+    u32 found = first_hit(f, s, list, r, parameter_at(r, visible.near), &w);
     Pixel pixel;
     if (found == RAY_HITS && !(w.seen.t < parameter_at(r, visible.far) && visible.near < visible.far))
         found = RAY_MISSES;

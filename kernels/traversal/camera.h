@@ -83,22 +83,6 @@ FN real distance_along(ray3 r, real t) {
 }
 #endif
 
-// Where what is seen of a picture's ray begins, which is `near`. Where the ray itself tells, it is found again, so that
-// it takes no register of a GPU meanwhile: with one more, goliath's first hits took 1.13 times as long on an H100.
-FN real seen_from(GLOBAL const Frame* f, ray3 r, real near) {
-#ifdef CSGRT_EYE_RELATIVE
-    (void)f;
-    (void)r;
-    return near;
-#else
-    world_ray w;
-    (void)near;
-    w.o = r.o;
-    w.d = r.d;
-    return range_in_view(f, w).near;
-#endif
-}
-
 // What of a ray is wanted: segments that end before t_min or begin behind t_max are not.
 typedef struct {
     real t_min, t_max;
