@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/display_bytes.hpp"
 #include "base/parallel.hpp"
 #include "compile/linear.hpp"
 #include "scene/vector.hpp"

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/clock.hpp"
+#include "base/display_bytes.hpp"
 #include "base/fnv1a.hpp"
 #include "base/parallel.hpp"
 #include "base/process.hpp"
-#include "base/srgb.hpp"
 #include "base/thread.hpp"
 #include "compile/frame.hpp"
 #include "compile/lists/along_rays.hpp"
@@ -382,10 +382,11 @@ void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared
 
 /// A colour for a display, as display_pixels() has it.
 std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
-    const float weight = color[3] > 0 ? color[3] : 1;
-    return (kernel::display_word(scene().display.data(), color[0] / weight, color[1] / weight, color[2] / weight, 0) &
-            0xffffffu) |
-           static_cast<std::uint32_t>(display_byte(double{color[3]}, true)) << 24;
+    const double alpha = color[3], weight = alpha > 0 ? alpha : 1;
+    std::uint32_t word = std::uint32_t{display_byte(alpha, true)} << 24;
+    for (int c = 0; c < 3; ++c)
+        word |= std::uint32_t{display_byte(color[c] / weight, scene().display_shading)} << 8 * c;
+    return word;
 }
 
 /// Where a ghost would be seen before what is.
