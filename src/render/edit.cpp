@@ -173,10 +173,8 @@ Edit& Edit::remove(const std::string& path) {
 /// Throws Error (scene) for colours and the like that a scene must not have.
 void Edit::Impl::check_values() const {
     Scene values;
-    values.lights = source.lights;
-    values.ambient = source.ambient;
-    values.background = source.background;
-    values.looks = looks;
+    source.put_looks(values);
+    values.looks = looks;  // the others are known to be good
     FindingList findings;
     check_settings(values, [&](const Place& place, const std::string& message, const std::string& suggestion) {
         findings.add({place, message, suggestion, {}});
@@ -213,10 +211,7 @@ Model Edit::commit() const {
         made = std::make_shared<Model::Impl>(std::move(source), std::move(painted), *edit.before);
     } else {
         Scene whole = edit.scene ? *edit.scene : *source.scene;
-        whole.looks = source.looks;
-        whole.lights = source.lights;
-        whole.ambient = source.ambient;
-        whole.background = source.background;
+        source.put_looks(whole);
         source.scene = std::make_shared<const Scene>(std::move(whole));
         made = std::make_shared<Model::Impl>(std::move(source));
     }

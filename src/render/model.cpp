@@ -72,10 +72,10 @@ void Model::Impl::find_states() {
         std::ranges::transform(regions, are.begin(), [&](const RegionInfo& region) { return region.state == state; });
         return are;
     };
-    const auto is = [](State state) { return [state](const RegionInfo& region) { return region.state == state; }; };
-    if (std::ranges::any_of(regions, is(State::ghost))) some_ghosts = claimed_by(scene, in_state(State::ghost));
-    if (std::ranges::all_of(regions, is(State::shown))) return;
-    some_shown = claimed_by(scene, in_state(State::shown));
+    std::vector<std::uint8_t> shown = in_state(State::shown), ghosts = in_state(State::ghost);
+    if (std::ranges::count(ghosts, 1) > 0) some_ghosts = claimed_by(scene, std::move(ghosts));
+    if (std::ranges::count(shown, 0) == 0) return;
+    some_shown = claimed_by(scene, std::move(shown));
     shown_.emplace(*some_shown, tolerance);
 }
 
@@ -98,12 +98,8 @@ const std::vector<Warning>& Model::warnings() const { return impl_->scene.warnin
 double Model::tolerance() const { return impl_->tolerance; }
 
 Scene Model::scene() const {
-    const ModelSource& source = impl_->source;
-    Scene scene = *source.scene;
-    scene.looks = source.looks;
-    scene.lights = source.lights;
-    scene.ambient = source.ambient;
-    scene.background = source.background;
+    Scene scene = *impl_->source.scene;
+    impl_->source.put_looks(scene);
     return scene;
 }
 

@@ -48,6 +48,14 @@ struct ModelSource {
     Vec3 background;
     std::vector<std::string> objects;
     Settings settings;
+
+    /// Gives a scene what stands beside it here.
+    void put_looks(Scene& to) const {
+        to.looks = looks;
+        to.lights = lights;
+        to.ambient = ambient;
+        to.background = background;
+    }
 };
 
 struct Model::Impl {

@@ -166,7 +166,7 @@ inline constexpr auto of<Rotation> = Form{
 };
 
 /// A node of a tree: what it is, and what places it.
-constexpr auto node(const char* called, std::string_view key, auto kind, const char* about = "") {
+constexpr auto node(const char* called, std::string_view key, auto kind, const char* about = "", auto... more) {
     return Form{
         plain(called, about),
         required(key, nothing, kind),
@@ -174,22 +174,17 @@ constexpr auto node(const char* called, std::string_view key, auto kind, const c
         optional("translate", nothing, lengths, "Third."),
         optional("rotate", nothing, object<Rotation>, "Second."),
         optional("scale", nothing, Other{R"({"$ref": "#/$defs/scale"})"}, "First."),
+        more...,
     };
 }
 inline constexpr Other one_or_more{R"({"type": "array", "items": {"$ref": "#/$defs/tree"}, "minItems": 1})"},
     two_or_more{R"({"type": "array", "items": {"$ref": "#/$defs/tree"}, "minItems": 2})"},
     one{R"({"oneOf": [{"$ref": "#/$defs/tree"},
         {"type": "array", "items": {"$ref": "#/$defs/tree"}, "minItems": 1, "maxItems": 1}]})"};
-inline constexpr auto leaf = Form{
-    plain("leaf"),
-    required("object", nothing, name),
-    optional("matrix", nothing, Other{R"({"$ref": "#/$defs/matrix"})"}, "Not together with the three others."),
-    optional("translate", nothing, lengths, "Third."),
-    optional("rotate", nothing, object<Rotation>, "Second."),
-    optional("scale", nothing, Other{R"({"$ref": "#/$defs/scale"})"}, "First."),
-    optional("name", nothing, name,
-             "In paths; that of the object, with a number from its second leaf on, if not given."),
-};
+inline constexpr auto leaf =
+    node("leaf", "object", name, "",
+         optional("name", nothing, name,
+                  "In paths; that of the object, with a number from its second leaf on, if not given."));
 inline constexpr auto union_ = node("union", "union", one_or_more, "In any of them.");
 inline constexpr auto intersection = node("intersection", "intersection", one_or_more, "In all of them.");
 inline constexpr auto difference =
