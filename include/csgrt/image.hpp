@@ -78,11 +78,11 @@ private:
 ///                     orthographic view from the plane on which its rays start (see the matrix worldToCamera)
 ///     N.X N.Y N.Z     unit normal of the surface, outward from the region, in the model's coordinates
 ///     region solid    ids: index into Renderer::regions() or Renderer::solids(), plus 1; 0 where the ray hits nothing
-///     RGBA8           ids: the colour for a display (display_pixels()), a byte each from the lowest one on
-///     ghost           ids: as region, of the first ghost (State) that the ray passes before what is seen
 ///     depth           number of segments along the ray: its intervals inside single solids
 ///     partitions      number of intervals between neighbouring ends of segments that are inside any solid
 ///     overlap         number of those that several regions claim (see Overlap)
+///     RGBA8           ids: the colour for a display (display_pixels()), a byte each from the lowest one on
+///     ghost           ids: as region, of the first ghost (State) that the ray passes before what is seen
 ///
 /// Several threads may read one Image at the same time.
 struct Image {
@@ -115,11 +115,10 @@ struct Image {
 CSGRT_API std::vector<unsigned char> display_pixels(const Image& image);
 
 /// Writes a picture file by the extension of `path`: .exr (every channel, as 32-bit floats, ids as 32-bit unsigned
-/// integers; R G B in linear light) or .png
-/// (display_pixels(), without A if all pixels are opaque; its header says sRGB). The file has a temporary name until it
-/// is complete. "-" writes to standard output, in `format` ("exr" or "png"); so do the names of pipes and devices.
-/// Throws Error: usage if the picture has not the channels that the format needs or the format is unknown, file if the
-/// file cannot be written. Any thread. In csgrt::image.
+/// integers; R G B in linear light) or .png (display_pixels(), without A if all pixels are opaque; its header says
+/// sRGB). The file has a temporary name until it is complete. "-" writes to standard output, in `format` ("exr" or
+/// "png"); so do the names of pipes and devices. Throws Error: usage if the picture has not the channels that the
+/// format needs or the format is unknown, file if the file cannot be written. Any thread. In csgrt::image.
 CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr");
 
 /// Reads an .exr with all its channels as 32-bit floats (R G B in linear light), unsigned integers as ids, its text

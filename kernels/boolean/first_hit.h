@@ -197,7 +197,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizo
         const real t = w->next_event;
         event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
-        // What ends before `near` is not seen.
+        // What ends before t_min is not seen.
         found = matters && w->region != NONE && t > t_min;
         if (matters && !found) {
             const u32 before = w->region;
