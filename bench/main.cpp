@@ -1,7 +1,7 @@
 // csgrt_bench: warm frames of every workload; tables on standard output, JSON on demand.
 //
 //   csgrt_bench [--device CHOICE|all]... [--size N] [--frames N] [--first-hit | --both | --lists] [--color]
-//               [--orbit N] [--only NAME,...] [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
+//               [--cuts] [--orbit N] [--only NAME,...] [--models FOLDER] [--scenes FOLDER] [--json FILE] [--floors]
 //   csgrt_bench --compare A.json B.json
 //
 // --floors: also what a frame of every partition must do at least, counted, beside what was measured of it (nothing is
@@ -10,16 +10,20 @@
 // grid, the same with all fields, first hits, `shoot`, and of as many points and pixels of a slice through the model's
 // middle which regions hold them.
 // --color: pictures of colours alone, as a viewer shows them, in place of all channels.
+// --cuts: also the same pictures cut by three planes through the model's middle (View::clip), and of the model less a
+// half-space in its tree; and the geometric means of their frames in uncut ones.
 // --orbit N: a frame at each of N azimuths around the model, as a viewer draws them, in place of --frames from one
 // side. Afterwards the orbit is drawn again, and its pictures must be those that are drawn into new memory, bit by bit;
 // if not, the exit status is 8.
 // --only: workloads whose names begin so. `first` is the time from a loaded scene to the first picture.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <random>
 #include <tuple>
 
@@ -42,7 +46,7 @@ struct Options {
     std::vector<std::string> devices, only, compare;
     std::string models = "../shared/brlcad", scenes = "scenes", json;
     int size = 1024, frames = 20, orbit = 0;
-    bool every_partition = true, first_hits = false, lists = false, floors = false, color = false;
+    bool every_partition = true, first_hits = false, lists = false, floors = false, color = false, cuts = false;
 };
 
 /// Of frame `i`: always from one side, or from the orbit's next azimuth.
@@ -77,7 +81,30 @@ struct Task {
     std::string mode;
     std::function<void(Renderer&, int frame)> work;
     bool every_partition = true;
+    std::optional<Model> model = {};  ///< in place of the workload's
 };
+
+const char* const cuts[] = {", three planes", ", less a half-space"};
+
+/// Three planes through the middle of the model, which leave what is seen best from the usual side.
+std::vector<Plane> middle_planes(const Box& box) {
+    return {{{1, 0, 0}, 0.5 * (box.low.x + box.high.x)},
+            {{0, 0, 1}, 0.5 * (box.low.z + box.high.z)},
+            {{0.6, 0.8, 0}, 0.3 * (box.low.x + box.high.x) + 0.4 * (box.low.y + box.high.y)}};
+}
+
+/// All objects less what is beyond the first of these planes.
+Model less_half_space(Scene scene, const std::vector<std::string>& objects, const Box& box) {
+    const Plane plane = middle_planes(box).front();
+    scene.objects.push_back(
+        Solid{"a half-space", Half{{{-plane.normal.x, -plane.normal.y, -plane.normal.z}, -plane.distance}}, {}});
+    std::vector<std::string> cut;
+    for (const std::string& object : objects) {
+        cut.push_back(object + " less a half-space");
+        scene.objects.push_back(Combination{.name = cut.back(), .tree = tree(object) - tree("a half-space")});
+    }
+    return Model(std::move(scene), cut);
+}
 
 /// Rays, points and answers that tasks share.
 struct ListData {
@@ -90,7 +117,8 @@ struct ListData {
     Array<std::int32_t> ids;
 };
 
-std::vector<Task> picture_tasks(const Options& options) {
+std::vector<Task> picture_tasks(const Model& model, const Scene& scene, const std::vector<std::string>& objects,
+                                const Options& options) {
     std::vector<Task> tasks;
     for (const bool every_partition : {true, false}) {
         if (!(every_partition ? options.every_partition : options.first_hits)) continue;
@@ -100,6 +128,15 @@ std::vector<Task> picture_tasks(const Options& options) {
                              renderer.render(view_of(options, every_partition, frame), *framebuffer);
                          },
                          every_partition});
+        if (!options.cuts) continue;
+        const Task uncut = tasks.back();
+        View view = view_of(options, every_partition, 0);
+        view.clip = middle_planes(model.bounds());
+        tasks.push_back({uncut.mode + cuts[0],
+                         [view, framebuffer](Renderer& renderer, int) { renderer.render(view, *framebuffer); },
+                         every_partition});
+        tasks.push_back(
+            {uncut.mode + cuts[1], uncut.work, every_partition, less_half_space(scene, objects, model.bounds())});
     }
     return tasks;
 }
@@ -191,6 +228,10 @@ Options parse(int argc, char** argv) {
             options.color = true;
             continue;
         }
+        if (name == "--cuts") {
+            options.cuts = true;
+            continue;
+        }
         if (name == "--floors") {
             options.floors = true;
             continue;
@@ -259,9 +300,10 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
             Settings settings;
             settings.device = device;
             settings.wait_for_device = true;
+            const Model model(scene, workload.objects);
             for (const Task& task :
-                 options.lists ? list_tasks(Model(scene, workload.objects), options) : picture_tasks(options)) {
-                Renderer renderer(scene, workload.objects, settings);
+                 options.lists ? list_tasks(model, options) : picture_tasks(model, scene, workload.objects, options)) {
+                Renderer renderer(task.model.value_or(model), settings);
                 all.push_back(measure(workload, renderer, task, options));
                 check_orbit(workload.name, renderer, task.every_partition, options);
                 all.back().ms.emplace(all.back().ms.begin(), "load", load);
@@ -277,6 +319,22 @@ std::vector<Figures> run(const Options& options, std::vector<Floor>& floors) {
     return all;
 }
 
+/// Of each cut, the geometric mean over all workloads of its frame in the uncut one.
+void print_cuts(const std::vector<Figures>& all) {
+    for (const char* const cut : cuts)
+        for (const std::string mode : {"every partition", "first hits"}) {
+            double sum = 0;
+            int count = 0;
+            for (const Figures& f : all)
+                for (const Figures& whole : all) {
+                    if (f.mode != mode + cut || whole.mode != mode || whole.workload != f.workload) continue;
+                    sum += std::log(f.time("frame") / whole.time("frame"));
+                    ++count;
+                }
+            if (count > 0) std::printf("%s%s: %.2f of the uncut frame\n", mode.c_str(), cut, std::exp(sum / count));
+        }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -290,6 +348,7 @@ int main(int argc, char** argv) {
         std::vector<Floor> floors;
         const std::vector<Figures> all = run(options, floors);
         print(all);
+        print_cuts(all);
         std::vector<double> measured;
         for (const Floor& floor : floors) {
             measured.push_back(-1);

@@ -319,13 +319,15 @@ TEST_CASE("the same on BRL-CAD's models: 500 edits", "[.long]") {
     for (const test::Model& of : test::models()) {
         if (!of.main && of.file != "goliath.asc") continue;
         if (!std::filesystem::exists(folder + "/" + of.file)) continue;
-        Model model(load_scene(folder + "/" + of.file), of.objects);
+        Scene scene = load_scene(folder + "/" + of.file);
+        scene.top = of.objects;  // the edited scene's own, where an edit removes one
+        Model model(std::move(scene));
         for (int done = 0; done < test::tries(100);) {
             Edit edit(model);
             try {
                 edit_at_random(edit, model, random);
                 const Model next = edit.commit();
-                require_same_models(next, Model(next.scene(), of.objects));
+                require_compiled_anew(next);
                 if (next.regions().size() > 3) model = next;
             } catch (const Error&) {
                 continue;

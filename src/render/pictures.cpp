@@ -1,0 +1,229 @@
+// A Renderer's pictures: whole, coarse to fine, of several rays a pixel, and with ghosts.
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <optional>
+#include <utility>
+
+#include "base/display_bytes.hpp"
+#include "base/fnv1a.hpp"
+#include "base/parallel.hpp"
+#include "base/thread.hpp"
+#include "device/choice.hpp"
+#include "kernel_host/geometry.hpp"
+#include "render/image_header.hpp"
+#include "render/renderer_impl.hpp"
+
+namespace csgrt {
+
+Image Renderer::render(const View& view) {
+    Framebuffer framebuffer;
+    render(view, framebuffer);
+    return framebuffer.take();
+}
+
+void Renderer::render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse) {
+    const FloatingPoint own;
+    Impl& impl = this->impl();
+    const AllowedThreads allowed(impl.settings.threads);
+    const std::function<bool(int)> shows = own.of_host(coarse);
+    Watch::over(own.of_host(impl.settings.progress),
+                [&](Watch& watch) { impl.render(view, framebuffer, shows, watch); });
+}
+
+/// Makes the framebuffer a picture of these channels, in memory that is background where it is new.
+void Renderer::Impl::fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels,
+                         const Watch& watch) const {
+    const kernel::Pixel background_pixel = kernel::background_pixel(&frame);
+    std::vector<std::string> names;
+    std::vector<bool> are_ids;
+    std::vector<float> background;
+    for (const ChannelSource& source : channel_table) {
+        if (!(channels & source.group)) continue;
+        names.emplace_back(source.name);
+        are_ids.push_back(holds_ids(source));
+        background.push_back(source.value(background_pixel, scene().display[0]));
+    }
+    framebuffer.fit(static_cast<int>(frame.width), static_cast<int>(frame.height), std::move(names),
+                    std::move(background), watch);
+    framebuffer.image_.are_ids = std::move(are_ids);
+}
+
+/// The frame's channels, which the framebuffer has.
+void Renderer::Impl::draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch) {
+    std::vector<const ChannelSource*> sources;
+    std::vector<ChannelMemory> channels;
+    for (const ChannelSource& source : channel_table) {
+        if (!(prepared.frame.channels & source.group)) continue;
+        const std::size_t i = sources.size();  // they come first
+        sources.push_back(&source);
+        channels.push_back({framebuffer.image_.channels[i].data(), framebuffer.background_[i]});
+    }
+    try {
+        backend->render(
+            prepared, {channels, sources, framebuffer.covered_, framebuffer.drawn_by_, framebuffer.registered_}, watch);
+    } catch (...) {
+        if (framebuffer.registered_ && framebuffer.registered_->has_lost())
+            keep_for_ever(std::make_shared<Framebuffer>(std::move(framebuffer)));
+        throw;
+    }
+}
+
+/// What other rays of the view show, in memory of the renderer's own.
+const Image& Renderer::Impl::draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels,
+                                         Watch& watch) {
+    PreparedFrame prepared = prepare_frame(scene(), view, tolerance, sampling);
+    prepared.frame.channels = channels;
+    fit(beside, prepared.frame, channels, watch);
+    draw(prepared, beside, watch);
+    return beside.image_;
+}
+
+/// Every 8th pixel each way, then what is missing for every 4th, 2nd and all; what is drawn of one step covers what is
+/// to come. False: `coarse` ended it.
+bool Renderer::Impl::draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
+                                 const std::function<bool(int)>& coarse, Watch& watch) {
+    Image& image = framebuffer.image_;
+    std::ranges::fill(framebuffer.covered_, std::uint8_t{1});
+    const auto put = [&](const Sampling& sampling, std::size_t size) {
+        if (sampling.column >= image.width || sampling.line >= image.height) return;
+        const Image& part = draw_beside(view, sampling, prepared.frame.channels, watch);
+        const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+        const auto columns = static_cast<std::size_t>(part.width), step = static_cast<std::size_t>(sampling.step);
+        for_chunks(static_cast<std::size_t>(part.height), 4, 0, [&](std::size_t line, std::size_t end, std::size_t) {
+            for (; line < end; ++line)
+                for (std::size_t c = 0; c < part.channels.size(); ++c) {
+                    const std::size_t top = static_cast<std::size_t>(sampling.line) + line * step;
+                    float* const first = image.channels[c].data() + top * width;
+                    const float* from = part.channels[c].data() + line * columns;
+                    for (std::size_t x = static_cast<std::size_t>(sampling.column); x < width; x += step)
+                        std::fill_n(first + x, std::min(size, width - x), *from++);
+                    for (std::size_t y = top + 1; y < std::min(top + size, height); ++y)
+                        for (std::size_t x = static_cast<std::size_t>(sampling.column); x < width; x += step)
+                            std::copy_n(first + x, std::min(size, width - x), first + (y - top) * width + x);
+                }
+        });
+    };
+    put({.step = 8}, 8);
+    for (int size = 4; size >= 1; size /= 2) {
+        if (!coarse(2 * size)) return false;
+        const int step = size == 4 ? 8 : 2 * size;
+        put({.step = step, .column = size, .line = 0}, static_cast<std::size_t>(size));
+        put({.step = step, .column = 0, .line = size}, static_cast<std::size_t>(size));
+        put({.step = step, .column = size, .line = size}, static_cast<std::size_t>(size));
+    }
+    return true;
+}
+
+/// The colours become the mean of several rays' a pixel: Hammersley's points, moved so that the first is the middle.
+void Renderer::Impl::add_samples(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
+                                 Watch& watch) {
+    Image& image = framebuffer.image_;
+    const bool has_color = prepared.frame.channels & channel::color;
+    const std::size_t pixels = std::size_t{prepared.frame.width} * prepared.frame.height;
+    Channels sums(pixels, std::vector<float>(4));
+    const auto take = [&](const Image& drawn) {
+        for_chunks(pixels, 1 << 16, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t c = 0; c < 4; ++c)
+                for (std::size_t i = first; i < last; ++i) sums[c][i] += drawn.channels[c][i];
+        });
+    };
+    for (int i = 0; i < view.samples; ++i) {
+        const auto from_middle = [](double part) { return part < 0.5 ? part : part - 1; };
+        double reversed = 0;  // the binary digits of i, behind the point
+        for (int bit = 0; bit < 8; ++bit) reversed += (i >> bit & 1) * std::ldexp(1.0, -1 - bit);
+        const Sampling sampling{.right = from_middle(static_cast<double>(i) / view.samples),
+                                .down = from_middle(reversed)};
+        take(i == 0 && has_color ? image : draw_beside(view, sampling, channel::color, watch));
+        for (std::size_t tile = 0; i > 0 && tile < beside.covered_.size(); ++tile)
+            framebuffer.covered_[tile] |= beside.covered_[tile];
+    }
+    const auto words = std::ranges::find(image.names, "RGBA8");
+    const std::span<std::uint32_t> display =
+        words == image.names.end() ? std::span<std::uint32_t>()
+                                   : image.channels.ids(static_cast<std::size_t>(words - image.names.begin()));
+    for_chunks(pixels, 1 << 14, 0, [&](std::size_t first, std::size_t last, std::size_t) {
+        for (std::size_t i = first; i < last; ++i) {
+            float mean[4];
+            for (std::size_t c = 0; c < 4; ++c) {
+                mean[c] = sums[c][i] / static_cast<float>(view.samples);
+                if (has_color) image.channels[c][i] = mean[c];
+            }
+            if (!display.empty()) display[i] = word_of(mean);
+        }
+    });
+}
+
+/// A colour for a display, as display_pixels() has it.
+std::uint32_t Renderer::Impl::word_of(const float (&color)[4]) const {
+    const double alpha = color[3], weight = alpha > 0 ? alpha : 1;
+    std::uint32_t word = std::uint32_t{display_byte(alpha, true)} << 24;
+    for (int c = 0; c < 3; ++c)
+        word |= std::uint32_t{display_byte(color[c] / weight, scene().display_shading)} << 8 * c;
+    return word;
+}
+
+/// Where a ghost would be seen before what is.
+void Renderer::Impl::add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
+                                Watch& watch) {
+    Image& image = framebuffer.image_;
+    const std::span<std::uint32_t> ghosts = image.channels.ids(image.channels.size() - 1);
+    std::ranges::fill(ghosts, 0u);
+    if (!model.impl_->has_ghosts()) return;
+    std::vector<float> seen;
+    if (!(prepared.frame.channels & channel::distance)) {
+        const Image& shown = draw_beside(view, {}, channel::distance, watch);
+        seen.assign(shown.channels[0].begin(), shown.channels[0].end());
+    }
+    const std::span<const float> distances = seen.empty() ? image.channel("Z") : std::span<const float>(seen);
+    prepare(prepared.frame.every_partition, Claims::ghosts);
+    const Image& passed = draw_beside(view, {}, channel::distance | channel::ids, watch);
+    const std::span<const std::uint32_t> regions = passed.ids("region");
+    for (std::size_t i = 0; i < ghosts.size(); ++i)
+        if (passed.channels[0][i] < distances[i]) ghosts[i] = regions[i];
+    std::ranges::fill(framebuffer.covered_, std::uint8_t{1});
+}
+
+void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse,
+                            Watch& watch) {
+    const auto start = Clock::now();
+    take_next();
+    const PreparedFrame prepared = prepare_frame(scene(), view, tolerance);
+    const bool every_partition = prepared.frame.every_partition;
+    start_call(std::uint64_t{prepared.frame.width} * prepared.frame.height, every_partition,
+               static_cast<int>(prepared.frame.width), static_cast<int>(prepared.frame.height));
+    const auto fit_picture = [&] {
+        fit(framebuffer, prepared.frame, prepared.frame.channels | (view.channels & channel::ghosts), watch);
+    };
+    if (framebuffer.covered_.empty()) {
+        std::future<void> fitting = start_async(fit_picture);
+        prepare(every_partition, Claims::shown);  // a compiler leaves most processors idle
+        fitting.get();
+    } else {
+        prepare(every_partition, Claims::shown);
+        fit_picture();
+    }
+    bool is_whole = true;
+    if (coarse)
+        is_whole = draw_coarse(view, prepared, framebuffer, coarse, watch);
+    else
+        draw(prepared, framebuffer, watch);
+    if (view.samples > 1 && is_whole && (prepared.frame.channels & (channel::color | channel::display)))
+        add_samples(view, prepared, framebuffer, watch);
+    if (view.channels & channel::ghosts) add_ghosts(view, prepared, framebuffer, watch);
+    Image& image = framebuffer.image_;
+    image.display_values = settings.display_shading;
+    image.attributes.clear();
+    image.attributes["csgrt:version"] = version();
+    image.attributes["csgrt:title"] = model.impl_->source.scene->title;
+    image.attributes["csgrt:precision"] = statistics.precision;
+    image.attributes["csgrt:method"] =
+        statistics.method + ", quartics " + statistics.quartic + (settings.contraction ? ", contraction" : "");
+    image.attributes["csgrt:shading"] = settings.display_shading ? "display values" : "linear light";
+    image.attributes["csgrt:scene_hash"] = hexadecimal(model.impl_->of(Claims::shown).hash);
+    if (!scene().warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene().warnings);
+    describe_camera(prepared, image);
+    end_call(start);
+}
+
+}  // namespace csgrt

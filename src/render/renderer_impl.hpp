@@ -1,0 +1,65 @@
+// What a Renderer holds. renderer.cpp has its making, models and lists of rays, pictures.cpp its pictures.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include <csgrt/renderer.hpp>
+
+#include "base/clock.hpp"
+#include "base/process.hpp"
+#include "compile/frame.hpp"
+#include "render/backend.hpp"
+#include "render/model_impl.hpp"
+
+namespace csgrt {
+
+struct Renderer::Impl {
+    const unsigned process = process_number();  ///< where it works: its threads, and what drivers keep, are there alone
+    Settings settings;
+    bool uses_drivers = false;
+    Model model;                                              ///< of the calls; another may be next
+    double tolerance = 0;                                     ///< as kernels get it, in millimetres
+    std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by Claims; null: not needed yet
+    std::unique_ptr<Backend> backend;
+    std::vector<Warning> warnings;         ///< the scene's, and then those of devices, which are not of the picture
+    std::vector<Warning> device_warnings;  ///< these alone
+    Statistics statistics;
+    Framebuffer beside;  ///< of rays beside the pixels' own
+
+    Impl(Model of, const Settings& given) : settings(given), model(std::move(of)), next(model) {}
+
+    std::mutex mutex;                   ///< of the next two
+    Model next;                         ///< what the next call is about
+    std::atomic<bool> has_next{false};  ///< it is not `model`
+
+    const CompiledScene& scene() const { return model.impl_->scene; }
+    void use_model(bool is_reference);
+    void take_next();
+    std::shared_ptr<const ModelInUse> used(Claims claims, bool is_reference);
+    void warn(std::string reason);
+    void set_up_devices();
+    void use_reference();
+    void start_call(std::uint64_t rays, bool every_partition, int width, int height);
+    void prepare(bool every_partition, Claims claims);
+    void end_call(Clock::time_point start);
+
+    void fit(Framebuffer& framebuffer, const kernel::Frame& frame, std::uint32_t channels, const Watch& watch) const;
+    void draw(const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
+    const Image& draw_beside(const View& view, const Sampling& sampling, std::uint32_t channels, Watch& watch);
+    bool draw_coarse(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer,
+                     const std::function<bool(int)>& coarse, Watch& watch);
+    void add_samples(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
+    void add_ghosts(const View& view, const PreparedFrame& prepared, Framebuffer& framebuffer, Watch& watch);
+    std::uint32_t word_of(const float (&color)[4]) const;
+    void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse, Watch& watch);
+    void trace(const RayList& list, RowTaker& taker, Claims claims, Watch& watch);
+    /// Calls work(trace) as a call of the host's. `all`: the rays of several lists that it traces; 0: it traces one.
+    template <class Work>
+    void call(const Work& work, std::uint64_t all = 0);
+};
+
+}  // namespace csgrt
