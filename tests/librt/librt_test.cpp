@@ -1,0 +1,280 @@
+// librt's names over csgrt: the partitions are Renderer::shoot()'s, to the last bit, and callbacks decide as librt's
+// do.
+#include <csgrt/librt.h>
+
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "catch.hpp"
+#include "integration/lists.hpp"
+#include "integration/same_answers.hpp"
+#include "integration/scenes.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+struct Free {
+    void operator()(rt_i* rtip) const { rt_free_rti(rtip); }
+};
+using Opened = std::unique_ptr<rt_i, Free>;
+
+Opened open(const std::string& file, std::vector<const char*> objects = {}) {
+    char title[8] = {};
+    Opened rtip(rt_dirbuild(file.c_str(), title, sizeof title));
+    REQUIRE(rtip);
+    CHECK(std::string(title) == rtip->scene.title.substr(0, 7));
+    REQUIRE(rt_gettrees(rtip.get(), static_cast<int>(objects.size()), objects.data(), 1) == 0);
+    rt_prep_parallel(rtip.get(), 2);
+    return rtip;
+}
+
+/// Three balls of radius 10 in a row, at 0, 12 and 24 on x: a.r and b.r overlap from 2 to 10, b.r and c.r from 14 to
+/// 22; d.r is air, and all.r's three cubes overlap from 102 to 104.
+Opened balls() {
+    static const std::string file = (std::filesystem::temp_directory_path() / "csgrt_librt_test.json").string();
+    std::ofstream(file) << R"({"csgrt": 1, "solids": {
+        "a": {"type": "sphere", "center": [0, 0, 0], "radius": 10},
+        "b": {"type": "sphere", "center": [12, 0, 0], "radius": 10},
+        "c": {"type": "sphere", "center": [24, 0, 0], "radius": 10},
+        "d": {"type": "box", "low": [50, -5, -5], "high": [60, 5, 5]},
+        "e": {"type": "box", "low": [100, -5, -5], "high": [104, 5, 5]},
+        "f": {"type": "box", "low": [101, -5, -5], "high": [105, 5, 5]},
+        "g": {"type": "box", "low": [102, -5, -5], "high": [106, 5, 5]}},
+        "combinations": {
+        "a.r": {"region": true, "id": 1, "tree": "a"}, "b.r": {"region": true, "id": 2, "tree": "b"},
+        "c.r": {"region": true, "id": 3, "tree": "c"}, "d.r": {"region": true, "air": 1, "tree": "d"},
+        "e.r": {"region": true, "id": 5, "los": 50, "tree": "e"}, "f.r": {"region": true, "id": 6, "tree": "f"},
+        "g.r": {"region": true, "id": 7, "tree": "g"}}})";
+    Opened rtip(rt_dirbuild(file.c_str(), nullptr, 0));
+    REQUIRE(rtip);
+    rtip->useair = 1;
+    rt_prep(rtip.get());
+    return rtip;
+}
+
+xray along_x(double from) {
+    xray ray;
+    VSET(ray.r_pt, from, 0, 0);
+    VSET(ray.r_dir, 1, 0, 0);
+    return ray;
+}
+
+/// "a.r -10 10, ..." of the partitions, walked forwards; they are the same backwards.
+std::string text_of(const partition* head) {
+    std::string text, back;
+    char one[100];
+    const auto put = [&](const partition* p) {
+        std::snprintf(one, sizeof one, "%s %g %g", p->pt_regionp->reg_name + 1, p->pt_inhit->hit_point[X],
+                      p->pt_outhit->hit_point[X]);
+        return std::string(one);
+    };
+    for (const partition* p = head->pt_forw; p != head; p = p->pt_forw) text += (text.empty() ? "" : ", ") + put(p);
+    for (const partition* p = head->pt_back; p != head; p = p->pt_back)
+        back = put(p) + (back.empty() ? "" : ", ") + back;
+    CHECK(text == back);
+    return text;
+}
+
+struct Told {
+    std::string text;
+    int misses = 0, calls = 0;
+    int code = 1;  ///< of overlaps
+};
+int take(application* ap, partition* head, seg*) {
+    static_cast<Told*>(ap->a_uptr)->text = text_of(head);
+    return 7;
+}
+int miss(application* ap) {
+    ++static_cast<Told*>(ap->a_uptr)->misses;
+    return -3;
+}
+int decide(application* ap, partition* p, region* one, region* other, partition*) {
+    Told& told = *static_cast<Told*>(ap->a_uptr);
+    ++told.calls;
+    CHECK(one->reg_bit < other->reg_bit);
+    CHECK(p->pt_inhit->hit_dist < p->pt_outhit->hit_dist);
+    return told.code;
+}
+
+application asking(rt_i& rtip, Told& told) {
+    application ap;
+    RT_APPLICATION_INIT(&ap);
+    ap.a_rt_i = &rtip;
+    ap.a_hit = take;
+    ap.a_miss = miss;
+    ap.a_uptr = &told;
+    ap.a_resource = &rt_uniresource;
+    ap.a_logoverlap = rt_silent_logoverlap;
+    ap.a_ray = along_x(-20);
+    return ap;
+}
+
+int compare(application* ap, partition* head, seg*) {
+    const auto& expected = *static_cast<const std::vector<csgrt::Partition>*>(ap->a_uptr);
+    std::size_t i = 0;
+    for (const partition* p = head->pt_forw; p != head; p = p->pt_forw, ++i) {
+        REQUIRE(i < expected.size());
+        const csgrt::Partition& of = expected[i];
+        REQUIRE(same(p->pt_inhit->hit_dist, of.in));
+        REQUIRE(same(p->pt_outhit->hit_dist, of.out));
+        REQUIRE(p->pt_regionp->reg_bit == of.region);
+        REQUIRE(p->pt_inseg->seg_stp->st_bit == of.in_solid);
+        REQUIRE(p->pt_outseg->seg_stp->st_bit == of.out_solid);
+        vect_t in, out;
+        RT_HIT_NORMAL(in, p->pt_inhit, p->pt_inseg->seg_stp, &ap->a_ray, p->pt_inflip);
+        RT_HIT_NORMAL(out, p->pt_outhit, p->pt_outseg->seg_stp, &ap->a_ray, p->pt_outflip);
+        for (int axis = 0; axis < 3; ++axis) {
+            REQUIRE(same(in[axis], (&of.in_normal.x)[axis]));
+            REQUIRE(same(out[axis], (&of.out_normal.x)[axis]));
+        }
+    }
+    REQUIRE(i == expected.size());
+    return 1;
+}
+
+}  // namespace
+
+TEST_CASE("rt_shootray and shoot_many give the partitions of Renderer::shoot, to the last bit") {
+    for (const std::string& file : test::scene_files()) {
+        const Opened rtip = open(file);
+        Renderer renderer(rtip->scene, {}, test::on_native_device());
+        const std::vector<Ray> rays = test::random_rays(renderer.bounds(), 40);
+        const std::vector<RayPartitions> answers = renderer.shoot(rays);
+        CHECK(rtip->nregions == renderer.regions().size());
+        std::vector<xray> list;
+        std::size_t hits = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            application ap;
+            ap.a_rt_i = rtip.get();
+            ap.a_hit = compare;
+            librt::copy(ap.a_ray.r_pt, rays[i].origin);
+            librt::copy(ap.a_ray.r_dir, rays[i].direction);
+            ap.a_uptr = const_cast<std::vector<csgrt::Partition>*>(&answers[i].partitions);
+            CHECK(rt_shootray(&ap) == !answers[i].partitions.empty());
+            hits += !answers[i].partitions.empty();
+            list.push_back(ap.a_ray);
+            std::size_t told = 0;
+            CHECK(librt::shoot(rtip.get(), ap.a_ray, [&](const partition& p) {
+                return same(p.pt_inhit->hit_dist, answers[i].partitions.at(told++).in);
+            }));
+            CHECK(told == answers[i].partitions.size());
+        }
+        application ap;
+        ap.a_rt_i = rtip.get();
+        static const std::vector<RayPartitions>* expected;
+        expected = &answers;
+        ap.a_hit = [](application* of, partition* head, seg* segs) {
+            of->a_uptr =
+                const_cast<std::vector<csgrt::Partition>*>(&(*expected)[static_cast<std::size_t>(of->a_x)].partitions);
+            return compare(of, head, segs);
+        };
+        CHECK(librt::shoot_many(&ap, list.data(), list.size()) == hits);
+    }
+}
+
+TEST_CASE("a callback about overlaps gives them to nobody, the first or the second region") {
+    const Opened rtip = balls();
+    Told told;
+    application ap = asking(*rtip, told);
+    const std::string rest = ", d.r 50 60, e.r 100 104, f.r 104 105, g.r 105 106";
+    CHECK(rt_shootray(&ap) == 7);
+    CHECK(ap.a_return == 7);
+    CHECK(told.text == "a.r -10 10, b.r 10 22, c.r 22 34" + rest);
+    ap.a_overlap = decide;
+    rt_shootray(&ap);
+    CHECK(told.text == "a.r -10 10, b.r 10 22, c.r 22 34" + rest);
+    // a and b, b and c; e and f from 101 to 102, then with g from 102 to 104; f and g from 104 to 105.
+    CHECK(told.calls == 6);
+    told.code = 0;
+    rt_shootray(&ap);
+    CHECK(told.text == "a.r -10 2, b.r 10 14, c.r 22 34, d.r 50 60, e.r 100 101, g.r 102 104, g.r 105 106");
+    told.code = 2;
+    rt_shootray(&ap);
+    CHECK(told.text == "a.r -10 2, b.r 2 14, c.r 14 34, d.r 50 60, e.r 100 101, f.r 101 102, g.r 102 106");
+    told.text.clear();
+    ap.a_ray = along_x(5);  // within a's and b's overlap, which is told of whole
+    rt_shootray(&ap);
+    CHECK(told.text == "b.r 2 14, c.r 14 34, d.r 50 60, e.r 100 101, f.r 101 102, g.r 102 106");
+    ap.a_hit = [](application*, partition* head, seg*) {
+        const partition* b = head->pt_forw;
+        CHECK(std::string(b->pt_inseg->seg_stp->st_name) == "?");  // where a decision cut, no solid is known
+        CHECK(VDOT(b->pt_inhit->hit_normal, b->pt_inhit->hit_normal) == 0);
+        CHECK(std::string(head->pt_back->pt_outseg->seg_stp->st_dp->d_namep) == "g");
+        return 1;
+    };
+    rt_shootray(&ap);
+}
+
+TEST_CASE("a_onehit counts ends, and a ray that meets nothing is a miss") {
+    const Opened rtip = balls();
+    Told told;
+    application ap = asking(*rtip, told);
+    ap.a_onehit = 1;
+    rt_shootray(&ap);
+    CHECK(told.text == "a.r -10 10");
+    ap.a_onehit = 3;
+    rt_shootray(&ap);
+    CHECK(told.text == "a.r -10 10, b.r 10 22");
+    ap.a_ray = along_x(40);
+    ap.a_onehit = 1;
+    rt_shootray(&ap);
+    CHECK(told.text == "d.r 50 60");
+    ap.a_onehit = -1;
+    rt_shootray(&ap);
+    CHECK(told.text == "d.r 50 60, e.r 100 104");
+    CHECK(told.misses == 0);
+    ap.a_ray = along_x(200);
+    CHECK(rt_shootray(&ap) == -3);
+    CHECK(told.misses == 1);
+    CHECK_FALSE(librt::shoot(rtip.get(), along_x(-20), [](const partition&) { return false; }));
+}
+
+TEST_CASE("callbacks shoot, from several threads at once") {
+    const Opened rtip = balls();
+    std::vector<std::thread> threads;
+    std::vector<std::string> texts(4);
+    for (std::string& text : texts)
+        threads.emplace_back([&rtip, &text] {
+            for (int i = 0; i < 20; ++i) {
+                Told told;
+                application ap = asking(*rtip, told);
+                ap.a_hit = [](application* outer, partition* head, seg*) {
+                    const std::string before = text_of(head);
+                    application inner = *outer;
+                    inner.a_hit = take;
+                    inner.a_ray = along_x(40);
+                    const int answer = rt_shootray(&inner);
+                    Told& of = *static_cast<Told*>(outer->a_uptr);
+                    of.text = before == text_of(head) ? of.text : "the outer ring changed";
+                    const std::vector<xray> rays(3, along_x(70));
+                    return static_cast<int>(librt::shoot_many(&inner, rays.data(), rays.size())) + answer;
+                };
+                text = rt_shootray(&ap) == 3 + 7 ? told.text : "another answer";
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const std::string& text : texts) CHECK(text == "e.r 100 104, f.r 104 105, g.r 105 106");
+}
+
+TEST_CASE("what cannot be is refused") {
+    CHECK(rt_dirbuild("no/such/file.g", nullptr, 0) == RTI_NULL);
+    const Opened rtip = balls();
+    CHECK(rtip->Regions[3]->reg_los == 50);
+    CHECK(rtip->Regions[6]->reg_aircode == 1);  // air comes last
+    CHECK(rtip->mdl_max[X] == 106);
+    const char* names[] = {"a.r", "z.r"};
+    CHECK(rt_gettrees(rtip.get(), 2, names, 1) < 0);
+    CHECK(rtip->objects.empty());
+    Told told;
+    application ap = asking(*rtip, told);
+    VSET(ap.a_ray.r_dir, 0, 0, 0);
+    CHECK_THROWS_AS(rt_shootray(&ap), Error);
+    ap.a_rt_i = RTI_NULL;
+    CHECK_THROWS_WITH(rt_shootray(&ap), "the model is not prepared: call rt_prep_parallel() first");
+}
