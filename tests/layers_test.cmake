@@ -18,6 +18,7 @@ set(may_scene formats)  # one layer with formats: a finding quotes the line of t
 set(may_formats scene)
 set(may_verify "")  # all it needs is public
 set(may_image "")
+set(may_c "")
 
 # Within pipeline, scheduling includes passes and readback, which do not know of each other, nor of scheduling.
 set(where_CL device native pipeline)

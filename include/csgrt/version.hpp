@@ -2,8 +2,6 @@
 // project's version from here.
 #pragma once
 
-#include <csgrt/error.hpp>
-
 #define CSGRT_VERSION_MAJOR 0
 #define CSGRT_VERSION_MINOR 1
 #define CSGRT_VERSION_PATCH 0
@@ -17,6 +15,9 @@
 #define CSGRT_VERSION_STRING \
     CSGRT_TEXT_(CSGRT_VERSION_MAJOR) "." CSGRT_TEXT_(CSGRT_VERSION_MINOR) "." CSGRT_TEXT_(CSGRT_VERSION_PATCH)
 
+#ifdef __cplusplus
+#include <csgrt/error.hpp>
+
 namespace csgrt {
 
 /// The version of the library that the program has loaded, as CSGRT_VERSION_STRING has it. It differs from
@@ -24,3 +25,4 @@ namespace csgrt {
 CSGRT_API const char* version();
 
 }  // namespace csgrt
+#endif

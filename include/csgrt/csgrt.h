@@ -1,0 +1,635 @@
+// csgrt in C99: exact ray tracing of Constructive Solid Geometry. Functions and members have the names of the C++
+// headers beside this one, which say more of each; examples/partitions.c is a whole program.
+//
+// What holds everywhere unless a comment says otherwise:
+// - A call returns CSGRT_OK, or what failed; then csgrt_last_error() has the text, and what the call would have filled
+//   is unchanged, but for handles, which are NULL. No C++ exception leaves a call.
+// - A handle that a call puts into a `csgrt_x**` is the caller's, who frees it with csgrt_x_free(), which takes NULL.
+//   Handles keep what they need of others, which may be freed before them. Calls copy what they are given.
+// - A pointer that a call hands out is valid as long as its handle, and until the next call that changes the handle.
+// - Structs that may grow begin with their size and with defaults, as in `csgrt_view view = CSGRT_VIEW;`. In memory
+// from
+//   elsewhere the caller sets `size` first, also of structs that calls fill. Of a shorter struct, from the header of an
+//   earlier version, the members that are not there have their defaults.
+// - A pointer to several things has a count beside it; both may be 0. Text is UTF-8 and ends with 0; no text is "".
+// - Lengths are millimetres, angles degrees, z is up, matrices are 4 x 4, row by row, for column vectors. Distances
+//   along a ray are in lengths of its direction. Colours are red, green and blue, from 0 to 1.
+// - Threads. csgrt_model: any number at a time. csgrt_scene: any number that read (functions that take it const), or
+// one
+//   that changes it. csgrt_renderer, csgrt_edit, csgrt_partitions, csgrt_image, csgrt_verifier: one at a time, not
+//   always the same one; csgrt_renderer_model() and csgrt_renderer_set_model() may be called meanwhile.
+#ifndef CSGRT_CSGRT_H
+#define CSGRT_CSGRT_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <csgrt/version.hpp>  // macros alone in C
+
+#ifndef CSGRT_API  // in C
+#define CSGRT_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The version of the library that the program has loaded. CSGRT_VERSION_STRING is that of this header.
+CSGRT_API const char* csgrt_version(void);
+
+// ---- Failures ----
+
+/// The kind of a failure: csgrt::Status, and `unexpected`, a fault of csgrt's own.
+typedef enum csgrt_status {
+    CSGRT_OK = 0,
+    CSGRT_ERROR_UNEXPECTED = 1,
+    CSGRT_ERROR_USAGE = 2,  ///< an argument is invalid: NULL, a struct's size, an index, a value; the text names it
+    CSGRT_ERROR_SCENE = 3,
+    CSGRT_ERROR_NO_DEVICE = 4,
+    CSGRT_ERROR_OUT_OF_MEMORY = 5,
+    CSGRT_ERROR_FILE = 6,
+    CSGRT_ERROR_DEVICE_FAULT = 7,
+    CSGRT_ERROR_DIFFERS = 8,  ///< csgrt_verifier_result(): what was computed is wrong
+    CSGRT_ERROR_INTERRUPTED = 130
+} csgrt_status;
+
+/// One thing that is wrong, or that was tolerated.
+typedef struct csgrt_diagnostic {
+    size_t size;
+    const char *message, *suggestion;  ///< what is wrong, and what was expected; what to do
+    const char *file, *pointer;        ///< where: the file, and a JSON pointer or an object's name in it
+    const char* excerpt;               ///< the line of the file, with a caret under the place
+    int line, column;                  ///< from 1; 0: unknown
+    int64_t offset;                    ///< bytes; -1: unknown
+    uint64_t count;                    ///< how many times it occurs
+    int appearance;                    ///< 1: it changes colours alone
+} csgrt_diagnostic;
+#define CSGRT_DIAGNOSTIC \
+    { sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0 }
+
+/// Of the last call of this thread that failed: all diagnostics as text, and each of them. The pointers are valid until
+/// the next call of this thread fails.
+CSGRT_API const char* csgrt_last_error(void);
+CSGRT_API size_t csgrt_last_diagnostic_count(void);
+CSGRT_API csgrt_status csgrt_last_diagnostic(size_t index, csgrt_diagnostic* diagnostic);
+
+// ---- What calls are given ----
+
+typedef struct csgrt_vec3 {
+    double x, y, z;
+} csgrt_vec3;
+typedef struct csgrt_box {
+    csgrt_vec3 low, high;
+} csgrt_box;
+typedef struct csgrt_plane {
+    csgrt_vec3 normal;
+    double distance;
+} csgrt_plane;
+
+/// Gets `user` and the done fraction, on the thread whose call it is. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
+typedef int (*csgrt_progress)(void* user, double done);
+
+// Values of the members precision, quartic and tolerance_rule, as csgrt/method.hpp has them.
+enum { CSGRT_PRECISION_DOUBLE, CSGRT_PRECISION_SINGLE, CSGRT_PRECISION_SINGLE_WORLD, CSGRT_PRECISION_QUAD };
+enum { CSGRT_QUARTIC_BRACKETED, CSGRT_QUARTIC_BRACKETED_UNSHIFTED, CSGRT_QUARTIC_FERRARI, CSGRT_QUARTIC_YUKSEL };
+enum { CSGRT_TOLERANCE_LENGTH, CSGRT_TOLERANCE_SURFACES, CSGRT_TOLERANCE_RELATIVE, CSGRT_TOLERANCE_NONE };
+
+/// csgrt::Settings. NULL in place of a pointer to it: the defaults.
+typedef struct csgrt_settings {
+    size_t size;
+    const char* device;  ///< a number of csgrt_device(), "cpu", "gpu", or a part of a name; "": whichever is best
+    int reference, wait_for_device;
+    double device_timeout;  ///< seconds; negative: 60 for a GPU
+    uint64_t max_memory, max_instances;
+    int precision, quartic, contraction, tolerance_rule;
+    double tolerance;  ///< millimetres; negative: the scene's
+    int air, skip_unsupported, display_shading;
+    unsigned check, threads;
+    csgrt_progress progress;  ///< NULL: none
+    void* user;
+} csgrt_settings;
+#define CSGRT_SETTINGS \
+    { sizeof(csgrt_settings), "", 0, 0, -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, NULL, NULL }
+
+/// csgrt::DeviceInfo
+typedef struct csgrt_device_info {
+    size_t size;
+    const char *name, *platform, *version, *driver, *type;
+    uint64_t memory, max_allocation;  ///< bytes
+    unsigned compute_units;
+    int fp64;
+} csgrt_device_info;
+#define CSGRT_DEVICE_INFO \
+    { sizeof(csgrt_device_info), "", "", "", "", "", 0, 0, 0, 0 }
+
+/// Looks for all devices. Any thread. Then csgrt_device() of the same thread tells of each; its texts are valid until
+/// the thread looks again.
+CSGRT_API csgrt_status csgrt_devices(size_t* count);
+CSGRT_API csgrt_status csgrt_device(size_t index, csgrt_device_info* info);
+/// Starts the search on a thread of its own, and returns at once: before a scene is loaded it spares the wait.
+CSGRT_API csgrt_status csgrt_prepare_devices(const csgrt_settings* settings);
+
+// ---- Scenes ----
+
+typedef struct csgrt_scene csgrt_scene;
+
+typedef struct csgrt_load_options {
+    size_t size;
+    int strict;                       ///< 1: any fault of a BRL-CAD database is an error
+    const char* const* file_folders;  ///< below which a scene may name files, besides the folder of its own file
+    size_t file_folder_count;
+} csgrt_load_options;
+#define CSGRT_LOAD_OPTIONS \
+    { sizeof(csgrt_load_options), 0, NULL, 0 }
+
+/// Reads .json, .g or .asc. CSGRT_ERROR_FILE, or CSGRT_ERROR_SCENE with every error of the file. `options`: NULL for
+/// the defaults.
+CSGRT_API csgrt_status csgrt_load_scene(const char* path, const csgrt_load_options* options, csgrt_scene** scene);
+/// Reads the bytes of such a file. Errors call it `name`.
+CSGRT_API csgrt_status csgrt_parse_scene(const void* bytes, size_t count, const char* name,
+                                         const csgrt_load_options* options, csgrt_scene** scene);
+/// An empty scene.
+CSGRT_API csgrt_status csgrt_scene_create(csgrt_scene** scene);
+CSGRT_API void csgrt_scene_free(csgrt_scene* scene);
+/// Writes .json.
+CSGRT_API csgrt_status csgrt_save_scene(const csgrt_scene* scene, const char* path);
+/// CSGRT_OK, or CSGRT_ERROR_SCENE: csgrt_last_diagnostic() has every error in what the objects reach. `objects` are
+/// names or paths; none: the scene's top objects. Of the settings, skip_unsupported and max_instances count.
+CSGRT_API csgrt_status csgrt_validate(const csgrt_scene* scene, const char* const* objects, size_t object_count,
+                                      const csgrt_settings* settings);
+
+/// One member of a solid: as scenes/csgrt.schema.json and docs/scene-format.md have it, in millimetres and degrees.
+typedef struct csgrt_member {
+    const char* name;
+    const double* values;  ///< a number, or a vector; or a list of vectors: `columns` numbers each, one after the other
+    size_t count, columns;  ///< of all numbers; of a vector in a list, 0 if it is no list of vectors
+    const char* json;       ///< in place of numbers, any value of JSON, such as "\"plate\""; NULL: the numbers
+} csgrt_member;
+#ifndef __cplusplus
+/// In C, in a function: {CSGRT_MEMBER("center", 0, 0, 0), CSGRT_MEMBER("radius", 10)}
+#define CSGRT_MEMBER(name, ...) \
+    { name, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double), 0, NULL }
+#endif
+/// Adds a solid, with a type of the scene format: "sphere", "box", "cylinder", "ell", "tgc", ...
+/// CSGRT_ERROR_SCENE: what the type or the members lack.
+CSGRT_API csgrt_status csgrt_scene_add_solid(csgrt_scene* scene, const char* name, const char* type,
+                                             const csgrt_member* members, size_t member_count);
+/// Adds a closed triangle mesh (a bot of mode `volume`). A face is three indices into the vertices.
+CSGRT_API csgrt_status csgrt_scene_add_mesh(csgrt_scene* scene, const char* name, const csgrt_vec3* vertices,
+                                            size_t vertex_count, const uint32_t* faces, size_t face_count);
+
+typedef enum csgrt_operator {
+    CSGRT_LEAF,
+    CSGRT_UNION,
+    CSGRT_INTERSECTION,
+    CSGRT_DIFFERENCE,
+    CSGRT_XOR,
+    CSGRT_NOT
+} csgrt_operator;
+/// A node of a Boolean tree in postfix order: an operator follows its `arity` operands. "ball" less "hole" is
+/// {CSGRT_OBJECT("ball"), CSGRT_OBJECT("hole"), CSGRT_JOIN(CSGRT_DIFFERENCE, 2)}.
+typedef struct csgrt_tree_node {
+    csgrt_operator op;
+    uint32_t arity;        ///< of an operator
+    const char* object;    ///< of a leaf: the name of a solid or a combination
+    const double* matrix;  ///< of a leaf: 16 numbers, from the object's coordinates to the tree's; NULL: the same
+    const char* name;      ///< of a leaf: its name in paths; NULL: the object's
+} csgrt_tree_node;
+#define CSGRT_OBJECT(object) \
+    { CSGRT_LEAF, 0, object, NULL, NULL }
+#define CSGRT_PLACED(object, matrix) \
+    { CSGRT_LEAF, 0, object, matrix, NULL }
+#define CSGRT_JOIN(op, arity) \
+    { op, arity, NULL, NULL, NULL }
+
+/// csgrt::Finish, and its light.
+typedef struct csgrt_finish {
+    size_t size;
+    const char* shader;
+    double specular, diffuse, ambient;
+    int shine;
+    double transmit, reflect;
+    int shines;  ///< 1: the region is a light, and the members below count
+    double intensity, fraction, angle;
+    const csgrt_vec3 *target, *direction;  ///< NULL: not given
+    int infinite, visible, shadows;
+} csgrt_finish;
+#define CSGRT_FINISH \
+    { sizeof(csgrt_finish), "plastic", 0.7, 0.3, 1, 10, 0, 0, 0, 1, 0, 180, NULL, NULL, 0, 1, 1 }
+
+/// csgrt::Combination: a Boolean tree under a name. With `region` it is one piece of material.
+typedef struct csgrt_combination {
+    size_t size;
+    const char* name;
+    const csgrt_tree_node* nodes;
+    size_t node_count;
+    int region, fastgen, region_id, air, material_id, los;
+    const csgrt_vec3* color;     ///< NULL: not given
+    const csgrt_finish* finish;  ///< NULL: not given
+    int color_inherits, finish_inherits;
+} csgrt_combination;
+#define CSGRT_COMBINATION \
+    { sizeof(csgrt_combination), "", NULL, 0, 0, 0, 0, 0, 1, 100, NULL, NULL, 0, 0 }
+CSGRT_API csgrt_status csgrt_scene_add_combination(csgrt_scene* scene, const csgrt_combination* combination);
+
+/// csgrt::Camera. NULL: not given.
+typedef struct csgrt_camera {
+    size_t size;
+    double azimuth, elevation, perspective;
+    double view_size;  ///< millimetres; 0: not given
+    const csgrt_vec3 *center, *eye, *look_at, *up;
+} csgrt_camera;
+#define CSGRT_CAMERA \
+    { sizeof(csgrt_camera), 35, 25, 0, 0, NULL, NULL, NULL, NULL }
+CSGRT_API csgrt_status csgrt_scene_camera(const csgrt_scene* scene, csgrt_camera* camera);
+CSGRT_API csgrt_status csgrt_scene_set_camera(csgrt_scene* scene, const csgrt_camera* camera);
+/// Takes the camera from a script that MGED's `saveview` wrote.
+CSGRT_API csgrt_status csgrt_scene_load_view(csgrt_scene* scene, const char* path);
+
+typedef struct csgrt_light {
+    csgrt_vec3 position, color;
+    double intensity;
+    int infinite;
+    double angle;
+    csgrt_vec3 direction;
+} csgrt_light;
+#define CSGRT_LIGHT                                   \
+    {                                                 \
+        {0, 0, 0}, {1, 1, 1}, 1, 0, 180, { 0, 0, -1 } \
+    }
+CSGRT_API csgrt_status csgrt_scene_set_lights(csgrt_scene* scene, const csgrt_light* lights, size_t count);
+/// What is drawn by default: names or paths; none: what no other object uses.
+CSGRT_API csgrt_status csgrt_scene_set_top(csgrt_scene* scene, const char* const* objects, size_t count);
+
+/// The plain members of csgrt::Scene.
+typedef struct csgrt_scene_info {
+    size_t size;
+    const char *title, *units;
+    double unit_length, ambient;
+    csgrt_vec3 background;
+    double tolerance;  ///< millimetres; 0: by surfaces
+    int lenient;
+    size_t object_count, top_count, warning_count;  ///< csgrt_scene_set_info() leaves them as they are
+} csgrt_scene_info;
+#define CSGRT_SCENE_INFO \
+    { sizeof(csgrt_scene_info), "", "mm", 1, 0.4, {0, 0, 0}, 0, 0, 0, 0, 0 }
+CSGRT_API csgrt_status csgrt_scene_get_info(const csgrt_scene* scene, csgrt_scene_info* info);
+CSGRT_API csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scene_info* info);
+/// The name of an object; its type: that of a solid ("ell"), "region" or "combination". Either may be NULL.
+CSGRT_API csgrt_status csgrt_scene_object(const csgrt_scene* scene, size_t index, const char** name, const char** type);
+CSGRT_API csgrt_status csgrt_scene_top(const csgrt_scene* scene, size_t index, const char** object);
+/// What the file's reader tolerated: the object is `pointer`.
+CSGRT_API csgrt_status csgrt_scene_warning(const csgrt_scene* scene, size_t index, csgrt_diagnostic* warning);
+
+// ---- Models ----
+
+/// A compiled scene, which never changes.
+typedef struct csgrt_model csgrt_model;
+
+enum { CSGRT_STATE_SHOWN, CSGRT_STATE_GHOST, CSGRT_STATE_HIDDEN };       // state
+enum { CSGRT_FASTGEN_NONE, CSGRT_FASTGEN_PLATE, CSGRT_FASTGEN_VOLUME };  // fastgen
+
+/// Validates and compiles. `objects` as in csgrt_validate(). CSGRT_ERROR_SCENE, CSGRT_ERROR_USAGE.
+CSGRT_API csgrt_status csgrt_model_create(const csgrt_scene* scene, const char* const* objects, size_t object_count,
+                                          const csgrt_settings* settings, csgrt_model** model);
+CSGRT_API void csgrt_model_free(csgrt_model* model);
+/// The scene with all edits.
+CSGRT_API csgrt_status csgrt_model_scene(const csgrt_model* model, csgrt_scene** scene);
+
+typedef struct csgrt_model_info {
+    size_t size;
+    csgrt_box bounds;  ///< millimetres; low > high: no region is bounded
+    double tolerance;  ///< millimetres
+    size_t region_count, solid_count, warning_count;
+} csgrt_model_info;
+#define CSGRT_MODEL_INFO \
+    { sizeof(csgrt_model_info), {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0 }
+CSGRT_API csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_model_info* info);
+
+/// csgrt::RegionInfo
+typedef struct csgrt_region_info {
+    size_t size;
+    const char* path;
+    int fastgen, region_id, air, material_id, los, state;
+    csgrt_vec3 color;
+    csgrt_box bounds;
+} csgrt_region_info;
+#define CSGRT_REGION_INFO                                             \
+    {                                                                 \
+        sizeof(csgrt_region_info), "", 0, 0, 0, 0, 0, 0, {0, 0, 0}, { \
+            {0, 0, 0}, { 0, 0, 0 }                                    \
+        }                                                             \
+    }
+/// Of the region that region_ids have as `index`.
+CSGRT_API csgrt_status csgrt_model_region(const csgrt_model* model, size_t index, csgrt_region_info* info);
+CSGRT_API csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_finish* finish);
+
+/// csgrt::SolidInfo
+typedef struct csgrt_solid_info {
+    size_t size;
+    const char *name, *type;
+    uint32_t piece;
+} csgrt_solid_info;
+#define CSGRT_SOLID_INFO \
+    { sizeof(csgrt_solid_info), "", "", 0 }
+/// Of the solid that solid ids have as `index`.
+CSGRT_API csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info);
+CSGRT_API csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning);
+
+// ---- Rays ----
+
+typedef struct csgrt_ray {
+    csgrt_vec3 origin, direction;  ///< the direction of any length but 0
+} csgrt_ray;
+typedef struct csgrt_range {
+    double t_near, t_far;
+} csgrt_range;
+
+/// csgrt::RayGrid: rays in rows and columns, which a device makes itself.
+typedef struct csgrt_ray_grid {
+    csgrt_vec3 origin, direction, right, up;
+    int columns, rows, is_pinhole;
+} csgrt_ray_grid;
+/// Parallel rays along an axis, 0 to 2, through a box.
+CSGRT_API csgrt_status csgrt_rays_parallel(const csgrt_box* box, int axis, int columns, int rows, csgrt_ray_grid* grid);
+/// Rays from an eye through a picture's pixels. `vertical_fov`: degrees.
+CSGRT_API csgrt_status csgrt_rays_pinhole(double vertical_fov, const csgrt_vec3* center, const csgrt_vec3* eye,
+                                          const csgrt_vec3* up, int width, int height, csgrt_ray_grid* grid);
+/// The ray of number row x columns + column.
+CSGRT_API csgrt_status csgrt_ray_grid_ray(const csgrt_ray_grid* grid, int column, int row, csgrt_ray* ray);
+
+/// Rays, and what of them is wanted.
+typedef struct csgrt_rays {
+    size_t size;
+    const csgrt_ray* list;
+    size_t count;
+    const csgrt_ray_grid* grid;  ///< in place of the list
+    csgrt_range range;           ///< of all rays, in lengths of their directions
+    const csgrt_range* ranges;   ///< in its place, one a ray
+    size_t range_count;
+    unsigned fields;  ///< of csgrt_partitions, besides regions and distances: CSGRT_FIELD_SOLIDS | ...
+} csgrt_rays;
+#define CSGRT_RAYS \
+    { sizeof(csgrt_rays), NULL, 0, NULL, {0, HUGE_VAL}, NULL, 0, 0 }
+enum {
+    CSGRT_FIELD_SOLIDS = 1,
+    CSGRT_FIELD_NORMALS = 2,
+    CSGRT_FIELD_OVERLAPS = 4,
+    CSGRT_FIELD_WITHOUT_HIDDEN = 8
+};  // fields
+
+/// Memory for everything along a list of rays, which the next call uses again.
+typedef struct csgrt_partitions csgrt_partitions;
+CSGRT_API csgrt_status csgrt_partitions_create(csgrt_partitions** partitions);
+CSGRT_API void csgrt_partitions_free(csgrt_partitions* partitions);
+
+/// csgrt::Partitions: the rows of ray i are [ray_splits[i], ray_splits[i + 1]), in order of distance. What was not
+/// asked for is NULL.
+typedef struct csgrt_partition_arrays {
+    size_t size;
+    size_t ray_count, row_count, overlap_count, claimant_count;
+    const int64_t* ray_splits;                   ///< (ray_count + 1)
+    const int32_t* region_ids;                   ///< (row_count), for csgrt_model_region()
+    const double *t_in, *t_out;                  ///< (row_count)
+    const int32_t *in_solids, *out_solids;       ///< (row_count), for csgrt_model_solid(); -1: the range's bound
+    const csgrt_vec3 *in_normals, *out_normals;  ///< (row_count), unit vectors, outward from the region
+    const int64_t* overlap_splits;               ///< (ray_count + 1)
+    const double *overlap_t_in, *overlap_t_out;  ///< (overlap_count)
+    const int64_t* overlap_region_splits;        ///< (overlap_count + 1)
+    const int32_t* overlap_region_ids;           ///< (claimant_count)
+} csgrt_partition_arrays;
+#define CSGRT_PARTITION_ARRAYS                                                                                        \
+    {                                                                                                                 \
+        sizeof(csgrt_partition_arrays), 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, \
+            NULL, NULL                                                                                                \
+    }
+/// Hands out the arrays, without a copy; valid until the next call that fills the handle.
+CSGRT_API csgrt_status csgrt_partitions_get(const csgrt_partitions* partitions, csgrt_partition_arrays* arrays);
+
+/// Where rays first meet a region, in the caller's memory: `count` elements each, one a ray. NULL: not wanted.
+typedef struct csgrt_hits {
+    size_t size;
+    size_t count;
+    double* t_hit;                    ///< infinity: a miss
+    int32_t *region_ids, *solid_ids;  ///< -1: a miss; of a solid also where the range begins inside
+    csgrt_vec3* normals;              ///< zeros where the solid is -1
+} csgrt_hits;
+#define CSGRT_HITS \
+    { sizeof(csgrt_hits), 0, NULL, NULL, NULL, NULL }
+
+/// csgrt::Slice: pixels in a plane.
+typedef struct csgrt_slice {
+    csgrt_vec3 center, right, up;  ///< `right` and `up`: from a pixel to the next one
+    int width, height;
+    int hidden;  ///< 0: without regions that pictures do not show
+} csgrt_slice;
+/// The slice of a box by the plane n . p = offset, n being the unit vector of `normal`.
+CSGRT_API csgrt_status csgrt_slice_of(const csgrt_box* box, const csgrt_vec3* normal, double offset, int width,
+                                      int height, csgrt_slice* slice);
+
+// On the calling thread alone: for single rays and short lists. The bits are those of a renderer in double precision.
+// CSGRT_ERROR_USAGE names the index of a ray that is invalid.
+
+CSGRT_API csgrt_status csgrt_model_partitions(const csgrt_model* model, const csgrt_rays* rays,
+                                              csgrt_partitions* partitions);
+CSGRT_API csgrt_status csgrt_model_cast_rays(const csgrt_model* model, const csgrt_rays* rays, const csgrt_hits* hits);
+/// 1 for each of the `count` rays that meets a region within its range, else 0.
+CSGRT_API csgrt_status csgrt_model_occluded(const csgrt_model* model, const csgrt_rays* rays, uint8_t* answers,
+                                            size_t count);
+/// The region that holds each of `count` points; -1: none.
+CSGRT_API csgrt_status csgrt_model_region_at(const csgrt_model* model, const csgrt_vec3* points, int32_t* ids,
+                                             size_t count);
+/// The region at each pixel, row by row from the top left; count = width x height. -1: none, -2: several, which
+/// overlap.
+CSGRT_API csgrt_status csgrt_model_slice(const csgrt_model* model, const csgrt_slice* slice, int32_t* ids,
+                                         size_t count);
+
+// ---- Renderers ----
+
+/// Draws and shoots on a device.
+typedef struct csgrt_renderer csgrt_renderer;
+/// CSGRT_ERROR_USAGE, CSGRT_ERROR_NO_DEVICE, CSGRT_ERROR_OUT_OF_MEMORY, CSGRT_ERROR_DEVICE_FAULT.
+CSGRT_API csgrt_status csgrt_renderer_create(const csgrt_model* model, const csgrt_settings* settings,
+                                             csgrt_renderer** renderer);
+/// May wait for a driver that compiles, half a minute at most.
+CSGRT_API void csgrt_renderer_free(csgrt_renderer* renderer);
+CSGRT_API csgrt_status csgrt_renderer_model(const csgrt_renderer* renderer, csgrt_model** model);
+CSGRT_API csgrt_status csgrt_renderer_set_model(csgrt_renderer* renderer, const csgrt_model* model);
+
+// As the model's, on the renderer's device. All may also fail with CSGRT_ERROR_OUT_OF_MEMORY, CSGRT_ERROR_DEVICE_FAULT
+// and CSGRT_ERROR_INTERRUPTED.
+
+CSGRT_API csgrt_status csgrt_renderer_partitions(csgrt_renderer* renderer, const csgrt_rays* rays,
+                                                 csgrt_partitions* partitions);
+CSGRT_API csgrt_status csgrt_renderer_cast_rays(csgrt_renderer* renderer, const csgrt_rays* rays,
+                                                const csgrt_hits* hits);
+CSGRT_API csgrt_status csgrt_renderer_occluded(csgrt_renderer* renderer, const csgrt_rays* rays, uint8_t* answers,
+                                               size_t count);
+CSGRT_API csgrt_status csgrt_renderer_region_at(csgrt_renderer* renderer, const csgrt_vec3* points, int32_t* ids,
+                                                size_t count);
+CSGRT_API csgrt_status csgrt_renderer_slice(csgrt_renderer* renderer, const csgrt_slice* slice, int32_t* ids,
+                                            size_t count);
+/// Gets `user`, the partitions of a batch, and the number of its first ray. 0 ends the call, without a failure.
+typedef int (*csgrt_take)(void* user, const csgrt_partitions* batch, uint64_t first_ray);
+/// Partitions in batches of at most `most` rays, for any number of rays.
+CSGRT_API csgrt_status csgrt_renderer_partitions_in_batches(csgrt_renderer* renderer, const csgrt_rays* rays,
+                                                            uint64_t most, csgrt_take take, void* user);
+
+/// Of the last call: a part of csgrt::Statistics. Milliseconds and bytes.
+typedef struct csgrt_statistics {
+    size_t size;
+    const char *device, *awaited_device;
+    uint64_t rays, segments, partitions, overlaps, device_bytes;
+    double ms_compile, ms_build, ms_kernels, ms_frame;
+} csgrt_statistics;
+#define CSGRT_STATISTICS \
+    { sizeof(csgrt_statistics), "", "", 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+CSGRT_API csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics);
+/// The model's warnings, then those about devices.
+CSGRT_API csgrt_status csgrt_renderer_warning_count(const csgrt_renderer* renderer, size_t* count);
+CSGRT_API csgrt_status csgrt_renderer_warning(const csgrt_renderer* renderer, size_t index, csgrt_diagnostic* warning);
+
+// ---- Pictures ----
+
+enum {  // channels
+    CSGRT_CHANNEL_COLOR = 1,
+    CSGRT_CHANNEL_DISTANCE = 2,
+    CSGRT_CHANNEL_NORMAL = 4,
+    CSGRT_CHANNEL_IDS = 8,
+    CSGRT_CHANNEL_COUNTS = 16,
+    CSGRT_CHANNEL_ALL = 31,
+    CSGRT_CHANNEL_DISPLAY = 32,
+    CSGRT_CHANNEL_GHOSTS = 64
+};
+
+typedef struct csgrt_pixel_rectangle {
+    int left, top, width, height;
+} csgrt_pixel_rectangle;
+
+/// csgrt::View: what to draw.
+typedef struct csgrt_view {
+    size_t size;
+    int width, height;
+    const csgrt_camera* camera;  ///< NULL: CSGRT_CAMERA
+    int every_partition;
+    unsigned channels;        ///< CSGRT_CHANNEL_COLOR | ...
+    const csgrt_plane* clip;  ///< up to six
+    size_t clip_count;
+    const csgrt_pixel_rectangle* part;  ///< NULL: the whole picture
+    int samples, transparent;
+} csgrt_view;
+#define CSGRT_VIEW \
+    { sizeof(csgrt_view), 1024, 1024, NULL, 1, CSGRT_CHANNEL_ALL, NULL, 0, NULL, 1, 0 }
+
+/// A picture's memory, which the next frame uses again.
+typedef struct csgrt_image csgrt_image;
+CSGRT_API csgrt_status csgrt_image_create(csgrt_image** image);
+CSGRT_API void csgrt_image_free(csgrt_image* image);
+CSGRT_API csgrt_status csgrt_renderer_render(csgrt_renderer* renderer, const csgrt_view* view, csgrt_image* image);
+
+typedef struct csgrt_image_info {
+    size_t size;
+    int width, height;
+    size_t channel_count;
+    int display_values;  ///< 1: R G B are display values; 0: linear light
+} csgrt_image_info;
+#define CSGRT_IMAGE_INFO \
+    { sizeof(csgrt_image_info), 0, 0, 0, 0 }
+CSGRT_API csgrt_status csgrt_image_get_info(const csgrt_image* image, csgrt_image_info* info);
+/// The name of a channel ("R", "Z", "region", ... csgrt::Image has the list), and whether it holds ids.
+CSGRT_API csgrt_status csgrt_image_channel_name(const csgrt_image* image, size_t index, const char** name,
+                                                int* holds_ids);
+/// The values of a channel, without a copy: width x height, row by row from the top left.
+CSGRT_API csgrt_status csgrt_image_channel(const csgrt_image* image, const char* name, const float** values,
+                                           size_t* count);
+/// The same of a channel of ids: index + 1; 0: nothing.
+CSGRT_API csgrt_status csgrt_image_ids(const csgrt_image* image, const char* name, const uint32_t** ids, size_t* count);
+/// Copies channels of floats: of each pixel the values of all `names`; count = width x height x name_count.
+CSGRT_API csgrt_status csgrt_image_copy(const csgrt_image* image, const char* const* names, size_t name_count,
+                                        float* values, size_t count);
+/// Copies the colours for a display: R G B A of each pixel, a byte each; count = width x height x 4. The picture has
+/// the channels of CSGRT_CHANNEL_COLOR or, faster, of CSGRT_CHANNEL_DISPLAY.
+CSGRT_API csgrt_status csgrt_image_display_pixels(const csgrt_image* image, unsigned char* bytes, size_t count);
+
+/// csgrt::Pick: what a picture shows at a pixel.
+typedef struct csgrt_pick {
+    size_t size;
+    int32_t region, solid;  ///< -1: nothing
+    double t;
+    csgrt_vec3 point, normal;
+    csgrt_ray ray;  ///< for csgrt_model_partitions()
+} csgrt_pick;
+#define CSGRT_PICK                                             \
+    {                                                          \
+        sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, { \
+            {0, 0, 0}, { 0, 0, 0 }                             \
+        }                                                      \
+    }
+CSGRT_API csgrt_status csgrt_model_pick(const csgrt_model* model, const csgrt_view* view, int column, int row,
+                                        csgrt_pick* pick);
+/// The rays of a whole view, one a pixel.
+CSGRT_API csgrt_status csgrt_model_grid_of(const csgrt_model* model, const csgrt_view* view, csgrt_ray_grid* grid);
+
+// ---- Edits ----
+
+/// csgrt::Edit: changes to a model, which make the next model at once.
+typedef struct csgrt_edit csgrt_edit;
+CSGRT_API csgrt_status csgrt_edit_create(const csgrt_model* model, csgrt_edit** edit);
+CSGRT_API void csgrt_edit_free(csgrt_edit* edit);
+CSGRT_API csgrt_status csgrt_edit_set_color(csgrt_edit* edit, const char* path, const csgrt_vec3* color);
+CSGRT_API csgrt_status csgrt_edit_set_finish(csgrt_edit* edit, const char* path, const csgrt_finish* finish);
+CSGRT_API csgrt_status csgrt_edit_set_state(csgrt_edit* edit, const char* path, int state);
+CSGRT_API csgrt_status csgrt_edit_set_lights(csgrt_edit* edit, const csgrt_light* lights, size_t count);
+CSGRT_API csgrt_status csgrt_edit_set_ambient(csgrt_edit* edit, double intensity);
+CSGRT_API csgrt_status csgrt_edit_set_background(csgrt_edit* edit, const csgrt_vec3* color);
+/// The matrix of a path's last leg. `share_all`: 1 for all that share the leg, 0 for this instance alone.
+CSGRT_API csgrt_status csgrt_edit_set_matrix(csgrt_edit* edit, const char* path, const double matrix[16],
+                                             int share_all);
+/// Gives the solid `solid` the shape of a solid of a scene.
+CSGRT_API csgrt_status csgrt_edit_replace(csgrt_edit* edit, const char* solid, const csgrt_scene* scene,
+                                          const char* name);
+/// Adds an object of a scene; `top`: 1: as one of the top objects.
+CSGRT_API csgrt_status csgrt_edit_add(csgrt_edit* edit, const csgrt_scene* scene, const char* name, int top);
+/// Adds a leg to a combination: its tree becomes tree `op` leg. `matrix`: 16 numbers, or NULL.
+CSGRT_API csgrt_status csgrt_edit_add_leg(csgrt_edit* edit, const char* combination, csgrt_operator op,
+                                          const char* object, const double* matrix);
+CSGRT_API csgrt_status csgrt_edit_remove(csgrt_edit* edit, const char* path);
+/// The next model; the edits stay.
+CSGRT_API csgrt_status csgrt_edit_commit(const csgrt_edit* edit, csgrt_model** model);
+
+// ---- Verification ----
+
+/// csgrt::Verifier: compares a device with the reference, and both with 113-bit arithmetic.
+typedef struct csgrt_verifier csgrt_verifier;
+CSGRT_API csgrt_status csgrt_verifier_create(const csgrt_scene* scene, const char* const* objects, size_t object_count,
+                                             const csgrt_settings* settings, csgrt_verifier** verifier);
+CSGRT_API void csgrt_verifier_free(csgrt_verifier* verifier);
+/// Puts `count` rays into the caller's memory. `camera`: NULL for CSGRT_CAMERA.
+CSGRT_API csgrt_status csgrt_verifier_sample(const csgrt_verifier* verifier, const csgrt_camera* camera, uint64_t seed,
+                                             csgrt_ray* rays, size_t count);
+CSGRT_API csgrt_status csgrt_verifier_shoot(csgrt_verifier* verifier, const csgrt_ray* rays, size_t count);
+
+/// A part of csgrt::Verification, about all rays so far.
+typedef struct csgrt_verification {
+    size_t size;
+    const char* device;  ///< "": the reference alone is verified
+    uint64_t rays, hits, decided, ties, wrong, bit_differences, ends, leaping_ends;
+    double largest_error, largest_ulps;  ///< of an end: millimetres along the ray, and units of the last place
+    uint64_t first_wrong;                ///< the number of the first wrong ray, if there is one
+    csgrt_ray wrong_ray;                 ///< and that ray
+} csgrt_verification;
+#define CSGRT_VERIFICATION                                                 \
+    {                                                                      \
+        sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { \
+            {0, 0, 0}, { 0, 0, 0 }                                         \
+        }                                                                  \
+    }
+/// Fills the result, and returns CSGRT_OK if no ray is wrong and no bit differs, else CSGRT_ERROR_DIFFERS.
+CSGRT_API csgrt_status csgrt_verifier_result(const csgrt_verifier* verifier, csgrt_verification* result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,198 @@
+#include "c/call.hpp"
+
+using namespace csgrt;
+
+namespace {
+
+/// The last failure of a thread.
+struct Failure {
+    std::vector<Diagnostic> diagnostics = {};
+    std::string text = {};
+    const char* shown = "";  ///< `text`, or where there is no memory for one, a constant
+};
+thread_local Failure last;
+
+csgrt_status keep(csgrt_status status, std::vector<Diagnostic> diagnostics, const char* text) {
+    last = {std::move(diagnostics), text};
+    last.shown = last.text.c_str();
+    return status;
+}
+
+csgrt_status keep_without_memory() noexcept {
+    last.diagnostics.clear();
+    last.shown = "there is not enough memory";
+    return CSGRT_ERROR_OUT_OF_MEMORY;
+}
+
+csgrt_diagnostic diagnostic_at(const Place& place) {
+    csgrt_diagnostic d CSGRT_DIAGNOSTIC;
+    d.file = place.file.c_str();
+    d.pointer = place.pointer.c_str();
+    d.line = place.line;
+    d.column = place.column;
+    d.offset = place.offset;
+    return d;
+}
+
+}  // namespace
+
+namespace csgrt::c {
+
+csgrt_status keep_failure() noexcept {
+    try {
+        throw;
+    } catch (const Error& error) {
+        try {
+            return keep(static_cast<csgrt_status>(error.status()), error.diagnostics(), error.what());
+        } catch (...) {
+            return keep_without_memory();
+        }
+    } catch (const std::bad_alloc&) {
+        return keep_without_memory();
+    } catch (const std::exception& error) {
+        try {
+            return keep(CSGRT_ERROR_UNEXPECTED, {{.message = error.what()}}, error.what());
+        } catch (...) {
+            return keep_without_memory();
+        }
+    } catch (...) {
+        last.diagnostics.clear();
+        last.shown = "an exception that is none of csgrt's";
+        return CSGRT_ERROR_UNEXPECTED;
+    }
+}
+
+void refuse(const std::string& message, std::string suggestion) {
+    throw Error(Status::usage, {{.message = message, .suggestion = std::move(suggestion)}});
+}
+
+std::vector<std::string> texts(const char* const* first, std::size_t count, const char* name) {
+    std::vector<std::string> all;
+    for (const char* text : needed(first, count, name)) all.emplace_back(&needed(text, name));
+    return all;
+}
+
+Settings settings_of(const csgrt_settings* settings) {
+    if (!settings) return {};
+    const csgrt_settings s = read(settings, csgrt_settings CSGRT_SETTINGS, "settings");
+    Settings all{
+        .reference = s.reference != 0,
+        .device = text_or_empty(s.device),
+        .wait_for_device = s.wait_for_device != 0,
+        .device_timeout = s.device_timeout,
+        .max_memory = s.max_memory,
+        .max_instances = s.max_instances,
+        .precision = choice(s.precision, Precision::quad, "settings->precision"),
+        .quartic = choice(s.quartic, Quartic::yuksel, "settings->quartic"),
+        .contraction = s.contraction != 0,
+        .tolerance_rule = choice(s.tolerance_rule, Tolerance::none, "settings->tolerance_rule"),
+        .tolerance = s.tolerance,
+        .air = s.air != 0,
+        .skip_unsupported = s.skip_unsupported != 0,
+        .display_shading = s.display_shading != 0,
+        .check = s.check,
+        .threads = s.threads,
+    };
+    if (s.progress) all.progress = [s](double done) { return s.progress(s.user, done) != 0; };
+    return all;
+}
+
+Camera camera_of(const csgrt_camera* camera) {
+    const csgrt_camera c = read(camera, csgrt_camera CSGRT_CAMERA, "camera");
+    return {
+        .azimuth = c.azimuth,
+        .elevation = c.elevation,
+        .perspective = c.perspective,
+        .center = of(c.center),
+        .view_size = c.view_size == 0 ? std::nullopt : std::optional(c.view_size),
+        .eye = of(c.eye),
+        .look_at = of(c.look_at),
+        .up = of(c.up),
+    };
+}
+
+Finish finish_of(const csgrt_finish* finish) {
+    const csgrt_finish f = read(finish, csgrt_finish CSGRT_FINISH, "finish");
+    Finish all{
+        .shader = text_or_empty(f.shader),
+        .specular = f.specular,
+        .diffuse = f.diffuse,
+        .ambient = f.ambient,
+        .shine = f.shine,
+        .transmit = f.transmit,
+        .reflect = f.reflect,
+    };
+    if (f.shines) {
+        all.light = {f.intensity,     f.fraction,      f.angle,        of(f.target),
+                     of(f.direction), f.infinite != 0, f.visible != 0, f.shadows};
+    }
+    return all;
+}
+
+std::vector<Light> lights_of(const csgrt_light* lights, std::size_t count) {
+    std::vector<Light> all;
+    for (const csgrt_light& light : needed(lights, count, "lights")) {
+        all.push_back({of(light.position), of(light.color), light.intensity, light.infinite != 0, light.angle,
+                       of(light.direction)});
+    }
+    return all;
+}
+
+View view_of(const csgrt_view* view) {
+    const csgrt_view v = read(view, csgrt_view CSGRT_VIEW, "view");
+    View all{.width = v.width, .height = v.height, .every_partition = v.every_partition != 0, .channels = v.channels};
+    if (v.camera) all.camera = camera_of(v.camera);
+    for (const csgrt_plane& plane : needed(v.clip, v.clip_count, "view->clip")) {
+        all.clip.push_back({of(plane.normal), plane.distance});
+    }
+    if (v.part) all.part = {v.part->left, v.part->top, v.part->width, v.part->height};
+    all.samples = v.samples;
+    all.transparent = v.transparent != 0;
+    return all;
+}
+
+Matrix matrix_of(const double* matrix) {
+    Matrix all = identity;
+    if (matrix) std::copy(matrix, matrix + all.size(), all.begin());
+    return all;
+}
+
+RayGrid grid_of(const csgrt_ray_grid& g) {
+    return {of(g.origin), of(g.direction), of(g.right), of(g.up), g.columns, g.rows, g.is_pinhole != 0};
+}
+csgrt_ray_grid grid_of(const RayGrid& g) {
+    return {of(g.origin), of(g.direction), of(g.right), of(g.up), g.columns, g.rows, g.is_pinhole};
+}
+
+csgrt_diagnostic diagnostic_of(const Warning& warning) {
+    csgrt_diagnostic d = diagnostic_at(warning.place);
+    if (!warning.object.empty()) d.pointer = warning.object.c_str();
+    d.message = warning.reason.c_str();
+    d.count = warning.count;
+    d.appearance = warning.appearance;
+    return d;
+}
+
+}  // namespace csgrt::c
+
+const char* csgrt_version(void) { return version(); }
+
+const char* csgrt_last_error(void) { return last.shown; }
+
+size_t csgrt_last_diagnostic_count(void) { return last.diagnostics.size(); }
+
+csgrt_status csgrt_last_diagnostic(size_t index, csgrt_diagnostic* diagnostic) {
+    // What it tells of stays, so a wrong index is no failure to be kept.
+    if (index >= last.diagnostics.size() || !diagnostic) return CSGRT_ERROR_USAGE;
+    try {
+        const Diagnostic& from = last.diagnostics[index];
+        csgrt_diagnostic d = diagnostic_at(from.place);
+        d.message = from.message.c_str();
+        d.suggestion = from.suggestion.c_str();
+        d.excerpt = from.excerpt.c_str();
+        c::fill(diagnostic, d, "diagnostic");
+        return CSGRT_OK;
+    } catch (const Error&) {
+        return CSGRT_ERROR_USAGE;
+    }
+}
