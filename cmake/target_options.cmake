@@ -24,15 +24,20 @@ function(csgrt_target_options target)
     endif()
 endfunction()
 
-# A shared library of csgrt: its interface is include/, its version the project's.
+# A shared library of csgrt: its interface is include/, its version the project's. Its name on disk changes with what
+# programs may count on: before version 1 that is a minor version, so that 0.2 stands beside 0.1 and replaces nothing.
 function(csgrt_library_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_include_directories(${target} PUBLIC
         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    set(compatible ${PROJECT_VERSION_MAJOR})
+    if(compatible EQUAL 0)
+        set(compatible 0.${PROJECT_VERSION_MINOR})
+    endif()
     set_target_properties(${target} PROPERTIES
         LINKER_LANGUAGE CXX
         VERSION ${PROJECT_VERSION}
-        SOVERSION ${PROJECT_VERSION_MAJOR}
+        SOVERSION ${compatible}
         INSTALL_RPATH "$ORIGIN")
     if(NOT CSGRT_SANITIZE)  # the sanitizers' own symbols come with the program
         target_link_options(${target} PRIVATE LINKER:--no-undefined)

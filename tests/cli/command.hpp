@@ -16,12 +16,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csgrt/version.hpp>
+
 #include "catch.hpp"
 #include "folder.hpp"
 
 namespace command_test {
 
 namespace fs = std::filesystem;
+
+/// The name that a program looks for: "csgrt" -> "libcsgrt.so.0.1".
+inline std::string library_name(const std::string& library) {
+    static_assert(CSGRT_VERSION_MAJOR == 0);  // then the name has no minor version
+    return "lib" + library + ".so.0." + std::to_string(CSGRT_VERSION_MINOR);
+}
 
 /// The executable, from the environment; empty if it is not set.
 inline std::string command() {

@@ -79,8 +79,9 @@ TEST_CASE("a library for pictures that ends the process is status 6, and one tha
     const char* const bad = std::getenv("CSGRT_BAD_DRIVER");
     if (bad == nullptr) return;
     const Folder folder, libraries;
-    fs::create_symlink(fs::absolute(command()).parent_path() / "libcsgrt.so.0", libraries / "libcsgrt.so.0");
-    fs::copy_file(bad, libraries / "libcsgrt_image.so.0");
+    fs::create_symlink(fs::absolute(command()).parent_path() / library_name("csgrt"),
+                       libraries / library_name("csgrt"));
+    fs::copy_file(bad, libraries / library_name("csgrt_image"));
     const std::string scene = folder.write("balls.asc", two_balls), picture = folder.write("x.png", "old");
     const std::vector<std::string> drawing = {scene, "--device", "native", "--size", "8", "-o", picture};
     const auto that = [&](const char* does) -> How {

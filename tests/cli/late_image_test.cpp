@@ -33,17 +33,17 @@ TEST_CASE("a library for pictures that cannot be loaded is an error where the pi
     NEEDS_COMMAND();
     const Folder folder, libraries;
     const std::string scene = folder.write("balls.asc", two_balls), picture = folder / "x.png";
-    const fs::path core = fs::absolute(command()).parent_path() / "libcsgrt.so.0";
+    const fs::path core = fs::absolute(command()).parent_path() / library_name("csgrt");
     REQUIRE(fs::exists(core));
-    fs::create_symlink(core, libraries / "libcsgrt.so.0");
-    libraries.write("libcsgrt_image.so.0", "no library");
+    fs::create_symlink(core, libraries / library_name("csgrt"));
+    libraries.write(library_name("csgrt_image"), "no library");
     How how;
     how.environment = {{"LD_LIBRARY_PATH", libraries / ""}};
     const Result result = run(drawing(scene, picture), how);
     INFO(result.err);
     CHECK(result.status == 6);
     CHECK(contains(result.err, "cannot load the library for pictures: "));
-    CHECK(contains(result.err, "libcsgrt_image.so.0"));
+    CHECK(contains(result.err, library_name("csgrt_image")));
     CHECK(!fs::exists(picture));
     CHECK(run({"info", scene}, how).status == 0);
 }

@@ -1,0 +1,111 @@
+/* csgrt.h in C99 alone: builds a part, asks for what is along a ray, draws it, edits it and verifies it. */
+#include <csgrt/csgrt.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPECT(condition)                                                                       \
+    do {                                                                                        \
+        if (!(condition)) {                                                                     \
+            fprintf(stderr, "line %d: %s: %s\n", __LINE__, #condition, csgrt_last_error());     \
+            exit(1);                                                                            \
+        }                                                                                       \
+    } while (0)
+
+static int count_calls(void* user, double done) {
+    ++*(int*)user;
+    return done <= 1;
+}
+
+int main(void) {
+    csgrt_scene* scene = NULL;
+    csgrt_model *model = NULL, *next = NULL;
+    csgrt_renderer* renderer = NULL;
+    csgrt_image* image = NULL;
+    csgrt_edit* edit = NULL;
+    csgrt_verifier* verifier = NULL;
+
+    /* A box with a bore. */
+    EXPECT(csgrt_scene_create(&scene) == CSGRT_OK);
+    {
+        const csgrt_member block[] = {CSGRT_MEMBER("low", -10, -10, 0), CSGRT_MEMBER("high", 10, 10, 5)};
+        const csgrt_member bore[] = {CSGRT_MEMBER("base", 0, 0, -1), CSGRT_MEMBER("height", 0, 0, 7),
+                                     CSGRT_MEMBER("radius", 3)};
+        const csgrt_tree_node nodes[] = {CSGRT_OBJECT("block"), CSGRT_OBJECT("bore"), CSGRT_JOIN(CSGRT_DIFFERENCE, 2)};
+        csgrt_combination plate = CSGRT_COMBINATION;
+        plate.name = "plate";
+        plate.nodes = nodes;
+        plate.node_count = 3;
+        plate.region = 1;
+        EXPECT(csgrt_scene_add_solid(scene, "block", "box", block, 2) == CSGRT_OK);
+        EXPECT(csgrt_scene_add_solid(scene, "bore", "cylinder", bore, 3) == CSGRT_OK);
+        EXPECT(csgrt_scene_add_combination(scene, &plate) == CSGRT_OK);
+    }
+    EXPECT(csgrt_model_create(scene, NULL, 0, NULL, &model) == CSGRT_OK);
+
+    /* Rays through the middle and beside it, on the renderer's device. */
+    {
+        int calls = 0;
+        csgrt_settings settings = CSGRT_SETTINGS;
+        settings.progress = count_calls;
+        settings.user = &calls;
+        EXPECT(csgrt_renderer_create(model, &settings, &renderer) == CSGRT_OK);
+        const csgrt_ray list[] = {{{-20, 0, 2}, {1, 0, 0}}, {{-20, 5, 2}, {2, 0, 0}}, {{0, 0, 20}, {0, 0, -1}}};
+        csgrt_rays rays = CSGRT_RAYS;
+        csgrt_partition_arrays rows = CSGRT_PARTITION_ARRAYS;
+        csgrt_partitions* partitions = NULL;
+        rays.list = list;
+        rays.count = 3;
+        EXPECT(csgrt_partitions_create(&partitions) == CSGRT_OK);
+        EXPECT(csgrt_renderer_partitions(renderer, &rays, partitions) == CSGRT_OK);
+        EXPECT(csgrt_partitions_get(partitions, &rows) == CSGRT_OK);
+        EXPECT(rows.ray_count == 3 && rows.row_count == 3 && calls >= 2);
+        EXPECT(rows.ray_splits[1] == 2 && rows.ray_splits[2] == 3 && rows.ray_splits[3] == 3);
+        EXPECT(rows.t_in[0] == 10 && rows.t_out[0] == 17 && rows.t_in[2] == 5 && rows.t_out[2] == 15);
+        csgrt_partitions_free(partitions);
+    }
+
+    /* A picture in 8 bits, and another after an edit. */
+    {
+        unsigned char before[32 * 24 * 4], after[32 * 24 * 4];
+        const csgrt_vec3 green = {0, 1, 0};
+        csgrt_view view = CSGRT_VIEW;
+        view.width = 32;
+        view.height = 24;
+        view.channels = CSGRT_CHANNEL_DISPLAY;
+        view.every_partition = 0;
+        EXPECT(csgrt_image_create(&image) == CSGRT_OK);
+        EXPECT(csgrt_renderer_render(renderer, &view, image) == CSGRT_OK);
+        EXPECT(csgrt_image_display_pixels(image, before, sizeof before) == CSGRT_OK);
+        EXPECT(csgrt_edit_create(model, &edit) == CSGRT_OK);
+        EXPECT(csgrt_edit_set_color(edit, "/plate", &green) == CSGRT_OK);
+        EXPECT(csgrt_edit_remove(edit, "/plait") == CSGRT_ERROR_USAGE);
+        EXPECT(csgrt_edit_commit(edit, &next) == CSGRT_OK);
+        EXPECT(csgrt_renderer_set_model(renderer, next) == CSGRT_OK);
+        EXPECT(csgrt_renderer_render(renderer, &view, image) == CSGRT_OK);
+        EXPECT(csgrt_image_display_pixels(image, after, sizeof after) == CSGRT_OK);
+        EXPECT(memcmp(before, after, sizeof after) != 0);
+        EXPECT(csgrt_image_display_pixels(image, after, 7) == CSGRT_ERROR_USAGE);
+    }
+
+    {
+        csgrt_ray rays[100];
+        csgrt_verification result = CSGRT_VERIFICATION;
+        EXPECT(csgrt_verifier_create(scene, NULL, 0, NULL, &verifier) == CSGRT_OK);
+        EXPECT(csgrt_verifier_sample(verifier, NULL, 1, rays, 100) == CSGRT_OK);
+        EXPECT(csgrt_verifier_shoot(verifier, rays, 100) == CSGRT_OK);
+        EXPECT(csgrt_verifier_result(verifier, &result) == CSGRT_OK);
+        EXPECT(result.rays == 100 && result.hits > 0);
+    }
+
+    csgrt_verifier_free(verifier);
+    csgrt_edit_free(edit);
+    csgrt_image_free(image);
+    csgrt_renderer_free(renderer);
+    csgrt_model_free(next);
+    csgrt_model_free(model);
+    csgrt_scene_free(scene);
+    printf("csgrt %s in C\n", csgrt_version());
+    return 0;
+}
