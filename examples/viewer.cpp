@@ -75,11 +75,11 @@ void print(const char* name, int statements, double milliseconds) {
 }
 
 /// Runs statements, and tells how many they are and how long they took.
-#define ACTION(name, ...)                                                         \
-    {                                                                             \
-        const auto start = Clock::now();                                          \
-        __VA_ARGS__;                                                              \
-        print(name, statements_of(#__VA_ARGS__), milliseconds_since(start));      \
+#define ACTION(name, ...)                                                    \
+    {                                                                        \
+        const auto start = Clock::now();                                     \
+        __VA_ARGS__;                                                         \
+        print(name, statements_of(#__VA_ARGS__), milliseconds_since(start)); \
     }
 
 }  // namespace
@@ -106,11 +106,8 @@ int main(int argc, char** argv) try {
     ACTION("pick: region, solid, point", const csgrt::Pick seen = v.pick(); static_cast<void>(seen))
     const std::string part = v.picked_path();
     ACTION("hide a part", v.renderer.set_model(v.edit().set_state(part, csgrt::State::hidden).commit()); v.draw())
-    ACTION("isolate a part", const std::string top = part.substr(0, part.find('/', 1));
-           v.renderer.set_model(v.edit()
-                                    .set_state(top, csgrt::State::hidden)
-                                    .set_state(part, csgrt::State::shown)
-                                    .commit());
+    ACTION("isolate a part", const std::string top = part.substr(0, part.find('/', 1)); v.renderer.set_model(
+        v.edit().set_state(top, csgrt::State::hidden).set_state(part, csgrt::State::shown).commit());
            v.draw())
     ACTION("show all", const std::string top = part.substr(0, part.find('/', 1));
            v.renderer.set_model(v.edit().set_state(top, csgrt::State::shown).commit()); v.draw())

@@ -3,7 +3,7 @@
 #pragma once
 
 #define CSGRT_VERSION_MAJOR 0
-#define CSGRT_VERSION_MINOR 1
+#define CSGRT_VERSION_MINOR 2
 #define CSGRT_VERSION_PATCH 0
 
 /// 10,000 x major + 100 x minor + patch, to be compared: #if CSGRT_VERSION >= 200 holds from version 0.2.0 on.
@@ -11,7 +11,7 @@
 
 #define CSGRT_TEXT_OF_(x) #x
 #define CSGRT_TEXT_(x) CSGRT_TEXT_OF_(x)
-/// "0.1.0"
+/// "0.2.0"
 #define CSGRT_VERSION_STRING \
     CSGRT_TEXT_(CSGRT_VERSION_MAJOR) "." CSGRT_TEXT_(CSGRT_VERSION_MINOR) "." CSGRT_TEXT_(CSGRT_VERSION_PATCH)
 

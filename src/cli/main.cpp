@@ -20,7 +20,7 @@
 #include "fatal_end.hpp"
 #include "held_renderer.hpp"
 #include "interrupt.hpp"
-#ifdef CSGRT_HAVE_IMAGE
+#ifdef CSGRT_LATE_IMAGE
 #include "late_image.hpp"
 #endif
 #include "output.hpp"
@@ -86,7 +86,7 @@ int main_status(int argc, char** argv) noexcept {
         Command command = parse_arguments({argv + (argc > 0), argv + argc});
         if (may_use_opencl(command)) ensure_cache_folder();
         catch_fatal_ends();
-#ifdef CSGRT_HAVE_IMAGE
+#ifdef CSGRT_LATE_IMAGE
         ImageLoading loading(command);
 #endif
         return static_cast<int>(std::visit([](const auto& arguments) { return run(arguments); }, command));

@@ -25,7 +25,7 @@ namespace command_test {
 
 namespace fs = std::filesystem;
 
-/// The name that a program looks for: "csgrt" -> "libcsgrt.so.0.1".
+/// The name that a program looks for: "csgrt" -> "libcsgrt.so.0.2".
 inline std::string library_name(const std::string& library) {
     static_assert(CSGRT_VERSION_MAJOR == 0);  // then the name has no minor version
     return "lib" + library + ".so.0." + std::to_string(CSGRT_VERSION_MINOR);

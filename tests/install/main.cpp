@@ -5,7 +5,9 @@
 
 // The version of the headers, of the package and of the library are one.
 static_assert(CSGRT_VERSION == CSGRT_VERSION_MAJOR * 10000 + CSGRT_VERSION_MINOR * 100 + CSGRT_VERSION_PATCH);
+#ifdef PACKAGE_VERSION
 static_assert(std::string_view(CSGRT_VERSION_STRING) == PACKAGE_VERSION);
+#endif
 #if CSGRT_VERSION < 100
 #error "CSGRT_VERSION is no number that the preprocessor can compare"
 #endif
