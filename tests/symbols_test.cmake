@@ -1,4 +1,4 @@
-# The symbols that libcsgrt.so exports are those of symbols.txt: of C, and of C++ without what is weak (inline
+# The symbols that libcsgrt.so exports are those of symbols.list: of C, and of C++ without what is weak (inline
 # functions, templates) and what only the library uses (Impl).
 # cmake -DLIBRARY=... -DNM=... -DREADELF=... -DLIST=... -DCOMPATIBLE=0.1 [-DUPDATE=ON] -P symbols_test.cmake
 cmake_minimum_required(VERSION 3.25)
