@@ -2,20 +2,18 @@
 // headers beside this one, which say more of each; examples/partitions.c is a whole program.
 //
 // What holds everywhere unless a comment says otherwise:
-// - A call returns CSGRT_OK, or what failed; then csgrt_last_error() has the text, and what the call would have filled
-//   is unchanged, but for handles, which are NULL. No C++ exception leaves a call.
+// - A call returns CSGRT_OK, or what failed; then csgrt_last_error() has the text, a handle that it would have made is
+//   NULL, and what else it fills is not to be used. No C++ exception leaves a call.
 // - A handle that a call puts into a `csgrt_x**` is the caller's, who frees it with csgrt_x_free(), which takes NULL.
 //   Handles keep what they need of others, which may be freed before them. Calls copy what they are given.
 // - A pointer that a call hands out is valid as long as its handle, and until the next call that changes the handle.
-// - Structs that may grow begin with their size and with defaults, as in `csgrt_view view = CSGRT_VIEW;`. In memory
-// from
-//   elsewhere the caller sets `size` first, also of structs that calls fill. Of a shorter struct, from the header of an
-//   earlier version, the members that are not there have their defaults.
+// - Structs that may grow begin with their size and with defaults, as in `csgrt_view view = CSGRT_VIEW;`, also those
+//   that calls fill. All defaults are at the end of this header. Of a shorter struct, from the header of an earlier
+//   version, the members that are not there have their defaults.
 // - A pointer to several things has a count beside it; both may be 0. Text is UTF-8 and ends with 0; no text is "".
 // - Lengths are millimetres, angles degrees, z is up, matrices are 4 x 4, row by row, for column vectors. Distances
 //   along a ray are in lengths of its direction. Colours are red, green and blue, from 0 to 1.
-// - Threads. csgrt_model: any number at a time. csgrt_scene: any number that read (functions that take it const), or
-// one
+// - Threads. csgrt_model: any number at a time. csgrt_scene: any number that read it (as const), or one
 //   that changes it. csgrt_renderer, csgrt_edit, csgrt_partitions, csgrt_image, csgrt_verifier: one at a time, not
 //   always the same one; csgrt_renderer_model() and csgrt_renderer_set_model() may be called meanwhile.
 #ifndef CSGRT_CSGRT_H
@@ -65,8 +63,6 @@ typedef struct csgrt_diagnostic {
     uint64_t count;                    ///< how many times it occurs
     int appearance;                    ///< 1: it changes colours alone
 } csgrt_diagnostic;
-#define CSGRT_DIAGNOSTIC \
-    { sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0 }
 
 /// Of the last call of this thread that failed: all diagnostics as text, and each of them. The pointers are valid until
 /// the next call of this thread fails.
@@ -109,8 +105,6 @@ typedef struct csgrt_settings {
     csgrt_progress progress;  ///< NULL: none
     void* user;
 } csgrt_settings;
-#define CSGRT_SETTINGS \
-    { sizeof(csgrt_settings), "", 0, 0, -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, NULL, NULL }
 
 /// csgrt::DeviceInfo
 typedef struct csgrt_device_info {
@@ -120,8 +114,6 @@ typedef struct csgrt_device_info {
     unsigned compute_units;
     int fp64;
 } csgrt_device_info;
-#define CSGRT_DEVICE_INFO \
-    { sizeof(csgrt_device_info), "", "", "", "", "", 0, 0, 0, 0 }
 
 /// Looks for all devices. Any thread. Then csgrt_device() of the same thread tells of each; its texts are valid until
 /// the thread looks again.
@@ -140,8 +132,6 @@ typedef struct csgrt_load_options {
     const char* const* file_folders;  ///< below which a scene may name files, besides the folder of its own file
     size_t file_folder_count;
 } csgrt_load_options;
-#define CSGRT_LOAD_OPTIONS \
-    { sizeof(csgrt_load_options), 0, NULL, 0 }
 
 /// Reads .json, .g or .asc. CSGRT_ERROR_FILE, or CSGRT_ERROR_SCENE with every error of the file. `options`: NULL for
 /// the defaults.
@@ -196,12 +186,6 @@ typedef struct csgrt_tree_node {
     const double* matrix;  ///< of a leaf: 16 numbers, from the object's coordinates to the tree's; NULL: the same
     const char* name;      ///< of a leaf: its name in paths; NULL: the object's
 } csgrt_tree_node;
-#define CSGRT_OBJECT(object) \
-    { CSGRT_LEAF, 0, object, NULL, NULL }
-#define CSGRT_PLACED(object, matrix) \
-    { CSGRT_LEAF, 0, object, matrix, NULL }
-#define CSGRT_JOIN(op, arity) \
-    { op, arity, NULL, NULL, NULL }
 
 /// csgrt::Finish, and its light.
 typedef struct csgrt_finish {
@@ -215,8 +199,6 @@ typedef struct csgrt_finish {
     const csgrt_vec3 *target, *direction;  ///< NULL: not given
     int infinite, visible, shadows;
 } csgrt_finish;
-#define CSGRT_FINISH \
-    { sizeof(csgrt_finish), "plastic", 0.7, 0.3, 1, 10, 0, 0, 0, 1, 0, 180, NULL, NULL, 0, 1, 1 }
 
 /// csgrt::Combination: a Boolean tree under a name. With `region` it is one piece of material.
 typedef struct csgrt_combination {
@@ -229,8 +211,6 @@ typedef struct csgrt_combination {
     const csgrt_finish* finish;  ///< NULL: not given
     int color_inherits, finish_inherits;
 } csgrt_combination;
-#define CSGRT_COMBINATION \
-    { sizeof(csgrt_combination), "", NULL, 0, 0, 0, 0, 0, 1, 100, NULL, NULL, 0, 0 }
 CSGRT_API csgrt_status csgrt_scene_add_combination(csgrt_scene* scene, const csgrt_combination* combination);
 
 /// csgrt::Camera. NULL: not given.
@@ -240,8 +220,6 @@ typedef struct csgrt_camera {
     double view_size;  ///< millimetres; 0: not given
     const csgrt_vec3 *center, *eye, *look_at, *up;
 } csgrt_camera;
-#define CSGRT_CAMERA \
-    { sizeof(csgrt_camera), 35, 25, 0, 0, NULL, NULL, NULL, NULL }
 CSGRT_API csgrt_status csgrt_scene_camera(const csgrt_scene* scene, csgrt_camera* camera);
 CSGRT_API csgrt_status csgrt_scene_set_camera(csgrt_scene* scene, const csgrt_camera* camera);
 /// Takes the camera from a script that MGED's `saveview` wrote.
@@ -254,10 +232,6 @@ typedef struct csgrt_light {
     double angle;
     csgrt_vec3 direction;
 } csgrt_light;
-#define CSGRT_LIGHT                                   \
-    {                                                 \
-        {0, 0, 0}, {1, 1, 1}, 1, 0, 180, { 0, 0, -1 } \
-    }
 CSGRT_API csgrt_status csgrt_scene_set_lights(csgrt_scene* scene, const csgrt_light* lights, size_t count);
 /// What is drawn by default: names or paths; none: what no other object uses.
 CSGRT_API csgrt_status csgrt_scene_set_top(csgrt_scene* scene, const char* const* objects, size_t count);
@@ -272,8 +246,6 @@ typedef struct csgrt_scene_info {
     int lenient;
     size_t object_count, top_count, warning_count;  ///< csgrt_scene_set_info() leaves them as they are
 } csgrt_scene_info;
-#define CSGRT_SCENE_INFO \
-    { sizeof(csgrt_scene_info), "", "mm", 1, 0.4, {0, 0, 0}, 0, 0, 0, 0, 0 }
 CSGRT_API csgrt_status csgrt_scene_get_info(const csgrt_scene* scene, csgrt_scene_info* info);
 CSGRT_API csgrt_status csgrt_scene_set_info(csgrt_scene* scene, const csgrt_scene_info* info);
 /// The name of an object; its type: that of a solid ("ell"), "region" or "combination". Either may be NULL.
@@ -303,8 +275,6 @@ typedef struct csgrt_model_info {
     double tolerance;  ///< millimetres
     size_t region_count, solid_count, warning_count;
 } csgrt_model_info;
-#define CSGRT_MODEL_INFO \
-    { sizeof(csgrt_model_info), {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0 }
 CSGRT_API csgrt_status csgrt_model_get_info(const csgrt_model* model, csgrt_model_info* info);
 
 /// csgrt::RegionInfo
@@ -315,12 +285,6 @@ typedef struct csgrt_region_info {
     csgrt_vec3 color;
     csgrt_box bounds;
 } csgrt_region_info;
-#define CSGRT_REGION_INFO                                             \
-    {                                                                 \
-        sizeof(csgrt_region_info), "", 0, 0, 0, 0, 0, 0, {0, 0, 0}, { \
-            {0, 0, 0}, { 0, 0, 0 }                                    \
-        }                                                             \
-    }
 /// Of the region that region_ids have as `index`.
 CSGRT_API csgrt_status csgrt_model_region(const csgrt_model* model, size_t index, csgrt_region_info* info);
 CSGRT_API csgrt_status csgrt_model_finish(const csgrt_model* model, size_t region, csgrt_finish* finish);
@@ -331,8 +295,6 @@ typedef struct csgrt_solid_info {
     const char *name, *type;
     uint32_t piece;
 } csgrt_solid_info;
-#define CSGRT_SOLID_INFO \
-    { sizeof(csgrt_solid_info), "", "", 0 }
 /// Of the solid that solid ids have as `index`.
 CSGRT_API csgrt_status csgrt_model_solid(const csgrt_model* model, size_t index, csgrt_solid_info* info);
 CSGRT_API csgrt_status csgrt_model_warning(const csgrt_model* model, size_t index, csgrt_diagnostic* warning);
@@ -370,8 +332,6 @@ typedef struct csgrt_rays {
     size_t range_count;
     unsigned fields;  ///< of csgrt_partitions, besides regions and distances: CSGRT_FIELD_SOLIDS | ...
 } csgrt_rays;
-#define CSGRT_RAYS \
-    { sizeof(csgrt_rays), NULL, 0, NULL, {0, HUGE_VAL}, NULL, 0, 0 }
 enum {
     CSGRT_FIELD_SOLIDS = 1,
     CSGRT_FIELD_NORMALS = 2,
@@ -399,11 +359,6 @@ typedef struct csgrt_partition_arrays {
     const int64_t* overlap_region_splits;        ///< (overlap_count + 1)
     const int32_t* overlap_region_ids;           ///< (claimant_count)
 } csgrt_partition_arrays;
-#define CSGRT_PARTITION_ARRAYS                                                                                        \
-    {                                                                                                                 \
-        sizeof(csgrt_partition_arrays), 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, \
-            NULL, NULL                                                                                                \
-    }
 /// Hands out the arrays, without a copy; valid until the next call that fills the handle.
 CSGRT_API csgrt_status csgrt_partitions_get(const csgrt_partitions* partitions, csgrt_partition_arrays* arrays);
 
@@ -415,8 +370,6 @@ typedef struct csgrt_hits {
     int32_t *region_ids, *solid_ids;  ///< -1: a miss; of a solid also where the range begins inside
     csgrt_vec3* normals;              ///< zeros where the solid is -1
 } csgrt_hits;
-#define CSGRT_HITS \
-    { sizeof(csgrt_hits), 0, NULL, NULL, NULL, NULL }
 
 /// csgrt::Slice: pixels in a plane.
 typedef struct csgrt_slice {
@@ -483,8 +436,6 @@ typedef struct csgrt_statistics {
     uint64_t rays, segments, partitions, overlaps, device_bytes;
     double ms_compile, ms_build, ms_kernels, ms_frame;
 } csgrt_statistics;
-#define CSGRT_STATISTICS \
-    { sizeof(csgrt_statistics), "", "", 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 CSGRT_API csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics);
 /// The model's warnings, then those about devices.
 CSGRT_API csgrt_status csgrt_renderer_warning_count(const csgrt_renderer* renderer, size_t* count);
@@ -519,8 +470,6 @@ typedef struct csgrt_view {
     const csgrt_pixel_rectangle* part;  ///< NULL: the whole picture
     int samples, transparent;
 } csgrt_view;
-#define CSGRT_VIEW \
-    { sizeof(csgrt_view), 1024, 1024, NULL, 1, CSGRT_CHANNEL_ALL, NULL, 0, NULL, 1, 0 }
 
 /// A picture's memory, which the next frame uses again.
 typedef struct csgrt_image csgrt_image;
@@ -534,8 +483,6 @@ typedef struct csgrt_image_info {
     size_t channel_count;
     int display_values;  ///< 1: R G B are display values; 0: linear light
 } csgrt_image_info;
-#define CSGRT_IMAGE_INFO \
-    { sizeof(csgrt_image_info), 0, 0, 0, 0 }
 CSGRT_API csgrt_status csgrt_image_get_info(const csgrt_image* image, csgrt_image_info* info);
 /// The name of a channel ("R", "Z", "region", ... csgrt::Image has the list), and whether it holds ids.
 CSGRT_API csgrt_status csgrt_image_channel_name(const csgrt_image* image, size_t index, const char** name,
@@ -560,12 +507,6 @@ typedef struct csgrt_pick {
     csgrt_vec3 point, normal;
     csgrt_ray ray;  ///< for csgrt_model_partitions()
 } csgrt_pick;
-#define CSGRT_PICK                                             \
-    {                                                          \
-        sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, { \
-            {0, 0, 0}, { 0, 0, 0 }                             \
-        }                                                      \
-    }
 CSGRT_API csgrt_status csgrt_model_pick(const csgrt_model* model, const csgrt_view* view, int column, int row,
                                         csgrt_pick* pick);
 /// The rays of a whole view, one a pixel.
@@ -573,7 +514,8 @@ CSGRT_API csgrt_status csgrt_model_grid_of(const csgrt_model* model, const csgrt
 
 // ---- Edits ----
 
-/// csgrt::Edit: changes to a model, which make the next model at once.
+/// csgrt::Edit: changes to a model, which make the next model at once. Where a path leads nowhere the call fails, or
+/// csgrt_edit_commit() does.
 typedef struct csgrt_edit csgrt_edit;
 CSGRT_API csgrt_status csgrt_edit_create(const csgrt_model* model, csgrt_edit** edit);
 CSGRT_API void csgrt_edit_free(csgrt_edit* edit);
@@ -619,14 +561,37 @@ typedef struct csgrt_verification {
     uint64_t first_wrong;                ///< the number of the first wrong ray, if there is one
     csgrt_ray wrong_ray;                 ///< and that ray
 } csgrt_verification;
-#define CSGRT_VERIFICATION                                                 \
-    {                                                                      \
-        sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, { \
-            {0, 0, 0}, { 0, 0, 0 }                                         \
-        }                                                                  \
-    }
 /// Fills the result, and returns CSGRT_OK if no ray is wrong and no bit differs, else CSGRT_ERROR_DIFFERS.
 CSGRT_API csgrt_status csgrt_verifier_result(const csgrt_verifier* verifier, csgrt_verification* result);
+
+// ---- Defaults ----
+
+// clang-format off
+#define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
+#define CSGRT_SETTINGS {sizeof(csgrt_settings), "", 0, 0, -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, NULL, NULL}
+#define CSGRT_DEVICE_INFO {sizeof(csgrt_device_info), "", "", "", "", "", 0, 0, 0, 0}
+#define CSGRT_LOAD_OPTIONS {sizeof(csgrt_load_options), 0, NULL, 0}
+#define CSGRT_OBJECT(object) {CSGRT_LEAF, 0, object, NULL, NULL}
+#define CSGRT_PLACED(object, matrix) {CSGRT_LEAF, 0, object, matrix, NULL}
+#define CSGRT_JOIN(op, arity) {op, arity, NULL, NULL, NULL}
+#define CSGRT_FINISH {sizeof(csgrt_finish), "plastic", 0.7, 0.3, 1, 10, 0, 0, 0, 1, 0, 180, NULL, NULL, 0, 1, 1}
+#define CSGRT_COMBINATION {sizeof(csgrt_combination), "", NULL, 0, 0, 0, 0, 0, 1, 100, NULL, NULL, 0, 0}
+#define CSGRT_CAMERA {sizeof(csgrt_camera), 35, 25, 0, 0, NULL, NULL, NULL, NULL}
+#define CSGRT_LIGHT {{0, 0, 0}, {1, 1, 1}, 1, 0, 180, {0, 0, -1}}
+#define CSGRT_SCENE_INFO {sizeof(csgrt_scene_info), "", "mm", 1, 0.4, {0, 0, 0}, 0, 0, 0, 0, 0}
+#define CSGRT_MODEL_INFO {sizeof(csgrt_model_info), {{0, 0, 0}, {0, 0, 0}}, 0, 0, 0, 0}
+#define CSGRT_REGION_INFO {sizeof(csgrt_region_info), "", 0, 0, 0, 0, 0, 0, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
+#define CSGRT_SOLID_INFO {sizeof(csgrt_solid_info), "", "", 0}
+#define CSGRT_RAYS {sizeof(csgrt_rays), NULL, 0, NULL, {0, HUGE_VAL}, NULL, 0, 0}
+#define CSGRT_PARTITION_ARRAYS {sizeof(csgrt_partition_arrays), 0, 0, 0, 0, NULL, NULL, NULL, NULL, NULL, NULL, \
+    NULL, NULL, NULL, NULL, NULL, NULL, NULL}
+#define CSGRT_HITS {sizeof(csgrt_hits), 0, NULL, NULL, NULL, NULL}
+#define CSGRT_STATISTICS {sizeof(csgrt_statistics), "", "", 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define CSGRT_VIEW {sizeof(csgrt_view), 1024, 1024, NULL, 1, CSGRT_CHANNEL_ALL, NULL, 0, NULL, 1, 0}
+#define CSGRT_IMAGE_INFO {sizeof(csgrt_image_info), 0, 0, 0, 0}
+#define CSGRT_PICK {sizeof(csgrt_pick), -1, -1, 0, {0, 0, 0}, {0, 0, 0}, {{0, 0, 0}, {0, 0, 0}}}
+#define CSGRT_VERIFICATION {sizeof(csgrt_verification), "", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}, {0, 0, 0}}}
+// clang-format on
 
 #ifdef __cplusplus
 }
