@@ -1,10 +1,12 @@
 // csgrt_bench_c SCENE OBJECT [RAYS [ROUNDS]]: partitions of a million rays through a model, by C and by C++ in turn, in
-// one process. Prints the median of each, and of the ratios C / C++ of the rounds.
+// one process. Prints the median of each, and of the ratios C / C++ of the rounds: of the time that passes, and of that
+// of processors, which others on the machine change less.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <vector>
 
@@ -13,10 +15,16 @@
 
 namespace {
 
-double milliseconds(const std::function<void()>& work) {
+struct Time {
+    double wall = 0, processors = 0;  ///< milliseconds
+};
+
+Time time_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t used = std::clock();
     work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
+            1e3 * static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC};
 }
 
 double median(std::vector<double> values) {
@@ -62,19 +70,22 @@ int main(int argc, char** argv) {
     };
     const auto by_cpp = [&] { cpp.partitions(list, answer); };
 
-    std::vector<double> c_ms, cpp_ms, ratios;
+    std::vector<double> c_ms, cpp_ms, wall, processors;
     by_c();  // memory comes with the first answer
     by_cpp();
     for (int i = 0; i < rounds; ++i) {
         // Who is first changes, so that neither always has the other's warm caches.
-        double first = 0;
-        if (i % 2 == 0) first = milliseconds(by_c);
-        cpp_ms.push_back(milliseconds(by_cpp));
-        c_ms.push_back(i % 2 == 0 ? first : milliseconds(by_c));
-        ratios.push_back(c_ms.back() / cpp_ms.back());
+        Time in_c, in_cpp;
+        if (i % 2 == 0) in_c = time_of(by_c);
+        in_cpp = time_of(by_cpp);
+        if (i % 2 != 0) in_c = time_of(by_c);
+        c_ms.push_back(in_c.wall);
+        cpp_ms.push_back(in_cpp.wall);
+        wall.push_back(in_c.wall / in_cpp.wall);
+        processors.push_back(in_c.processors / in_cpp.processors);
     }
-    std::printf("%zu rays, %zu rows: C %.2f ms, C++ %.2f ms, ratio %.4f\n", list.size(), arrays.row_count, median(c_ms),
-                median(cpp_ms), median(ratios));
+    std::printf("%zu rays, %zu rows: C %.2f ms, C++ %.2f ms, ratio %.4f, of the processors' time %.4f\n", list.size(),
+                arrays.row_count, median(c_ms), median(cpp_ms), median(wall), median(processors));
     csgrt_partitions_free(found);
     csgrt_renderer_free(c);
     csgrt_model_free(model);

@@ -10,6 +10,7 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_CXX
     -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${CMAKE_COMMAND} -E chdir ${WORK}/build ./consumer)
+run(${WORK}/build/c_consumer)
 if(IMAGE AND NOT EXISTS ${WORK}/build/ball.exr)
     message(FATAL_ERROR "csgrt::image was built but the consumer did not find it")
 endif()
