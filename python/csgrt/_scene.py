@@ -1,0 +1,272 @@
+"""Scenes: load, ask, edit."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from . import _core
+from ._image import Image
+from ._solids import Part, scene_text, shape_text, sphere
+from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning
+
+_COLOR, _DISTANCE, _NORMAL, _IDS, _COUNTS, _DISPLAY, _GHOSTS = (1 << bit for bit in range(7))
+
+
+def _settings(given: Mapping) -> _core.Settings:
+    settings = _core.Settings()
+    for name, value in given.items():
+        if not hasattr(settings, name):
+            known = ", ".join(name for name in dir(settings) if not name.startswith("_"))
+            raise TypeError(f"csgrt has no setting {name}; the settings are {known}")
+        setattr(settings, name, str(value) if name == "device" else value)
+    return settings
+
+
+def _doubles(values, last: int, what: str) -> np.ndarray:
+    """The values as they are, if they are float64 in C order; else a copy."""
+    array = np.ascontiguousarray(values, np.float64)
+    if array.shape[-1] != last:
+        raise ValueError(f"{what} have the shape (..., {last}), not {array.shape}")
+    return array
+
+
+def _range(rays: np.ndarray, tnear, tfar):
+    """near, far, and in their place a list of both, if one of them is an array."""
+    if np.ndim(tnear) == 0 and np.ndim(tfar) == 0:
+        return float(tnear), float(tfar), None
+    ranges = np.empty(rays.shape[:-1] + (2,))
+    ranges[..., 0], ranges[..., 1] = tnear, tfar
+    return 0.0, 0.0, ranges
+
+
+def _parse(text: str) -> _core.Source:
+    return _core.parse(text, "scene", False, [])
+
+
+class Subtree:
+    """The object at the end of a path, in its place. Changes take effect with Scene.commit()."""
+
+    def __init__(self, scene: Scene, path: str):
+        self._scene, self.path = scene, path
+
+    @property
+    def color(self) -> tuple:
+        """Of a region: red, green, blue; display values, 0 to 1. Set: of all regions below the path, here alone."""
+        return self._scene.regions[self.path].color
+
+    @color.setter
+    def color(self, rgb):
+        self._scene.set_color(self.path, rgb)
+
+    @property
+    def state(self) -> str:
+        """Of a region: "shown", "ghost" or "hidden". Set: as color."""
+        return self._scene.regions[self.path].state
+
+    @state.setter
+    def state(self, state: str):
+        self._scene.set_state(self.path, state)
+
+    def _set_finish(self, members: Mapping):
+        part = sphere(1).color((1, 1, 1), **members)
+        self._scene.set_finish(self.path, _parse(scene_text({"finish": part})))
+
+    def _set_matrix(self, matrix):
+        self._scene.set_matrix(self.path, _matrix(matrix), False)
+
+    finish = property(None, _set_finish, doc="Set: a dict of specular, diffuse, ambient, shine, as in csgrt's JSON.")
+    matrix = property(None, _set_matrix, doc="Set: the (4, 4) matrix of the path's last leg, of this instance alone.")
+
+    def __repr__(self):
+        return f"<csgrt.Subtree {self.path}>"
+
+
+def _matrix(matrix) -> np.ndarray:
+    return np.ascontiguousarray(matrix, np.float64)
+
+
+class Scene(_core.Scene):
+    """A compiled scene. Any thread may use it; calls of several wait for each other. A child of fork() loads its own.
+
+    scene: a Part (then its name is "part") or a dict of them by name. objects: names or paths of what is rendered;
+    none: the scene's top objects. settings: attributes of csgrt.Settings. Raises csgrt.Error.
+    """
+
+    def __init__(self, scene: Part | Mapping[str, Part] | _core.Source, objects: Iterable[str] = (), **settings):
+        if isinstance(scene, Part):
+            scene = {"part": scene}
+        if not isinstance(scene, _core.Source):
+            scene = _parse(scene_text(scene))
+        super().__init__(scene, [objects] if isinstance(objects, str) else list(objects), _settings(settings))
+        self._regions = None
+        found = self.warnings
+        if found:
+            more = f" (and {len(found) - 1} more: Scene.warnings)" if len(found) > 1 else ""
+            level = 2
+            while _inside(level):
+                level += 1
+            warnings.warn(found[0].text + more, SceneWarning, stacklevel=level)
+
+    @property
+    def regions(self) -> Regions:
+        """The regions, by id or by path: id, path, material, bounds, color, state, region_id, air, los."""
+        if self._regions is None:
+            self._regions = Regions(self.region_rows())
+        return self._regions
+
+    @property
+    def solids(self) -> list[Solid]:
+        """The solids, by the ids that solid_ids, in_solids and out_solids have."""
+        return [Solid(*row) for row in self.solid_rows()]
+
+    @property
+    def warnings(self) -> list[Warning]:
+        """What was tolerated or left out, and what is to be said of devices."""
+        return [Warning(row[0], Place(*row[1]), *row[2:]) for row in self.warning_rows()]
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """(2, 3) float64: the low and the high corner of the box around all regions, mm."""
+        return np.array(self.box)
+
+    # ---- Rays: (..., 6) float64, origin in mm and direction of any length but 0. In C order they are read in place.
+
+    def cast_rays(self, rays, tnear=0.0, tfar=np.inf, *, solids: bool = True, normals: bool = True) -> dict:
+        """Where rays first meet a region that pictures show.
+
+        rays: (..., 6). tnear, tfar: numbers, or arrays that fit the shape (...), in lengths of the direction.
+        Returns a dict of arrays: t_hit (...) float64, infinity for a miss; region_ids (...) int32, -1 for a miss;
+        solid_ids (...) int32; normals (..., 3) float64. Raises csgrt.Error (usage, out_of_memory, device_fault).
+        """
+        rays = _doubles(rays, 6, "rays")
+        return self.hit_arrays(rays, *_range(rays, tnear, tfar), solids, normals)
+
+    def partitions(self, rays, tnear=0.0, tfar=np.inf, *, solids: bool = False, normals: bool = False,
+                   overlaps: bool = False, hidden: bool = True) -> dict:
+        """Which region holds which part of each ray.
+
+        rays, tnear, tfar: as in cast_rays. hidden=False leaves out regions that pictures do not show.
+        Returns a dict of arrays. The rows of ray i are ray_splits[i] to ray_splits[i + 1].
+        ray_splits: (rays + 1) int64. region_ids: (rows) int32. t_in, t_out: (rows) float64.
+        solids=True: in_solids, out_solids, (rows) int32, -1 where the range cuts.
+        normals=True: in_normals, out_normals, (rows, 3) float64, outward.
+        overlaps=True: overlap_splits (rays + 1), overlap_t_in, overlap_t_out (overlaps),
+        overlap_region_splits (overlaps + 1), overlap_region_ids.
+        Raises csgrt.Error (usage, out_of_memory, device_fault).
+        """
+        rays = _doubles(rays, 6, "rays")
+        return self.partition_arrays(rays, *_range(rays, tnear, tfar), solids, normals, overlaps, hidden)
+
+    def test_occlusions(self, rays, tnear=0.0, tfar=np.inf) -> np.ndarray:
+        """Whether rays meet a region that pictures show: (...) bool. Arguments and errors: as of cast_rays."""
+        rays = _doubles(rays, 6, "rays")
+        return self.occluded(rays, *_range(rays, tnear, tfar))
+
+    def region_at(self, points) -> np.ndarray:
+        """The ids of the regions that hold points: (..., 3) float64, mm, gives (...) int32; -1: nothing.
+
+        Of two regions that touch at the point it is the one that begins there along +x. Raises csgrt.Error.
+        """
+        return self.regions_at(_doubles(points, 3, "points"))
+
+    # ---- Views
+
+    def _view(self, width: int, height: int, options: Mapping) -> _core.View:
+        view, camera = _core.View(), self.camera
+        if "azimuth" in options or "elevation" in options:
+            camera.eye = None
+        if "eye" in options:
+            camera.view_size = None
+        if "look_at" in options:
+            camera.center = None
+        for name, value in options.items():
+            target = camera if hasattr(camera, name) else view
+            if name.startswith("_") or not hasattr(target, name):
+                raise TypeError(f"a view has no {name}; it has what csgrt.Camera and csgrt.View have")
+            setattr(target, name, value)
+        view.width, view.height, view.camera = width, height, camera
+        return view
+
+    def render(self, width: int = 1024, height: int = 1024, **view) -> Image:
+        """A picture: .color, .rgba, .depth, .normal, .region_ids, and by name image["ghost"].
+
+        view: azimuth, elevation, perspective, center, view_size, eye, look_at, up (as of csgrt.Camera; default: the
+        scene's camera); clip: up to six planes (normal, distance); samples: rays a pixel; transparent; every_partition:
+        adds the channels depth, partitions, overlap. Raises csgrt.Error (usage, out_of_memory, device_fault).
+        """
+        made = self._view(width, height, {"every_partition": False, **view})
+        if "channels" not in view:
+            made.channels = _COLOR | _DISTANCE | _NORMAL | _IDS | _DISPLAY | _GHOSTS
+            if made.every_partition:
+                made.channels |= _COUNTS
+        return Image(*self.planes(made))
+
+    def pick(self, column: int, row: int, width: int = 1024, height: int = 1024, **view) -> Pick:
+        """What render() with the same view shows at a pixel, from the top left, and all partitions along its ray."""
+        return Pick(*self.pick_row(self._view(width, height, view), column, row))
+
+    def rays_of(self, width: int = 1024, height: int = 1024, **view) -> np.ndarray:
+        """The rays of a picture: (height, width, 6) float64."""
+        return self.view_rays(self._view(width, height, view))
+
+    # ---- Edits, which take effect with commit()
+
+    def __getitem__(self, path: str) -> Subtree:
+        """What is at a path such as "/all/turret@2": its matrix, color, finish and state can be set."""
+        return Subtree(self, path)
+
+    def add(self, name: str, part: Part, top: bool = True):
+        """Adds a part under a new name. It is rendered if it is a top object, or joined to one. Raises csgrt.Error."""
+        self.add_objects(_parse(scene_text({name: part})), name if top else "")
+
+    def add_leg(self, combination: str, object: str, operator: str = "union", matrix=np.eye(4)):  # noqa: A002
+        """A combination's tree becomes: tree, operator ("union", "difference", "intersection", "xor"), object."""
+        self.join(combination, operator, object, _matrix(matrix))
+
+    def replace(self, solid: str, part: Part):
+        """A solid gets another shape, in all of its places. Raises csgrt.Error, or ValueError for a tree."""
+        self.replace_shape(solid, _parse(shape_text(part)))
+
+    def commit(self):
+        """Makes all edits. If csgrt.Error is raised, the scene is as it was, and the edits wait for another commit."""
+        self.commit_edits()
+        self._regions = None
+
+    def save(self, path):
+        """Writes the scene with all committed edits as .json. Raises csgrt.Error, or ValueError for another format."""
+        path = os.fspath(path)
+        if not path.endswith(".json"):
+            raise ValueError("scenes are written as .json")
+        self.save_json(path)
+
+    def __repr__(self):
+        return f"<csgrt.Scene: {len(self.regions)} regions>"
+
+
+def _inside(level: int) -> bool:
+    """Whether that caller of Scene.__init__ is csgrt's own: a warning is about the line of the user."""
+    import sys
+
+    return sys._getframe(level).f_globals.get("__package__") == __package__
+
+
+def load(path, objects: Sequence[str] = (), *, strict: bool = False, file_folders: Sequence[str] = (),
+         **settings) -> Scene:
+    """Reads and compiles a scene file: .json, or BRL-CAD's .g and .asc.
+
+    objects: names or paths ("all.g/tor.r"); none: the scene's top objects. strict: a fault of a BRL-CAD database is an
+    error. file_folders: below which a scene may name files, besides its own folder. settings: attributes of
+    csgrt.Settings, such as device="gpu" or air=True. Raises csgrt.Error (file, scene, out_of_memory, no_device).
+    """
+    source = _core.load(os.fspath(path), strict, list(map(os.fspath, file_folders)), _settings(settings))
+    return Scene(source, objects, **settings)
+
+
+def parse(text: str | bytes, objects: Sequence[str] = (), *, name: str = "scene", strict: bool = False,
+          file_folders: Sequence[str] = (), **settings) -> Scene:
+    """As load(), from the contents of a file. Errors call it `name`, and files in it are relative to its folder."""
+    return Scene(_core.parse(text, name, strict, list(map(os.fspath, file_folders))), objects, **settings)

@@ -1,0 +1,80 @@
+// The module csgrt._core: what has no scene, and what is done before there is one.
+#include "values.hpp"
+
+namespace csgrt::python {
+namespace {
+
+using Unlocked = nb::call_guard<nb::gil_scoped_release>;
+
+nb::list device_rows() {
+    std::vector<DeviceInfo> found;
+    {
+        nb::gil_scoped_release unlocked;
+        found = devices();
+    }
+    nb::list rows;
+    for (const DeviceInfo& d : found)
+        rows.append(nb::make_tuple(d.name, d.platform, d.version, d.driver, d.type, d.memory, d.max_allocation,
+                                   d.compute_units, d.fp64));
+    return rows;
+}
+
+nb::object rays_of(const RayGrid& grid) {
+    auto rays = std::make_unique<Array<Ray>>();
+    {
+        nb::gil_scoped_release unlocked;
+        rays->resize(grid.size());
+        Ray* next = rays->data();
+        for (int row = 0; row < grid.rows; ++row)
+            for (int column = 0; column < grid.columns; ++column) *next++ = grid.ray(column, row);
+    }
+    Ray* const data = rays->data();
+    return array(data, {std::size_t(grid.rows), std::size_t(grid.columns)}, keeper(rays));
+}
+
+nb::object parallel(const Box& box, const std::string& axis, std::pair<int, int> pixels) {
+    if (axis != "x" && axis != "y" && axis != "z")
+        throw nb::value_error("the axis of parallel rays is \"x\", \"y\" or \"z\"");
+    return rays_of(rays_parallel(box, Axis(axis[0] - 'x'), pixels.first, pixels.second));
+}
+
+nb::object pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width, int height) {
+    return rays_of(rays_pinhole(vertical_fov, center, eye, up, width, height));
+}
+
+}  // namespace
+
+NB_MODULE(_core, module) {
+    using namespace nb::literals;
+    nb::set_leak_warnings(false);  // a program that ends with scenes in hand is no fault
+    bind_errors(module);
+    bind_settings(module);
+    nb::class_<Scene>(module, "Source", "A scene as it was read. A Scene takes what is in it.");
+    bind_scene(module);
+    module.attr("version") = version();
+    module.def(
+        "load",
+        [](const std::string& path, bool strict, std::vector<std::string> folders, const Settings& settings) {
+            prepare_devices(settings);
+            return load_scene(path, {.strict = strict, .file_folders = std::move(folders)});
+        },
+        "path"_a, "strict"_a, "file_folders"_a, "settings"_a, Unlocked());
+    module.def(
+        "parse",
+        [](std::string text, const std::string& name, bool strict, std::vector<std::string> folders) {
+            return parse_scene(std::move(text), name, {.strict = strict, .file_folders = std::move(folders)});
+        },
+        "text"_a, "name"_a, "strict"_a, "file_folders"_a, Unlocked());
+    module.def("device_rows", &device_rows);
+    module.def("rays_parallel", &parallel, "bounds"_a, "axis"_a, "pixels"_a,
+               "Parallel rays along an axis, upward, through the middles of the cells of a box's face.\n\n"
+               "bounds: (low, high), mm; axis: \"x\", \"y\" or \"z\"; pixels: (columns, rows). They start 1 mm before "
+               "the box.\nReturns (rows, columns, 6) float64: origin, direction. The top row has the largest z (y, if "
+               "the axis is z).\nRaises csgrt.Error (usage) for an empty box.");
+    module.def("rays_pinhole", &pinhole, "vertical_fov"_a, "center"_a, "eye"_a, "up"_a, "width"_a, "height"_a,
+               "Rays from an eye through the middles of a picture's pixels, with unit directions.\n\n"
+               "vertical_fov: degrees between the upper and lower edge; center: the point in the picture's middle, mm."
+               "\nReturns (height, width, 6) float64: origin, direction. Raises csgrt.Error (usage).");
+}
+
+}  // namespace csgrt::python

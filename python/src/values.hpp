@@ -1,0 +1,105 @@
+// Points, boxes and arrays between C++ and Python.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <csgrt/csgrt.hpp>
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+namespace nb = nanobind;
+
+namespace nanobind::detail {
+
+/// Any sequence of three numbers; a tuple in Python.
+template <>
+struct type_caster<csgrt::Vec3> {
+    using Numbers = make_caster<std::array<double, 3>>;
+    NB_TYPE_CASTER(csgrt::Vec3, Numbers::Name)
+    bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
+        Numbers numbers;
+        if (!numbers.from_python(from, flags, cleanup)) return false;
+        value = {numbers.value[0], numbers.value[1], numbers.value[2]};
+        return true;
+    }
+    static handle from_cpp(const csgrt::Vec3& v, rv_policy, cleanup_list*) noexcept {
+        return Py_BuildValue("(ddd)", v.x, v.y, v.z);
+    }
+};
+
+/// Any pair of points: low, high.
+template <>
+struct type_caster<csgrt::Box> {
+    using Points = make_caster<std::pair<csgrt::Vec3, csgrt::Vec3>>;
+    NB_TYPE_CASTER(csgrt::Box, Points::Name)
+    bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
+        Points points;
+        if (!points.from_python(from, flags, cleanup)) return false;
+        const auto [low, high] = static_cast<std::pair<csgrt::Vec3, csgrt::Vec3>>(points);
+        value = {low, high};
+        return true;
+    }
+    static handle from_cpp(const csgrt::Box& box, rv_policy policy, cleanup_list* cleanup) noexcept {
+        return Points::from_cpp(std::pair(box.low, box.high), policy, cleanup);
+    }
+};
+
+}  // namespace nanobind::detail
+
+namespace csgrt::python {
+
+/// Rays, ranges and points as Python gives them: read in place.
+using Doubles = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+using Matrices = nb::ndarray<const double, nb::shape<4, 4>, nb::c_contig, nb::device::cpu>;
+using Shape = std::vector<std::size_t>;
+
+/// The elements of an array whose last axis is one element: rays, ranges, points.
+template <class T>
+std::span<const T> list_of(const Doubles& array) {
+    static_assert(sizeof(T) % sizeof(double) == 0 && alignof(T) == alignof(double));
+    return {reinterpret_cast<const T*>(array.data()), array.size() / (sizeof(T) / sizeof(double))};
+}
+
+/// The shape of such an array without its last axis.
+inline Shape leading(const Doubles& array) {
+    Shape shape;
+    for (std::size_t i = 0; i + 1 < array.ndim(); ++i) shape.push_back(array.shape(i));
+    return shape;
+}
+
+/// What keeps an answer as long as arrays show its memory.
+template <class Answer>
+nb::capsule keeper(std::unique_ptr<Answer>& answer) {
+    nb::capsule kept(answer.get(), [](void* held) noexcept { delete static_cast<Answer*>(held); });
+    static_cast<void>(answer.release());
+    return kept;
+}
+
+/// A numpy array that shows `data`, which `kept` keeps. Points have an axis of their own.
+template <class T>
+nb::object array(T* data, Shape shape, nb::handle kept) {
+    if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Ray>) {
+        shape.push_back(sizeof(T) / sizeof(double));
+        return array(reinterpret_cast<double*>(data), std::move(shape), kept);
+    } else {
+        return nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), kept).cast();
+    }
+}
+template <class T>
+nb::object array(Array<T>& values, nb::handle kept) {
+    return array(values.data(), {values.size()}, kept);
+}
+
+nb::tuple place_row(const Place& place);  ///< the members of csgrt.Place
+void bind_settings(nb::module_& module);  ///< Settings, Camera, View
+void bind_errors(nb::module_& module);
+void bind_scene(nb::module_& module);
+
+}  // namespace csgrt::python
