@@ -232,7 +232,10 @@ class Scene(_core.Scene):
         self.replace_shape(solid, _parse(shape_text(part)))
 
     def commit(self):
-        """Makes all edits. If csgrt.Error is raised, the scene is as it was, and the edits wait for another commit."""
+        """Makes all edits. If csgrt.Error is raised, the scene is as it was, and the edits wait: see discard().
+
+        Paths of colours, finishes and states are looked up here, those of other edits at once.
+        """
         self.commit_edits()
         self._regions = None
 

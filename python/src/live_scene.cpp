@@ -126,12 +126,23 @@ nb::list LiveScene::warning_rows() {
 
 nb::dict LiveScene::partitions(const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
                                Fields fields) {
-    auto answer = std::make_unique<Partitions>();
+    // What keeps the answer gives its memory back to the scene, if there is one yet.
+    struct Held {
+        std::weak_ptr<Spare> scene;
+        std::unique_ptr<Partitions> answer;
+        ~Held() {
+            const auto spare = scene.lock();
+            if (!spare) return;
+            const std::lock_guard lock(spare->mutex);
+            if (!spare->answer) spare->answer = std::move(answer);
+        }
+    };
+    std::unique_ptr<Held> held(new Held{spare_, spare_->take()});
+    Partitions& p = *held->answer;
     run([&](Renderer& renderer) {
-        renderer.partitions(list_of<Ray>(rays), *answer, fields, ranges_of(range, ranges));
+        renderer.partitions(list_of<Ray>(rays), p, fields, ranges_of(range, ranges));
     });
-    Partitions& p = *answer;
-    const nb::capsule kept = keeper(answer);
+    const nb::capsule kept = keeper(held);
     nb::dict arrays;
     arrays["ray_splits"] = array(p.ray_splits, kept);
     arrays["region_ids"] = array(p.region_ids, kept);
@@ -267,7 +278,9 @@ void LiveScene::replace(const std::string& solid, const Scene& source) {
 }
 void LiveScene::add(const Scene& source, const std::string& top) {
     edit([&](Edit& e) {
-        for (const Object& object : source.objects) e.add(object, name_of(object) == top);
+        // The last is the one whose name the caller chose: if that is taken, nothing is added.
+        for (std::size_t i = source.objects.size(); i-- > 0;)
+            e.add(source.objects[i], name_of(source.objects[i]) == top);
     });
 }
 void LiveScene::add_leg(const std::string& combination, const std::string& op, const std::string& object,
@@ -283,6 +296,10 @@ void LiveScene::commit() {
         renderer_->set_model(e.commit());
         edit_.reset();
     });
+}
+
+void LiveScene::discard() {
+    edit([&](Edit&) { edit_.reset(); });
 }
 
 void LiveScene::save(const std::string& path) {
@@ -341,6 +358,7 @@ void bind_scene(nb::module_& module) {
         .def("remove", &LiveScene::remove, "path"_a,
              "Removes the last leg of a path, for all that share the combination. Takes effect with commit().")
         .def("commit_edits", &LiveScene::commit)
+        .def("discard", &LiveScene::discard, "Forgets the edits since the last commit().")
         .def("save_json", &LiveScene::save);
 }
 

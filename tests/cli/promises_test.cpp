@@ -1,4 +1,5 @@
 // docs/promises.md is honest.
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -27,10 +28,15 @@ std::string words_of(const std::string& text) {
     return all;
 }
 
-/// The names of a file's test cases, each on a line.
+/// The names of a file's test cases, each on a line. Those of Python have blanks in place of underscores.
 std::string names_in(const std::string& source) {
-    static const std::regex begin("TEST_CASE\\(");
+    static const std::regex begin("TEST_CASE\\("), python("\ndef (test_[a-z_0-9]+)");
     std::string names;
+    for (std::sregex_iterator at(source.begin(), source.end(), python), end; at != end; ++at) {
+        std::string name = (*at)[1];
+        std::replace(name.begin(), name.end(), '_', ' ');
+        names += name + '\n';
+    }
     for (std::sregex_iterator at(source.begin(), source.end(), begin), end; at != end; ++at) {
         std::size_t i = static_cast<std::size_t>(at->position()) + at->length();
         // One literal or several, one after the other.
@@ -70,7 +76,7 @@ TEST_CASE("each promise stands where docs/promises.md says, and its tests exist"
             const std::size_t open = test.find('`'), close = test.find('`', open + 1);
             REQUIRE(close != std::string::npos);
             const std::string file = test.substr(open + 1, close - open - 1), name = words_of(test.substr(close + 1));
-            const std::string path = root + "tests/" + file + (file.ends_with(".cmake") ? "" : "_test.cpp");
+            const std::string path = root + "tests/" + file + (file.ends_with(".cmake") || file.ends_with(".py") ? "" : "_test.cpp");
             INFO(path);
             REQUIRE(fs::exists(path));
             if (names.find(file) == names.end()) names[file] = names_in(read_file(path));

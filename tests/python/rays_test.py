@@ -1,0 +1,132 @@
+"""Rays and points: shapes, memory, and the bits of the command."""
+
+import json
+
+import numpy as np
+import pytest
+
+import csgrt
+from csgrt._scene import _doubles
+
+
+def test_partitions_have_the_bits_of_the_command(operators, scenes, shoot, random_rays):
+    rays = random_rays(operators, 2000)
+    parts = operators.partitions(rays, solids=True, normals=True)
+    rows = shoot(scenes / "operators.json", rays)
+    assert len(rows) > 1000
+    counts = np.diff(parts["ray_splits"])
+    np.testing.assert_array_equal(np.repeat(np.arange(len(rays)), counts), rows["ray"])
+    for ours, theirs in (("region_ids", "region_id"), ("in_solids", "in_solid"), ("out_solids", "out_solid"),
+                         ("t_in", "t_in"), ("t_out", "t_out"), ("in_normals", "in_normal"),
+                         ("out_normals", "out_normal")):
+        assert parts[ours].tobytes() == rows[theirs].tobytes(), ours
+
+
+def test_any_leading_shape_is_kept(operators):
+    rays = csgrt.rays_parallel(operators.bounds, "x", (30, 20))
+    assert rays.shape == (20, 30, 6)
+    flat, grid = operators.cast_rays(rays.reshape(-1, 6)), operators.cast_rays(rays)
+    assert grid["t_hit"].shape == grid["region_ids"].shape == grid["solid_ids"].shape == (20, 30)
+    assert grid["normals"].shape == (20, 30, 3)
+    for name, values in grid.items():
+        np.testing.assert_array_equal(values.reshape(flat[name].shape), flat[name])
+    assert operators.test_occlusions(rays[3, 4]).shape == ()
+    assert operators.region_at(np.zeros((2, 1, 4, 3))).shape == (2, 1, 4)
+    assert operators.partitions(np.zeros((0, 6)))["ray_splits"].tolist() == [0]
+
+
+def test_types_and_misses(operators):
+    rays = [[1e6, 1e6, 1e6, 1, 0, 0], [0, -9000, 0, 0, 1, 0]]  # any sequence is taken
+    hits, parts = operators.cast_rays(rays), operators.partitions(rays, overlaps=True)
+    assert hits["t_hit"].dtype == np.float64 and hits["region_ids"].dtype == np.int32
+    assert hits["t_hit"][0] == np.inf and hits["region_ids"][0] == hits["solid_ids"][0] == -1
+    assert {name: str(values.dtype) for name, values in parts.items()} == {
+        "ray_splits": "int64", "region_ids": "int32", "t_in": "float64", "t_out": "float64",
+        "overlap_splits": "int64", "overlap_t_in": "float64", "overlap_t_out": "float64",
+        "overlap_region_splits": "int64", "overlap_region_ids": "int32"}
+    assert parts["ray_splits"][1] == 0 and parts["t_in"][0] == hits["t_hit"][1]
+    assert operators.test_occlusions(rays).tolist() == [False, True]
+    assert operators.test_occlusions(rays).dtype == bool
+
+
+def test_rays_are_read_in_place_and_answers_are_not_copied(operators):
+    rays = csgrt.rays_parallel(operators.bounds, "z", (10, 10))
+    assert np.shares_memory(_doubles(rays, 6, "rays"), rays)
+    parts, hits = operators.partitions(rays), operators.cast_rays(rays)
+    assert not any(values.flags.owndata for values in (*parts.values(), *hits.values()))
+
+
+def test_answers_outlive_their_scene(scenes):
+    scene = csgrt.load(scenes / "operators.json")
+    rays = csgrt.rays_parallel(scene.bounds, "x", (200, 200))
+    image, parts, hits = scene.render(64, 64), scene.partitions(rays, normals=True), scene.cast_rays(rays)
+    arrays = [image.rgba, image.color, image.region_ids, *parts.values(), *hits.values()]
+    before = [values.tobytes() for values in arrays]
+    del scene, image, parts, hits
+    other = csgrt.load(scenes / "solids.json")  # takes memory that was freed
+    other.partitions(rays)
+    assert before == [values.tobytes() for values in arrays]
+
+
+def test_ranges_for_all_rays_and_for_each(operators):
+    rays = csgrt.rays_parallel(operators.bounds, "x", (40, 30))
+    whole = operators.cast_rays(rays)
+    near = np.where(np.isinf(whole["t_hit"]), 0, whole["t_hit"] + 1)
+    cut = operators.partitions(rays, tnear=near, tfar=near + 100)
+    assert (cut["t_in"] >= near.min()).all()
+    counts = np.diff(cut["ray_splits"])
+    np.testing.assert_array_less(cut["t_out"], np.repeat(near.ravel() + 100, counts) + 1e-9)
+    one = operators.partitions(rays, 100, 2000)
+    np.testing.assert_array_equal(operators.partitions(rays, np.full((30, 40), 100.0), 2000)["t_in"], one["t_in"])
+    assert (one["t_in"] >= 100).all() and (one["t_out"] <= 2000).all()
+
+
+def test_places_and_cuts_have_the_bits_of_the_command(operators, scenes, command, tmp_path):
+    points = np.random.default_rng(2).uniform(*operators.bounds, (500, 3))
+    np.savetxt(tmp_path / "points", points, fmt="%.17g")
+    command("sample", scenes / "operators.json", "--points", tmp_path / "points", "-o", tmp_path / "points.npy")
+    ids = operators.region_at(points)
+    np.testing.assert_array_equal(ids, np.load(tmp_path / "points.npy"))
+    assert ids.dtype == np.int32 and (ids >= 0).any() and (ids == -1).any()
+
+    command("sample", scenes / "operators.json", "--plane", "z:50", "--size", "80x60", "-o", tmp_path / "cut.npy")
+    cut = operators.slice(normal=(0, 0, 1), offset=50, pixels=(80, 60))
+    np.testing.assert_array_equal(cut, np.load(tmp_path / "cut.npy"))
+    assert cut.shape == (60, 80) and cut.dtype == np.int32
+
+
+def test_overlaps_are_listed_with_all_claimants(scenes):
+    scene = csgrt.load(scenes / "overlap.json")
+    parts = scene.partitions(csgrt.rays_parallel(scene.bounds, "x", (50, 50)), overlaps=True)
+    assert len(parts["overlap_splits"]) == 2501
+    assert len(parts["overlap_t_in"]) == len(parts["overlap_region_splits"]) - 1 > 0
+    assert (np.diff(parts["overlap_region_splits"]) >= 2).all()
+
+
+def test_pinhole_rays_are_those_of_a_picture(operators):
+    eye, center = (20000.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    rays = csgrt.rays_pinhole(40, center, eye, (0, 0, 1), 32, 24)
+    assert rays.shape == (24, 32, 6)
+    np.testing.assert_allclose(np.linalg.norm(rays[..., 3:], axis=-1), 1)
+    view = operators.rays_of(32, 24, eye=eye, center=center, perspective=40)
+    np.testing.assert_allclose(rays, view, rtol=1e-12, atol=1e-9)
+
+
+def test_wrong_shapes_and_rays_are_refused_with_a_sentence(operators):
+    with pytest.raises(ValueError, match=r"rays have the shape \(\.\.\., 6\), not \(3, 5\)"):
+        operators.cast_rays(np.zeros((3, 5)))
+    with pytest.raises(csgrt.Error, match="ray 1: needs a direction other than 0") as caught:
+        operators.partitions([[0, 0, 0, 1, 0, 0], [0] * 6])
+    assert caught.value.status == "usage"
+
+
+def test_regions_are_those_of_info(operators, scenes, command):
+    listed = json.loads(command("info", "--json", scenes / "operators.json", capture_output=True).stdout)
+    assert len(operators.regions) == len(listed["regions"])
+    for region, row in zip(operators.regions, listed["regions"]):
+        assert (region.id, region.path, region.material) == (row["index"], row["path"], row["material_id"])
+        assert region.bounds == (tuple(row["bounds"]["low"]), tuple(row["bounds"]["high"]))
+        assert operators.regions[region.path] is region
+    assert "/operators/xor" in repr(operators.regions)
+    assert operators.bounds.tolist() == [listed["bounds"]["low"], listed["bounds"]["high"]]
+    assert operators.units == "mm"

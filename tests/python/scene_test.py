@@ -1,0 +1,182 @@
+"""Pictures, edits, errors, warnings; scenes made in code."""
+
+import io
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import csgrt
+
+pillow = pytest.importorskip("PIL.Image")
+
+
+def test_a_picture_has_the_bits_of_the_command(operators, scenes, command, tmp_path):
+    view = {"azimuth": 60, "elevation": 10, "perspective": 30}
+    image = operators.render(96, 64, **view)
+    options = [word for name, value in view.items() for word in (f"--{name}", value)]
+    command(scenes / "operators.json", "--size", "96x64", *options, "-o", tmp_path / "theirs.png")
+    theirs = np.asarray(pillow.open(tmp_path / "theirs.png").convert("RGBA"))
+    np.testing.assert_array_equal(image.color, theirs)
+    image.save(tmp_path / "ours.png")
+    np.testing.assert_array_equal(np.asarray(pillow.open(tmp_path / "ours.png").convert("RGBA")), theirs)
+    assert pillow.open(tmp_path / "ours.png").mode == "RGB"
+    assert pillow.open(io.BytesIO(image._repr_png_())).size == (96, 64)
+
+
+def test_views_of_a_picture_share_its_memory(operators):
+    image = operators.render(40, 30, every_partition=True)
+    assert image.color.shape == (30, 40, 4) and image.color.dtype == np.uint8
+    assert image.rgba.shape == (30, 40, 4) and image.rgba.dtype == np.float32
+    assert image.normal.shape == (30, 40, 3) and image.depth.shape == (30, 40)
+    assert image.region_ids.dtype == np.uint32
+    assert np.shares_memory(image.color, image.color) and np.shares_memory(image.color, image["RGBA8"])
+    assert np.shares_memory(image.rgba[..., 1], image["G"]) and np.shares_memory(image.normal, image["N.Z"])
+    assert np.shares_memory(image.depth, image["Z"]) and np.shares_memory(image.region_ids, image["region"])
+    assert (image["partitions"][image.region_ids > 0] > 0).all()
+    assert (np.isinf(image.depth) == (image.region_ids == 0)).all()
+    with pytest.raises(KeyError, match="no channel depht"):
+        image["depht"]
+
+
+def test_pick_tells_what_the_picture_shows(operators):
+    view = {"azimuth": 60, "clip": [((0, 0, 1), 500.0)]}
+    image = operators.render(64, 64, **view)
+    row, column = np.argwhere(image.region_ids > 0)[100]
+    found = operators.pick(column, row, 64, 64, **view)
+    assert found.region_id + 1 == image.region_ids[row, column]
+    np.testing.assert_allclose(found.point, np.asarray(found.ray[0]) + found.t * np.asarray(found.ray[1]))
+    assert found.partitions
+
+
+def test_edits_take_effect_with_commit(operators):
+    path = "/operators/union"
+    before = operators.render(64, 64)
+    operators[path].color = (0, 1, 0)
+    operators["/operators/plinth@2"].state = "ghost"
+    operators[path].finish = {"specular": 0.9, "shine": 3}
+    operators[path].matrix = csgrt.translate(0, -4000, 0)
+    assert (operators.render(64, 64).color == before.color).all()
+    operators.commit()
+    assert operators[path].color == (0, 1, 0) and operators["/operators/plinth@2"].state == "ghost"
+    assert operators.regions[path].bounds[0][1] != -4670
+    after = operators.render(64, 64)
+    assert (after.color != before.color).any()
+    with pytest.raises(csgrt.Error, match="a state is one of shown, ghost, hidden, not gone"):
+        operators[path].state = "gone"
+    operators["/operators/nothing"].color = (1, 0, 0)
+    with pytest.raises(csgrt.Error, match="no region at '/operators/nothing'"):
+        operators.commit()
+    operators.discard()
+    operators.remove(path)
+    operators.add("extra", csgrt.sphere(500))
+    operators.replace("extra.sphere1", csgrt.sphere(700))
+    operators.add_leg("operators", "extra", matrix=csgrt.translate(z=4000))
+    operators.commit()
+    assert path not in [region.path for region in operators.regions]
+    assert operators.regions["/extra"].bounds == ((-700, -700, -700), (700, 700, 700))
+    assert operators.regions["/operators/extra"].bounds[1][2] == 4700
+    with pytest.raises(ValueError, match="single solid"):
+        operators.replace("extra.sphere1", csgrt.sphere(1) - csgrt.box(1))
+
+
+def test_a_hundred_edits_have_the_bits_of_the_command(operators, shoot, random_rays, tmp_path):
+    for step in range(100):
+        operators["/operators/plinth@3"].matrix = csgrt.rotate(z=step) @ csgrt.translate(0, 3250 + step, 0)
+        operators["/operators/xor"].color = (step / 100, 0, 0)
+        operators.commit()
+    operators.save(tmp_path / "edited.json")
+    rays = random_rays(operators, 1000)
+    parts, rows = operators.partitions(rays), shoot(tmp_path / "edited.json", rays)
+    assert parts["t_in"].tobytes() == rows["t_in"].tobytes()
+    assert parts["region_ids"].tobytes() == rows["region_id"].tobytes()
+    with pytest.raises(ValueError, match="written as .json"):
+        operators.save(tmp_path / "edited.g")
+
+
+def test_booleans_in_code():
+    ball, cube = csgrt.sphere(10), csgrt.box(12, center=True)
+    points = [[0, 0, 0], [0, 0, 8], [5.5, 5.5, 5.5], [20, 0, 0], [9.5, 0, 0]]
+    inside = {"|": [0, 0, 0, -1, 0], "&": [0, -1, 0, -1, -1], "-": [-1, 0, -1, -1, 0], "^": [-1, 0, -1, -1, 0]}
+    points[2] = [5.5, 5.5, 5.5]  # in the ball: 9.53 from the origin
+    for operator, ids in inside.items():
+        part = {"|": ball | cube, "&": ball & cube, "-": ball - cube, "^": ball ^ cube}[operator]
+        np.testing.assert_array_equal(csgrt.Scene(part).region_at(points), ids, operator)
+    np.testing.assert_array_equal(csgrt.Scene(ball + cube).region_at(points), inside["|"])
+
+
+def test_solids_in_code_are_exact():
+    hits = csgrt.Scene(csgrt.torus(5, 1)).partitions([[-10, 0, 0, 1, 0, 0]])
+    np.testing.assert_allclose(hits["t_in"], [4, 14])
+    np.testing.assert_allclose(hits["t_out"], [6, 16])
+    assert csgrt.Scene(csgrt.cylinder(4, 2)).cast_rays([[0, 0, -1, 0, 0, 1]])["t_hit"] == [1]
+    assert csgrt.Scene(csgrt.cone(4, 2)).cast_rays([[-9, 0, 2, 1, 0, 0]])["t_hit"] == pytest.approx(8)
+    made = csgrt.solid("ell", center=(0, 0, 0), a=np.array([2.0, 0, 0]), b=(0, 1, 0), c=(0, 0, 1))
+    scene = csgrt.Scene(made.rotate(z=90).scale(2).translate(z=5))
+    assert scene.cast_rays([[0, -10, 5, 0, 1, 0]])["t_hit"] == [6]  # a quarter turn is exact
+    assert csgrt.rotate(x=90).tolist() == [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]
+
+
+def test_colours_make_regions(tmp_path):
+    wheel = csgrt.torus(2, 0.5).color((0, 0, 0), shine=5)
+    hull = csgrt.box((8, 4, 2), center=True)
+    car = (hull.color((1, 0, 0)) | wheel.translate(x=5) | wheel.translate(x=-5)) - csgrt.cylinder(9, 0.2, center=True)
+    scene = csgrt.Scene({"car": car | csgrt.sphere(1).translate(z=3), "ball": csgrt.sphere(1).translate(z=9)})
+    assert [region.color for region in scene.regions][:3] == [(1, 0, 0), (0, 0, 0), (0, 0, 0)]
+    assert [r.path for r in scene.regions][3:] == ["/car/car.rest", "/ball"]
+    assert scene.region_at([[0, 0, 0], [1, 1, 0], [0, 0, 3], [0, 0, 9]]).tolist() == [-1, 0, 3, 4]
+    pair = csgrt.Scene({"pair": wheel | wheel.translate(z=3)})
+    assert [region.path for region in pair.regions] == ["/pair/pair.region1", "/pair/pair.region1@2"]
+    scene.save(tmp_path / "car.json")
+    assert repr(csgrt.load(tmp_path / "car.json").regions) == repr(scene.regions)
+    assert len(csgrt.Scene(car.color((0, 1, 0))).regions) == 1
+
+
+def test_long_chains_and_shared_parts_stay_small():
+    row = csgrt.sphere(0.4)
+    for i in range(1, 1500):
+        row = row | csgrt.sphere(0.4).translate(x=i)
+    assert len(csgrt.Scene(row).partitions([[-5, 0, 0, 1, 0, 0]])["t_in"]) == 1500
+    doubled = csgrt.sphere(0.4)
+    for i in range(10):
+        doubled = doubled | doubled.translate(x=2**i)
+    assert len(csgrt.Scene(doubled).partitions([[-5, 0, 0, 1, 0, 0]])["t_in"]) == 1024
+
+
+def test_an_error_has_status_place_and_suggestion(tmp_path):
+    with pytest.raises(csgrt.Error) as caught:
+        csgrt.parse('{"csgrt": 1,\n "solids": {"a": {"type": "spere"}}}', name="a.json")
+    error = caught.value
+    assert (error.status, error.place.file, error.place.line) == ("scene", "a.json", 2)
+    assert error.place.pointer == "/solids/a/type" and "sphere" in error.suggestion
+    assert pickle.loads(pickle.dumps(error)).diagnostics == error.diagnostics
+    with pytest.raises(csgrt.Error) as caught:
+        csgrt.load(tmp_path / "none.json")
+    assert caught.value.status == "file"
+    with pytest.raises(csgrt.Error) as caught:
+        csgrt.Scene(csgrt.sphere(1), device="no such device")
+    assert caught.value.status == "no_device"
+    with pytest.raises(TypeError, match="csgrt has no setting devise"):
+        csgrt.Scene(csgrt.sphere(1), devise="cpu")
+
+
+def test_warnings_are_values_and_warn_once(tmp_path):
+    text = ('title {t}\nunits mm\nput {b.s} ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n'
+            'put {x.r} comb region yes tree {u {l b.s} {l missing.s}}\n')
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        scene = csgrt.parse(text)
+    assert [w.category for w in caught] == [csgrt.SceneWarning] and caught[0].filename == __file__
+    assert len(scene.warnings) >= 1
+    assert scene.warnings[0].text in str(caught[0].message)
+    assert scene.warnings[0].reason and scene.warnings[0].count >= 1
+
+
+def test_verify_judges_a_scene(operators):
+    result = operators.verify(rays=200)
+    assert result["passed"] and result["rays"] == 200 and result["wrong"] == result["bit_differences"] == 0
+
+
+def test_devices_are_listed():
+    assert any(device.platform == "csgrt" for device in csgrt.devices())
