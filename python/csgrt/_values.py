@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Place(NamedTuple):
-    """A place in a file. Text formats give line and column (from 1; 0: unknown), binary ones the offset (-1: unknown)."""
+    """A place in a file. Text has line and column (from 1; 0: unknown), binary formats the offset (-1: unknown)."""
 
     file: str
     line: int

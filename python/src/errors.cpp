@@ -5,14 +5,10 @@ namespace csgrt::python {
 namespace {
 
 constexpr std::pair<Status, const char*> status_names[] = {
-    {Status::usage, "usage"},
-    {Status::scene, "scene"},
-    {Status::no_device, "no_device"},
-    {Status::out_of_memory, "out_of_memory"},
-    {Status::file, "file"},
-    {Status::device_fault, "device_fault"},
-    {Status::differs, "differs"},
-    {Status::interrupted, "interrupted"},
+    {Status::usage, "usage"},         {Status::scene, "scene"},
+    {Status::no_device, "no_device"}, {Status::out_of_memory, "out_of_memory"},
+    {Status::file, "file"},           {Status::device_fault, "device_fault"},
+    {Status::differs, "differs"},     {Status::interrupted, "interrupted"},
 };
 
 void raise(const Error& error) {

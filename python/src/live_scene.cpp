@@ -52,7 +52,10 @@ const Kind& first(const Scene& source) {
 }  // namespace
 
 LiveScene::LiveScene(Scene& source, std::vector<std::string> objects, const Settings& settings)
-    : settings_(settings), objects_(std::move(objects)), units_(source.units), title_(source.title),
+    : settings_(settings),
+      objects_(std::move(objects)),
+      units_(source.units),
+      title_(source.title),
       camera_(source.camera) {
     settings_.progress = go_on;
     nb::gil_scoped_release unlocked;
@@ -100,8 +103,8 @@ nb::list LiveScene::region_rows() const {
         const char* state = "";
         for (const auto& [name, value] : state_names)
             if (value == r.state) state = name;
-        rows.append(nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color, state, r.region_id, r.air,
-                                   r.los));
+        rows.append(
+            nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color, state, r.region_id, r.air, r.los));
     }
     return rows;
 }
@@ -139,9 +142,7 @@ nb::dict LiveScene::partitions(const Doubles& rays, RayRange range, const std::o
     };
     std::unique_ptr<Held> held(new Held{spare_, spare_->take()});
     Partitions& p = *held->answer;
-    run([&](Renderer& renderer) {
-        renderer.partitions(list_of<Ray>(rays), p, fields, ranges_of(range, ranges));
-    });
+    run([&](Renderer& renderer) { renderer.partitions(list_of<Ray>(rays), p, fields, ranges_of(range, ranges)); });
     const nb::capsule kept = keeper(held);
     nb::dict arrays;
     arrays["ray_splits"] = array(p.ray_splits, kept);
@@ -169,9 +170,7 @@ nb::dict LiveScene::partitions(const Doubles& rays, RayRange range, const std::o
 nb::dict LiveScene::cast_rays(const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
                               Fields fields) {
     auto answer = std::make_unique<Hits>();
-    run([&](Renderer& renderer) {
-        renderer.cast_rays(list_of<Ray>(rays), *answer, fields, ranges_of(range, ranges));
-    });
+    run([&](Renderer& renderer) { renderer.cast_rays(list_of<Ray>(rays), *answer, fields, ranges_of(range, ranges)); });
     Hits& hits = *answer;
     const nb::capsule kept = keeper(answer);
     const Shape shape = leading(rays);

@@ -27,8 +27,9 @@ void named(nb::class_<Settings>& bound, const char* name, Value Settings::*membe
 }  // namespace
 
 void bind_settings(nb::module_& module) {
-    nb::class_<Settings> settings(module, "Settings", "How csgrt computes. load(), parse() and Scene take any of these "
-                                                      "attributes as a keyword.");
+    nb::class_<Settings> settings(module, "Settings",
+                                  "How csgrt computes. load(), parse() and Scene take any of these "
+                                  "attributes as a keyword.");
     settings.def(nb::init<>())
         .def_rw("device", &Settings::device,
                 "A number in devices(), \"cpu\", \"gpu\", \"gpus\" or part of a name; \"\": a GPU, else the processor")

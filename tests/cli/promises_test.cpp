@@ -76,7 +76,8 @@ TEST_CASE("each promise stands where docs/promises.md says, and its tests exist"
             const std::size_t open = test.find('`'), close = test.find('`', open + 1);
             REQUIRE(close != std::string::npos);
             const std::string file = test.substr(open + 1, close - open - 1), name = words_of(test.substr(close + 1));
-            const std::string path = root + "tests/" + file + (file.ends_with(".cmake") || file.ends_with(".py") ? "" : "_test.cpp");
+            const std::string path =
+                root + "tests/" + file + (file.ends_with(".cmake") || file.ends_with(".py") ? "" : "_test.cpp");
             INFO(path);
             REQUIRE(fs::exists(path));
             if (names.find(file) == names.end()) names[file] = names_in(read_file(path));

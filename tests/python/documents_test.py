@@ -16,7 +16,7 @@ def blocks():
             yield pytest.param(block, id=name)
 
 
-@pytest.mark.parametrize("block", blocks())
+@pytest.mark.parametrize("block", list(blocks()))
 def test_examples_of_the_documents_run(block, tmp_path):
     (tmp_path / "scenes").symlink_to(ROOT / "scenes")
     subprocess.run([sys.executable, "-c", block], check=True, cwd=tmp_path)

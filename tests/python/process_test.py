@@ -2,6 +2,8 @@
 
 import multiprocessing
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -160,6 +162,13 @@ def test_import_touches_no_device_and_takes_20_ms(monkeypatch, tmp_path):
         assert drivers == "False" and threads == "0"
         times.append(float(took))
     assert min(times) < 20
+
+
+def test_the_package_needs_libc_only():
+    if not shutil.which("readelf"):
+        pytest.skip("no readelf")
+    text = subprocess.run(["readelf", "-d", csgrt._core.__file__], check=True, capture_output=True, text=True).stdout
+    assert set(re.findall(r"NEEDED.*\[(.*?)\.so", text)) <= {"libc", "libm", "ld-linux-x86-64", "ld-linux-aarch64"}
 
 
 def test_the_package_has_stubs_and_every_name_a_docstring():
