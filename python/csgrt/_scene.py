@@ -76,7 +76,7 @@ class Subtree:
         self._scene.set_finish(self.path, _parse(scene_text({"finish": part})))
 
     def _set_matrix(self, matrix):
-        self._scene.set_matrix(self.path, _matrix(matrix), False)
+        self._scene.set_matrix(self.path, _matrix(matrix))
 
     finish = property(None, _set_finish, doc="Set: a dict of specular, diffuse, ambient, shine, as in csgrt's JSON.")
     matrix = property(None, _set_matrix, doc="Set: the (4, 4) matrix of the path's last leg, of this instance alone.")

@@ -1,0 +1,411 @@
+// A scene in Python: a Renderer with its Model, and the edits that wait for commit().
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "values.hpp"
+
+namespace csgrt::python {
+namespace {
+
+constexpr std::pair<const char*, State> state_names[] = {
+    {"shown", State::shown}, {"ghost", State::ghost}, {"hidden", State::hidden}};
+constexpr std::pair<const char*, Operator> operator_names[] = {{"union", Operator::union_},
+                                                               {"intersection", Operator::intersection},
+                                                               {"difference", Operator::difference},
+                                                               {"xor", Operator::xor_}};
+
+template <class Value, std::size_t count>
+Value value_of(const std::pair<const char*, Value> (&names)[count], const std::string& what, const std::string& given) {
+    std::string known;
+    for (const auto& [name, value] : names) {
+        if (given == name) return value;
+        known += std::string(known.empty() ? "" : ", ") + name;
+    }
+    throw Error(Status::usage, what + " is one of " + known + ", not " + given);
+}
+
+/// Ctrl-C ends a call: the handler of the signal throws, and the call ends with it.
+bool go_on(double done) {
+    if (done <= 0 || done >= 1) return true;  // short calls do not wait for the GIL
+    nb::gil_scoped_acquire locked;
+    return PyErr_Occurred() == nullptr && PyErr_CheckSignals() == 0;
+}
+
+Matrix matrix_of(const Matrices& given) {
+    Matrix matrix;
+    std::copy_n(given.data(), 16, matrix.begin());
+    return matrix;
+}
+
+RayRanges ranges_of(const RayRange& range, const std::optional<Doubles>& ranges) {
+    RayRanges all{.all = range};
+    if (ranges) all.each = list_of<RayRange>(*ranges);
+    return all;
+}
+
+/// The first object of a kind in a source that Python made for one edit.
+template <class Kind>
+const Kind& first(const Scene& source) {
+    for (const Object& object : source.objects)
+        if (const auto* found = std::get_if<Kind>(&object)) return *found;
+    throw Error(Status::usage, "the source has no such object");
+}
+
+/// The memory of an answer whose arrays are gone, for the next: new memory costs a twentieth of the time of a call.
+struct Spare {
+    std::mutex mutex = {};
+    std::unique_ptr<Partitions> answer = {};
+    std::unique_ptr<Partitions> take() {
+        const std::lock_guard lock(mutex);
+        return answer ? std::move(answer) : std::make_unique<Partitions>();
+    }
+};
+
+/// Calls of several threads wait for each other, and none of them holds the GIL meanwhile.
+class LiveScene {
+public:
+    /// Takes what is in `source`.
+    LiveScene(Scene& source, std::vector<std::string> objects, const Settings& settings)
+        : settings_(settings),
+          objects_(std::move(objects)),
+          units_(source.units),
+          title_(source.title),
+          camera_(source.camera) {
+        settings_.progress = go_on;
+        nb::gil_scoped_release unlocked;
+        renderer_.emplace(std::move(source), objects_, settings_);
+    }
+
+    const std::string& units() const { return units_; }
+    const std::string& title() const { return title_; }
+    const Camera& camera() const { return camera_; }
+    const std::shared_ptr<Spare>& spare() const { return spare_; }
+
+    /// A Model is shared and never changes.
+    Model model() const {
+        require_own_process();
+        return renderer_->model();
+    }
+
+    /// Runs what computes. An exception that a signal has left is Python's to see.
+    template <class Call>
+    void run(const Call& call) {
+        require_own_process();
+        if (computes_ == std::this_thread::get_id())
+            throw Error(Status::usage, "a signal handler asks the scene whose call it interrupts");
+        {
+            nb::gil_scoped_release unlocked;
+            const std::lock_guard lock(computing_);
+            struct Mark {
+                std::atomic<std::thread::id>& mark;
+                ~Mark() { mark = std::thread::id(); }
+            } mark{computes_};
+            computes_ = std::this_thread::get_id();
+            call(*renderer_);
+        }
+        if (PyErr_Occurred()) throw nb::python_error();
+    }
+
+    template <class Call>
+    void edit(const Call& call) {
+        require_own_process();
+        nb::gil_scoped_release unlocked;
+        const std::lock_guard lock(editing_);
+        if (!edit_) edit_.emplace(renderer_->model());
+        call(*edit_);
+    }
+    // In an edit:
+    void forget_edits() { edit_.reset(); }
+    void use(Model model) { renderer_->set_model(std::move(model)); }
+
+    Verification verify(std::size_t rays, std::uint64_t seed) {
+        Verification result;
+        run([&](Renderer& renderer) {
+            Verifier verifier(renderer.model().scene(), objects_, settings_);
+            verifier.shoot(verifier.sample(camera_, rays, seed));
+            result = verifier.result();
+        });
+        return result;
+    }
+
+private:
+    void require_own_process() const {
+        if (getpid() != process_)
+            throw Error(Status::usage, "the scene was loaded before this process was forked: load it again");
+    }
+
+    Settings settings_;
+    std::vector<std::string> objects_;
+    std::string units_, title_;
+    Camera camera_;
+    std::optional<Renderer> renderer_;
+    std::optional<Edit> edit_;
+    std::mutex computing_, editing_;
+    std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+    std::atomic<std::thread::id> computes_ = {};  ///< the thread that holds `computing_`
+    pid_t process_ = getpid();
+};
+
+// ---- What is known ----
+
+nb::list region_rows(const LiveScene& scene) {
+    nb::list rows;
+    const Model model = scene.model();
+    for (const RegionInfo& r : model.regions()) {
+        const char* state = "";
+        for (const auto& [name, value] : state_names)
+            if (value == r.state) state = name;
+        rows.append(
+            nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color, state, r.region_id, r.air, r.los));
+    }
+    return rows;
+}
+
+nb::list solid_rows(const LiveScene& scene) {
+    nb::list rows;
+    const Model model = scene.model();
+    for (const SolidInfo& s : model.solids()) rows.append(nb::make_tuple(s.name, s.type, s.piece));
+    return rows;
+}
+
+nb::list warning_rows(LiveScene& scene) {
+    std::vector<Warning> warnings;
+    scene.run([&](Renderer& renderer) { warnings = renderer.warnings(); });
+    nb::list rows;
+    for (const Warning& w : warnings)
+        rows.append(nb::make_tuple(w.object, place_row(w.place), w.reason, w.count, w.appearance, format(w)));
+    return rows;
+}
+
+// ---- Rays and points ----
+
+nb::dict partitions(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
+                    Fields fields) {
+    // What keeps the answer gives its memory back to the scene, if there is one yet.
+    struct Held {
+        std::weak_ptr<Spare> giver;
+        std::unique_ptr<Partitions> answer;
+        ~Held() {
+            const auto spare = giver.lock();
+            if (!spare) return;
+            const std::lock_guard lock(spare->mutex);
+            if (!spare->answer) spare->answer = std::move(answer);
+        }
+    };
+    std::unique_ptr<Held> held(new Held{scene.spare(), scene.spare()->take()});
+    Partitions& p = *held->answer;
+    scene.run(
+        [&](Renderer& renderer) { renderer.partitions(list_of<Ray>(rays), p, fields, ranges_of(range, ranges)); });
+    const nb::capsule kept = keeper(held);
+    nb::dict arrays;
+    arrays["ray_splits"] = array(p.ray_splits, kept);
+    arrays["region_ids"] = array(p.region_ids, kept);
+    arrays["t_in"] = array(p.t_in, kept);
+    arrays["t_out"] = array(p.t_out, kept);
+    if (fields.solids) {
+        arrays["in_solids"] = array(p.in_solids, kept);
+        arrays["out_solids"] = array(p.out_solids, kept);
+    }
+    if (fields.normals) {
+        arrays["in_normals"] = array(p.in_normals, kept);
+        arrays["out_normals"] = array(p.out_normals, kept);
+    }
+    if (fields.overlaps) {
+        arrays["overlap_splits"] = array(p.overlap_splits, kept);
+        arrays["overlap_t_in"] = array(p.overlap_t_in, kept);
+        arrays["overlap_t_out"] = array(p.overlap_t_out, kept);
+        arrays["overlap_region_splits"] = array(p.overlap_region_splits, kept);
+        arrays["overlap_region_ids"] = array(p.overlap_region_ids, kept);
+    }
+    return arrays;
+}
+
+nb::dict cast_rays(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
+                   Fields fields) {
+    auto answer = std::make_unique<Hits>();
+    scene.run(
+        [&](Renderer& renderer) { renderer.cast_rays(list_of<Ray>(rays), *answer, fields, ranges_of(range, ranges)); });
+    Hits& hits = *answer;
+    const nb::capsule kept = keeper(answer);
+    const Shape shape = leading(rays);
+    nb::dict arrays;
+    arrays["t_hit"] = array(hits.t_hit.data(), shape, kept);
+    arrays["region_ids"] = array(hits.region_ids.data(), shape, kept);
+    if (fields.solids) arrays["solid_ids"] = array(hits.solid_ids.data(), shape, kept);
+    if (fields.normals) arrays["normals"] = array(hits.normals.data(), shape, kept);
+    return arrays;
+}
+
+nb::object occluded(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges) {
+    auto answer = std::make_unique<Array<std::uint8_t>>();
+    scene.run([&](Renderer& renderer) { renderer.occluded(list_of<Ray>(rays), *answer, ranges_of(range, ranges)); });
+    auto* const data = reinterpret_cast<bool*>(answer->data());  // 0 and 1, as bool has them
+    return array(data, leading(rays), keeper(answer));
+}
+
+nb::object region_at(LiveScene& scene, const Doubles& points) {
+    auto answer = std::make_unique<Array<std::int32_t>>();
+    scene.run([&](Renderer& renderer) { renderer.region_at(list_of<Vec3>(points), *answer); });
+    std::int32_t* const data = answer->data();
+    return array(data, leading(points), keeper(answer));
+}
+
+nb::object slice(LiveScene& scene, const Vec3& normal, double offset, std::pair<int, int> pixels, bool hidden) {
+    auto answer = std::make_unique<Array<std::int32_t>>();
+    csgrt::Slice cut;
+    scene.run([&](Renderer& renderer) {
+        cut = slice_of(renderer.bounds(), normal, offset, pixels.first, pixels.second);
+        cut.hidden = hidden;
+        renderer.slice(cut, *answer);
+    });
+    std::int32_t* const data = answer->data();
+    return array(data, {std::size_t(cut.height), std::size_t(cut.width)}, keeper(answer));
+}
+
+// ---- Views ----
+
+nb::tuple render(LiveScene& scene, const View& view) {
+    auto image = std::make_unique<Image>();
+    scene.run([&](Renderer& renderer) { *image = renderer.render(view); });
+    nb::list names;
+    for (const std::string& name : image->names) names.append(name);
+    float* const data = image->channels[0].data();  // all channels are one piece of memory
+    const Shape shape = {image->channels.size(), std::size_t(image->height), std::size_t(image->width)};
+    return nb::make_tuple(array(data, shape, keeper(image)), names);
+}
+
+nb::tuple pick(LiveScene& scene, const View& view, int column, int row) {
+    Pick found;
+    scene.run([&](Renderer& renderer) { found = renderer.model().pick(view, column, row); });
+    nb::list along;
+    for (const Partition& p : found.along.partitions) along.append(nb::make_tuple(p.region, p.in, p.out));
+    return nb::make_tuple(found.region, found.solid, found.t, found.point, found.normal,
+                          nb::make_tuple(found.ray.origin, found.ray.direction), along);
+}
+
+nb::object rays_of(LiveScene& scene, const View& view) {
+    auto rays = std::make_unique<std::vector<Ray>>();
+    scene.run([&](Renderer& renderer) { *rays = renderer.rays_of(view); });
+    Ray* const data = rays->data();
+    return array(data, {std::size_t(view.height), std::size_t(view.width)}, keeper(rays));
+}
+
+nb::dict verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
+    const Verification result = scene.verify(rays, seed);
+    nb::dict figures;
+    figures["passed"] = result.passed();
+    figures["device"] = result.device;
+    figures["rays"] = result.rays;
+    figures["hits"] = result.hits;
+    figures["decided"] = result.decided;
+    figures["ties"] = result.ties;
+    figures["wrong"] = result.wrong;
+    figures["bit_differences"] = result.bit_differences;
+    figures["ends"] = result.ends;
+    figures["farthest_mm"] = result.farthest.millimetres;
+    figures["worst_ulps"] = result.worst.ulps;
+    return figures;
+}
+
+}  // namespace
+
+void bind_scene(nb::module_& module) {
+    using namespace nb::literals;
+    nb::class_<LiveScene>(module, "Scene", "What csgrt.Scene is made of.")
+        .def(nb::init<Scene&, std::vector<std::string>, const Settings&>(), "source"_a, "objects"_a, "settings"_a)
+        .def("region_rows", &region_rows)
+        .def("solid_rows", &solid_rows)
+        .def("warning_rows", &warning_rows)
+        .def_prop_ro("box", [](const LiveScene& scene) { return scene.model().bounds(); })
+        .def_prop_ro(
+            "tolerance", [](const LiveScene& scene) { return scene.model().tolerance(); },
+            "Millimetres: ends of segments closer than this are one")
+        .def_prop_ro("units", &LiveScene::units, "The unit of the file. All values here are millimetres")
+        .def_prop_ro("title", &LiveScene::title, "The file's title")
+        .def_prop_ro("camera", &LiveScene::camera, nb::rv_policy::copy, "A copy of the scene's own camera")
+        .def("partition_arrays",
+             [](LiveScene& scene, const Doubles& rays, double near, double far, std::optional<Doubles> ranges,
+                bool solids, bool normals, bool overlaps, bool hidden) {
+                 return partitions(scene, rays, {near, far}, ranges, {solids, normals, overlaps, hidden});
+             })
+        .def("hit_arrays",
+             [](LiveScene& scene, const Doubles& rays, double near, double far, std::optional<Doubles> ranges,
+                bool solids, bool normals) {
+                 return cast_rays(scene, rays, {near, far}, ranges, {.solids = solids, .normals = normals});
+             })
+        .def("occluded",
+             [](LiveScene& scene, const Doubles& rays, double near, double far, std::optional<Doubles> ranges) {
+                 return occluded(scene, rays, {near, far}, ranges);
+             })
+        .def("regions_at", &region_at)
+        .def("slice", &slice, "normal"_a, "offset"_a, "pixels"_a = std::pair(512, 512), "hidden"_a = true,
+             "Which region holds each pixel of a cut by the plane n . p = offset (n: the normal's unit vector).\n\n"
+             "pixels: (width, height), square, over the whole model. hidden=False leaves out what pictures do not show."
+             "\nReturns (height, width) int32: ids in regions; -1 nothing, -2 several that overlap. Seen from the side "
+             "to which the normal points, z up, or y up where the normal is z.\nRaises csgrt.Error (usage).")
+        .def("planes", &render)
+        .def("pick_row", &pick)
+        .def("view_rays", &rays_of)
+        .def("verify", &verify, "rays"_a = 10'000, "seed"_a = 1,
+             "Judges a sample of rays, on the device and on the reference, by 113-bit arithmetic.\n\n"
+             "Returns a dict: passed (no decided ray is wrong, no bit differs), rays, hits, decided, ties, wrong, "
+             "bit_differences, ends,\nfarthest_mm, worst_ulps (errors of distances), device. Raises csgrt.Error.")
+        .def("set_color", [](LiveScene& scene, const std::string& path,
+                             const Vec3& color) { scene.edit([&](Edit& e) { e.set_color(path, color); }); })
+        .def("set_finish",
+             [](LiveScene& scene, const std::string& path, const Scene& source) {
+                 scene.edit([&](Edit& e) { e.set_finish(path, first<Combination>(source).finish.value_or(Finish{})); });
+             })
+        .def("set_state",
+             [](LiveScene& scene, const std::string& path, const std::string& state) {
+                 scene.edit([&](Edit& e) { e.set_state(path, value_of(state_names, "a state", state)); });
+             })
+        .def("set_matrix",
+             [](LiveScene& scene, const std::string& path, const Matrices& matrix) {
+                 scene.edit([&](Edit& e) { e.set_matrix(path, matrix_of(matrix)); });
+             })
+        .def("replace_shape",
+             [](LiveScene& scene, const std::string& solid, const Scene& source) {
+                 scene.edit([&](Edit& e) { e.replace(solid, first<Solid>(source).shape); });
+             })
+        .def("add_objects",
+             [](LiveScene& scene, const Scene& source, const std::string& top) {
+                 scene.edit([&](Edit& e) {
+                     // The last is the one whose name the caller chose: if that is taken, nothing is added.
+                     for (std::size_t i = source.objects.size(); i-- > 0;)
+                         e.add(source.objects[i], name_of(source.objects[i]) == top);
+                 });
+             })
+        .def("join",
+             [](LiveScene& scene, const std::string& combination, const std::string& op, const std::string& object,
+                const Matrices& matrix) {
+                 scene.edit([&](Edit& e) {
+                     e.add(combination, value_of(operator_names, "an operator", op), object, matrix_of(matrix));
+                 });
+             })
+        .def(
+            "remove", [](LiveScene& scene, const std::string& path) { scene.edit([&](Edit& e) { e.remove(path); }); },
+            "path"_a, "Removes the last leg of a path, for all that share the combination. Takes effect with commit().")
+        .def("commit_edits",
+             [](LiveScene& scene) {
+                 scene.edit([&](Edit& e) {
+                     scene.use(e.commit());
+                     scene.forget_edits();
+                 });
+             })
+        .def(
+            "discard", [](LiveScene& scene) { scene.edit([&](Edit&) { scene.forget_edits(); }); },
+            "Forgets the edits since the last commit().")
+        .def("save_json", [](const LiveScene& scene, const std::string& path) {
+            const Model model = scene.model();
+            nb::gil_scoped_release unlocked;
+            save_scene(model.scene(), path);
+        });
+}
+
+}  // namespace csgrt::python
