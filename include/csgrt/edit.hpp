@@ -15,7 +15,8 @@ namespace csgrt {
 /// compile the scene anew; programs and buffers of Renderers stay.
 ///
 /// A path is that of a region, or the way down to any object in its place: "/all/track@2/link.r" (RegionInfo::path).
-/// All throw Error (usage) where a path leads nowhere, and then nothing has changed. One thread at a time.
+/// All throw Error (usage) where a path leads nowhere, and then nothing has changed; about looks commit() does. One
+/// thread at a time.
 class CSGRT_API Edit {
 public:
     explicit Edit(Model model);
