@@ -195,22 +195,29 @@ csgrt_status csgrt_renderer_partitions_in_batches(csgrt_renderer* renderer, cons
 }
 
 csgrt_status csgrt_renderer_cast_rays(csgrt_renderer* renderer, const csgrt_rays* rays, const csgrt_hits* hits) {
-    return call([&] { cast_rays(CSGRT_NEED(renderer).renderer, rays, hits, renderer->hits); });
+    return call([&] {
+        csgrt_renderer& r = CSGRT_NEED(renderer);
+        cast_rays(r.renderer, rays, hits, r.hits);
+    });
 }
 
 csgrt_status csgrt_renderer_occluded(csgrt_renderer* renderer, const csgrt_rays* rays, uint8_t* answers, size_t count) {
-    return call(
-        [&] { occluded(CSGRT_NEED(renderer).renderer, rays, needed(answers, count, "answers"), renderer->flags); });
+    return call([&] {
+        csgrt_renderer& r = CSGRT_NEED(renderer);
+        occluded(r.renderer, rays, needed(answers, count, "answers"), r.flags);
+    });
 }
 
 csgrt_status csgrt_renderer_region_at(csgrt_renderer* renderer, const csgrt_vec3* points, int32_t* ids, size_t count) {
     return call([&] {
-        region_at(CSGRT_NEED(renderer).renderer, needed(points, count, "points"), needed(ids, count, "ids"),
-                  renderer->ids);
+        csgrt_renderer& r = CSGRT_NEED(renderer);
+        region_at(r.renderer, needed(points, count, "points"), needed(ids, count, "ids"), r.ids);
     });
 }
 
 csgrt_status csgrt_renderer_slice(csgrt_renderer* renderer, const csgrt_slice* slice, int32_t* ids, size_t count) {
-    return call(
-        [&] { ::slice(CSGRT_NEED(renderer).renderer, CSGRT_NEED(slice), needed(ids, count, "ids"), renderer->ids); });
+    return call([&] {
+        csgrt_renderer& r = CSGRT_NEED(renderer);
+        ::slice(r.renderer, CSGRT_NEED(slice), needed(ids, count, "ids"), r.ids);
+    });
 }

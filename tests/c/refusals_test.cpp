@@ -91,8 +91,14 @@ TEST_CASE("every argument of C that is NULL is refused by its name") {
     CHECK_REFUSED(csgrt_renderer_partitions(w.renderer, &rays, partitions), CSGRT_ERROR_USAGE, "rays->list is NULL");
     CHECK_REFUSED(csgrt_renderer_cast_rays(w.renderer, &rays, nullptr), CSGRT_ERROR_USAGE, "hits is NULL");
     CHECK_REFUSED(csgrt_renderer_occluded(w.renderer, &rays, nullptr, 1), CSGRT_ERROR_USAGE, "answers is NULL");
-    CHECK_REFUSED(csgrt_renderer_region_at(w.renderer, nullptr, nullptr, 1), CSGRT_ERROR_USAGE, "ids is NULL");
-    CHECK_REFUSED(csgrt_renderer_slice(w.renderer, nullptr, nullptr, 1), CSGRT_ERROR_USAGE, "ids is NULL");
+    const csgrt_vec3 point = {0, 0, 0};
+    const csgrt_slice slice = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, 1};
+    std::int32_t id = 0;
+    CHECK_REFUSED(csgrt_renderer_region_at(w.renderer, nullptr, &id, 1), CSGRT_ERROR_USAGE, "points is NULL");
+    CHECK_REFUSED(csgrt_renderer_region_at(w.renderer, &point, nullptr, 1), CSGRT_ERROR_USAGE, "ids is NULL");
+    CHECK_REFUSED(csgrt_renderer_region_at(nullptr, &point, &id, 1), CSGRT_ERROR_USAGE, "renderer is NULL");
+    CHECK_REFUSED(csgrt_renderer_slice(w.renderer, nullptr, &id, 1), CSGRT_ERROR_USAGE, "slice is NULL");
+    CHECK_REFUSED(csgrt_renderer_slice(w.renderer, &slice, nullptr, 1), CSGRT_ERROR_USAGE, "ids is NULL");
     CHECK_REFUSED(csgrt_renderer_partitions_in_batches(w.renderer, &rays, 1, nullptr, nullptr), CSGRT_ERROR_USAGE,
                   "rays->list is NULL");
     CHECK_REFUSED(csgrt_partitions_get(partitions, nullptr), CSGRT_ERROR_USAGE, "arrays is NULL");
