@@ -193,7 +193,8 @@ inline void copy(fastf_t* to, const fastf_t* from) { std::copy_n(from, 3, to); }
 inline void copy(fastf_t* to, const Vec3& from) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 inline Ray ray_of(const xray& x) { return {{x.r_pt[0], x.r_pt[1], x.r_pt[2]}, {x.r_dir[0], x.r_dir[1], x.r_dir[2]}}; }
 
-inline constexpr Fields fields{.solids = true, .normals = true, .overlaps = true};
+/// Overlaps only for those who are asked about them.
+inline Fields fields(bool overlaps) { return {.solids = true, .normals = true, .overlaps = overlaps}; }
 inline constexpr RayRanges whole_line{.all = {-std::numeric_limits<double>::infinity()}};
 
 /// A part of a ray before it is one of librt's partitions.
@@ -309,11 +310,11 @@ struct Answer {
         std::erase_if(pieces, [](const Piece& piece) { return piece.t[1] < 0; });
     }
 
-    /// Calls the application about ray `ray` of `all`.
-    int tell(application& ap, const Partitions& all, std::size_t ray) {
+    /// Calls the application about ray `ray` of `all`, which has overlaps or not.
+    int tell(application& ap, const Partitions& all, bool has_overlaps, std::size_t ray) {
         rt_i& rtip = *ap.a_rt_i;
         start(all, all.ray_splits[ray], all.ray_splits[ray + 1]);
-        if (ap.a_overlap) ask_about_overlaps(ap, all, ray);
+        if (has_overlaps && ap.a_overlap) ask_about_overlaps(ap, all, ray);
         if (ap.a_onehit != 0) {
             int ends = std::abs(ap.a_onehit);
             const auto is_last = [&](const Piece& piece) {
@@ -365,7 +366,7 @@ template <class Each>
 bool shoot(rt_i* rtip, const xray& ray, const Each& each) {
     prepared(rtip);
     const Borrowed answer;
-    rtip->model->partitions(ray_of(ray), answer->rows, fields, whole_line);
+    rtip->model->partitions(ray_of(ray), answer->rows, fields(false), whole_line);
     answer->start(answer->rows, 0, answer->rows.ray_splits[1]);
     const partition& head = answer->make_ring(*rtip, ray);
     for (const partition* p = head.pt_forw; p != &head; p = p->pt_forw)
@@ -383,17 +384,18 @@ inline std::size_t shoot_many(application* ap, const xray* rays, std::size_t cou
     std::vector<Ray> part;
     std::size_t hits = 0;
     for (std::size_t first = 0; first < count; first += most) {
+        const bool overlaps = ap->a_overlap != nullptr;
         part.clear();
         for (std::size_t i = first; i < std::min(count, first + most); ++i) part.push_back(ray_of(rays[i]));
         {
             const std::lock_guard lock(rtip.renderer_mutex);
             if (!rtip.renderer) rtip.renderer.emplace(*rtip.model);
-            rtip.renderer->partitions(part, answer->rows, fields, whole_line);
+            rtip.renderer->partitions(part, answer->rows, fields(overlaps), whole_line);
         }
         for (std::size_t i = 0; i < part.size(); ++i) {
             ap->a_ray = rays[first + i];
             ap->a_x = static_cast<int>(first + i);
-            answer->tell(*ap, answer->rows, i);
+            answer->tell(*ap, answer->rows, overlaps, i);
             hits += !answer->pieces.empty();
         }
     }
@@ -484,9 +486,10 @@ inline void rt_prep(rt_i* rtip) { rt_prep_parallel(rtip, 1); }
 inline int rt_shootray(application* ap) {
     rt_i& rtip = csgrt::librt::prepared(ap->a_rt_i);
     const csgrt::librt::Borrowed answer;
-    rtip.model->partitions(csgrt::librt::ray_of(ap->a_ray), answer->rows, csgrt::librt::fields,
+    const bool overlaps = ap->a_overlap != nullptr;
+    rtip.model->partitions(csgrt::librt::ray_of(ap->a_ray), answer->rows, csgrt::librt::fields(overlaps),
                            csgrt::librt::whole_line);
-    return answer->tell(*ap, answer->rows, 0);
+    return answer->tell(*ap, answer->rows, overlaps, 0);
 }
 
 inline void rt_init_resource(resource* of, int cpu, rt_i*) { of->re_cpu = cpu; }

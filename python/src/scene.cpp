@@ -12,22 +12,14 @@
 namespace csgrt::python {
 namespace {
 
-constexpr std::pair<const char*, State> state_names[] = {
+constexpr std::pair<std::string_view, State> state_names[] = {
     {"shown", State::shown}, {"ghost", State::ghost}, {"hidden", State::hidden}};
-constexpr std::pair<const char*, Operator> operator_names[] = {{"union", Operator::union_},
-                                                               {"intersection", Operator::intersection},
-                                                               {"difference", Operator::difference},
-                                                               {"xor", Operator::xor_}};
+constexpr std::pair<std::string_view, Operator> operator_names[] = {{"union", Operator::union_},
+                                                                    {"intersection", Operator::intersection},
+                                                                    {"difference", Operator::difference},
+                                                                    {"xor", Operator::xor_}};
 
-template <class Value, std::size_t count>
-Value value_of(const std::pair<const char*, Value> (&names)[count], const std::string& what, const std::string& given) {
-    std::string known;
-    for (const auto& [name, value] : names) {
-        if (given == name) return value;
-        known += std::string(known.empty() ? "" : ", ") + name;
-    }
-    throw Error(Status::usage, what + " is one of " + known + ", not " + given);
-}
+Error usage(const std::string& text) { return {Status::usage, text}; }
 
 /// Ctrl-C ends a call: the handler of the signal throws, and the call ends with it.
 bool go_on(double done) {
@@ -157,11 +149,8 @@ nb::list region_rows(const LiveScene& scene) {
     nb::list rows;
     const Model model = scene.model();
     for (const RegionInfo& r : model.regions()) {
-        const char* state = "";
-        for (const auto& [name, value] : state_names)
-            if (value == r.state) state = name;
-        rows.append(
-            nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color, state, r.region_id, r.air, r.los));
+        rows.append(nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color,
+                                   std::string(name_of(state_names, r.state)), r.region_id, r.air, r.los));
     }
     return rows;
 }
@@ -363,7 +352,7 @@ void bind_scene(nb::module_& module) {
              })
         .def("set_state",
              [](LiveScene& scene, const std::string& path, const std::string& state) {
-                 scene.edit([&](Edit& e) { e.set_state(path, value_of(state_names, "a state", state)); });
+                 scene.edit([&](Edit& e) { e.set_state(path, value_of(state_names, "a state", state, usage)); });
              })
         .def("set_matrix",
              [](LiveScene& scene, const std::string& path, const Matrices& matrix) {
@@ -385,7 +374,7 @@ void bind_scene(nb::module_& module) {
              [](LiveScene& scene, const std::string& combination, const std::string& op, const std::string& object,
                 const Matrices& matrix) {
                  scene.edit([&](Edit& e) {
-                     e.add(combination, value_of(operator_names, "an operator", op), object, matrix_of(matrix));
+                     e.add(combination, value_of(operator_names, "an operator", op, usage), object, matrix_of(matrix));
                  });
              })
         .def(

@@ -11,15 +11,8 @@ void named(nb::class_<Settings>& bound, const char* name, Value Settings::*membe
     bound.def_prop_rw(
         name, [&names, member](const Settings& s) { return std::string(name_of(names, s.*member)); },
         [&names, member, name](Settings& s, const std::string& given) {
-            std::string known;
-            for (const auto& [text, value] : names) {
-                if (text == given) {
-                    s.*member = value;
-                    return;
-                }
-                known += (known.empty() ? "" : ", ") + std::string(text);
-            }
-            throw nb::value_error((std::string(name) + " is one of " + known + ", not " + given).c_str());
+            const auto refusal = [](const std::string& text) { return nb::value_error(text.c_str()); };
+            s.*member = value_of(names, name, given, refusal);
         },
         doc);
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -95,6 +97,18 @@ nb::object array(T* data, Shape shape, nb::handle kept) {
 template <class T>
 nb::object array(Array<T>& values, nb::handle kept) {
     return array(values.data(), {values.size()}, kept);
+}
+
+/// The value of that name. Throws refusal(sentence) if there is none.
+template <class Value, std::size_t count, class Refusal>
+Value value_of(const std::pair<std::string_view, Value> (&names)[count], const std::string& what,
+               const std::string& given, const Refusal& refusal) {
+    std::string known;
+    for (const auto& [name, value] : names) {
+        if (given == name) return value;
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    }
+    throw refusal(what + " is one of " + known + ", not " + given);
 }
 
 nb::tuple place_row(const Place& place);  ///< the members of csgrt.Place

@@ -22,8 +22,7 @@ void add(csgrt_scene& to, Object object) {
     scene.objects.push_back(std::move(object));
 }
 
-// ---- A solid is written as JSON and read: so its types and members are described in one place, and checked there.
-// ----
+// ---- A solid is written as JSON and read: its types and members are described, and checked, in one place ----
 
 void put_text(std::string& json, std::string_view text) {
     constexpr char digits[] = "0123456789abcdef";
