@@ -13,6 +13,7 @@ along a ray count lengths of its direction. Failures are csgrt.Error.
 from ._core import Camera, Settings, View, device_rows, rays_parallel, rays_pinhole
 from ._core import version as __version__
 from ._image import Image
+from ._page import Page
 from ._scene import Scene, Subtree, load, parse
 from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, torus, translate
 from ._values import Device, Diagnostic, Error, Pick, Place, Region, Regions, SceneWarning, Solid, Warning
@@ -24,7 +25,7 @@ def devices() -> list[Device]:
 
 
 __all__ = [
-    "Camera", "Device", "Diagnostic", "Error", "Image", "Part", "Pick", "Place", "Region", "Regions", "Scene",
+    "Camera", "Device", "Diagnostic", "Error", "Image", "Page", "Part", "Pick", "Place", "Region", "Regions", "Scene",
     "SceneWarning", "Settings", "Solid", "Subtree", "View", "Warning", "box", "cone", "cylinder", "devices", "load",
     "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere", "torus", "translate",
 ]

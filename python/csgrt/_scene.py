@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _core
 from ._image import Image
+from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
 from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning
 
@@ -245,6 +246,13 @@ class Scene(_core.Scene):
         if not path.endswith(".json"):
             raise ValueError("scenes are written as .json")
         self.save_json(path)
+
+    def view(self, *, in_browser: bool = False, height: int = 640, command: str = "csgrt") -> Page:
+        """A page that shows the scene as it is now: to turn it, cut it, hide parts, ask what is behind a pixel. A
+        notebook has it as a frame of `height` pixels; `in_browser` opens the desktop's browser. The command csgrt
+        serves it as long as the Page lives; FileNotFoundError tells that there is none.
+        """
+        return Page(self, in_browser, height, command)
 
     def __repr__(self):
         return f"<csgrt.Scene: {len(self.regions)} regions>"

@@ -131,6 +131,23 @@ Option& define_size(Options& options, int& width, int& height) {
                          "a size such as 1024 or 1920x1080, each side from 1 to " + std::to_string(max_side));
 }
 
+/// Of those that concern one region the last counts, so all are one list.
+void define_looks(Options& options, std::vector<Look>& looks) {
+    const auto state = [&](const char* name, const char* help, State value) {
+        options.each(
+            name, "PATH", help, looks,
+            [value](const std::string& path) {
+                return path.starts_with('/') ? std::optional(Look{.path = path, .state = value}) : std::nullopt;
+            },
+            "the path of a region, or its beginning, as 'csgrt info --json' lists them");
+    };
+    state("--hide", "do not draw the region of that path, nor those below it; may be given several times",
+          State::hidden);
+    state("--show", "draw them, after a --hide of more; of options about one region the last counts", State::shown);
+    options.each("--color", "PATH:R,G,B", "give them that colour, display values from 0 to 1", looks, parse_look_color,
+                 "a path and three numbers from 0 to 1, such as /all/wheel.r:1,0.5,0");
+}
+
 void define(Options& options, RenderArguments& arguments) {
     define_scene(options, arguments);
     auto& output = options.list(
@@ -174,6 +191,12 @@ void define(Options& options, RenderArguments& arguments) {
     options.text("--view", "FILE",
                  "view as MGED's saveview writes it: viewsize, orientation and eye_pt; databases hold no views",
                  arguments.view);
+    options.each(
+        "--clip", "AXIS:OFFSET",
+        "cut away what is beyond the plane across the axis x, y or z at OFFSET mm; NX,NY,NZ:OFFSET: the points "
+        "p with NX,NY,NZ . p > OFFSET; up to six times",
+        arguments.clip, parse_plane, "a plane such as z:2.5 or 1,0,1:2.5");
+    define_looks(options, arguments.looks);
     options.flag("--first-hit",
                  "draw first hits only, several times faster: without the channels depth, partitions and overlap",
                  arguments.first_hit);
@@ -190,6 +213,16 @@ void define(Options& options, RenderArguments& arguments) {
     options.count("--repeat",
                   "render N frames; the figures are medians without the first frame (add --wait-for-device for a GPU)",
                   arguments.repeat, 1, 1'000'000);
+}
+
+void define(Options& options, ViewArguments& arguments) {
+    define_scene(options, arguments);
+    options.flag("--open", "open the page in the desktop's browser, too", arguments.open);
+    options.count("--port", "port to listen on; any that is free if not given", arguments.port, 1, 65'535);
+    options.text("--address", "ADDRESS",
+                 "address of the interface to listen on; 127.0.0.1, which no other machine reaches, if not given",
+                 arguments.address);
+    define_settings(options, arguments.settings);
 }
 
 void define(Options& options, ShootArguments& arguments) {
@@ -325,6 +358,7 @@ constexpr Entry entry(const char* name, const char* usage, const char* purpose, 
 constexpr Entry entries[] = {
     entry<RenderArguments>("render", "csgrt [render] SCENE [OBJECT...] -o FILE",
                            "render a scene, as FILE.exr or FILE.png", render_notes),
+    entry<ViewArguments>("view", "csgrt view SCENE [OBJECT...]", "show a scene in a browser", view_notes),
     entry<ShootArguments>("shoot", "csgrt shoot SCENE [OBJECT...] --rays FILE", "list the partitions along given rays",
                           shoot_notes),
     entry<SampleArguments>("sample", "csgrt sample SCENE [OBJECT...] --plane z:0", "tell which region holds points",

@@ -140,6 +140,14 @@ an OpenCL device or --reference. render and shoot take all options below, verify
   --contraction on               results differ from device to device; not with --reference
 )";
 
+inline constexpr const char* view_notes = R"(
+The address of a page is printed, on which the model can be turned, cut open and asked: what is
+behind a pixel, and how thick it is. Whoever has the address can see the model; only programs of
+this machine can reach it, unless --address says more. From another machine: ssh -L P:127.0.0.1:P
+MACHINE with the port P, and the same address there. When the scene's file changes, it is loaded
+again. The page's button End and Ctrl-C end the command. docs/viewer.md tells what the page can do.
+)";
+
 inline constexpr const char* info_notes = R"(
 'units' is the unit that the file names. 'bounds' is the box of the regions in millimetres, or
 'unbounded' or 'empty'. The operators of a tree: u union, - difference, + intersection, ^ exclusive

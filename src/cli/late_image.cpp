@@ -12,16 +12,15 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <sstream>
 #include <stop_token>
 #include <string>
 #include <thread>
 
 #include <csgrt/image.hpp>
-#include <csgrt/renderer.hpp>
 
 #include "image/functions.hpp"
+#include "component.hpp"
 #include "fatal_end.hpp"
 #include "interrupt.hpp"
 
@@ -30,15 +29,6 @@ namespace {
 
 std::jthread loading;
 bool has_begun = false;  ///< to load
-
-/// In the folder of libcsgrt, which is loaded already: a sanitizer's dlopen does not use this program's search path.
-std::string library_path() {
-    Dl_info core;
-    std::filesystem::path path;
-    if (dladdr(reinterpret_cast<const void*>(&version), &core))
-        path = std::filesystem::path(core.dli_fname).parent_path();
-    return path / CSGRT_IMAGE_LIBRARY;
-}
 
 /// Loads none into the global scope. Returns at the next library after a request to stop.
 void load_one_by_one(const std::stop_token& stop) {
@@ -51,12 +41,10 @@ void load_one_by_one(const std::stop_token& stop) {
 const ImageFunctions& functions() {
     static const ImageFunctions* found = [] {
         const cli::LoadingLimit limit;
-        const std::string path = library_path();
         cli::expect_picture_libraries();
         if (loading.joinable()) loading.join();
         if (!has_begun) load_one_by_one({});
-        void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
-        if (!library) library = dlopen(CSGRT_IMAGE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
+        void* const library = cli::open_component(CSGRT_IMAGE_LIBRARY);
         void* symbol = library ? dlsym(library, image_functions_name) : nullptr;
         if (!symbol) {
             const std::string why = dlerror();

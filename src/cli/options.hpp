@@ -46,6 +46,20 @@ public:
                    });
     }
 
+    /// May be given several times; `read` turns each text into an optional, whose value is appended.
+    template <class Target, class Parse>
+    Option& each(std::string name, std::string type, std::string help, std::vector<Target>& target, Parse read,
+                 std::string expected) {
+        Option& option = add(std::move(name), std::move(type), std::move(help), std::move(expected),
+                             [&target, read](const std::string& text) {
+                                 auto result = read(text);
+                                 if (result) target.push_back(*std::move(result));
+                                 return result.has_value();
+                             });
+        option.repeatable = true;
+        return option;
+    }
+
     /// A number from `low` up to, but without, `high`.
     template <class Target>
     Option& number(std::string name, std::string type, std::string help, Target& target, double low, double high,

@@ -61,6 +61,16 @@ std::optional<Plane> parse_plane(std::string_view text) {
     return Plane{*normal, *offset};
 }
 
+std::optional<Look> parse_look_color(std::string_view text) {
+    const std::size_t colon = text.rfind(':');  // a path may have colons
+    if (colon == text.npos || !text.starts_with('/')) return std::nullopt;
+    const auto color = parse_vector(text.substr(colon + 1));
+    if (!color) return std::nullopt;
+    for (const double part : {color->x, color->y, color->z})
+        if (!(part >= 0 && part <= 1)) return std::nullopt;
+    return Look{.path = std::string(text.substr(0, colon)), .color = color};
+}
+
 std::optional<std::pair<Axis, int>> parse_grid(std::string_view text) {
     const auto parts = parts_of(text);
     if (!parts) return std::nullopt;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <csgrt/rays.hpp>
+#include <csgrt/scene.hpp>
 
 namespace csgrt::cli {
 
@@ -27,14 +28,11 @@ std::optional<Vec3> parse_vector(std::string_view text);
 /// A finite number, "inf" or "-inf".
 std::optional<double> parse_bound(std::string_view text);
 
-/// The points p with normal . p = offset, the normal being made a unit vector.
-struct Plane {
-    Vec3 normal = {};
-    double offset = 0;  ///< millimetres
-};
-
-/// "z:2.5" or "1,0,1:2.5": a normal other than 0, and an offset.
+/// "z:2.5" or "1,0,1:2.5": a normal other than 0, and a distance.
 std::optional<Plane> parse_plane(std::string_view text);
+
+/// "/all/x.r:1,0.5,0": a path and a colour.
+std::optional<Look> parse_look_color(std::string_view text);
 
 /// "x:512": an axis, and a number from 1 to max_side.
 std::optional<std::pair<Axis, int>> parse_grid(std::string_view text);

@@ -60,7 +60,7 @@ TEST_CASE("bounds, planes and grids") {
     CHECK(!parse_bound("nan"));
     CHECK(parse_plane("Y:-3")->normal == csgrt::Vec3{0, 1, 0});
     CHECK(parse_plane("1,0,2:4")->normal == csgrt::Vec3{1, 0, 2});
-    CHECK(parse_plane("1,0,2:4")->offset == 4);
+    CHECK(parse_plane("1,0,2:4")->distance == 4);
     for (const char* wrong : {"", "z", ":", "z:", ":1", "w:1", "0,0,0:1", "1,2:3", "z:1:2", "z:inf"}) {
         CAPTURE(wrong);
         CHECK(!parse_plane(wrong));

@@ -149,6 +149,10 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--look-at X,Y,Z",
           "--up X,Y,Z",
           "--view FILE",
+          "--clip AXIS:OFFSET",
+          "--hide PATH",
+          "--show PATH",
+          "--color PATH:R,G,B",
           "--device NAME|cpu|gpu|N",
           "--reference",
           "--stats FILE",
@@ -169,6 +173,10 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--threads N",
           "--first-hit",
           "-h, --help"}},
+        {"view",
+         {"--open", "--port N", "--address ADDRESS", "--device NAME|cpu|gpu|N", "--reference", "--max-memory SIZE",
+          "--tolerance MM|surfaces|relative|none", "--precision double|single", "--device-timeout S", "--air",
+          "--strict", "--allow-files FOLDER", "--max-instances N", "--skip-unsupported", "--threads N", "-h, --help"}},
         {"shoot",
          {"--rays FILE|grid:AXIS:N",
           "--near T",
@@ -237,7 +245,7 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(run({"-h"}).out == all.out);
     CHECK(run({"help"}).out == all.out);
     for (const char* command :
-         {"render", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
+         {"render", "view", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
         CAPTURE(command);
         CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
     }

@@ -32,9 +32,17 @@ struct RenderArguments : SceneArguments {
     std::optional<double> azimuth, elevation, perspective, view_size;  ///< absent: the scene's
     std::optional<Vec3> center, eye, look_at, up;
     std::string view;  ///< file of a saved view; empty: none
+    std::vector<Plane> clip;
+    std::vector<Look> looks;
     bool first_hit = false, transparent = false;
     std::string stats;  ///< file, "-" or empty
     int repeat = 1;
+};
+
+struct ViewArguments : SceneArguments {
+    std::string address = "127.0.0.1";
+    int port = 0;  ///< 0: any that is free
+    bool open = false;
 };
 
 /// How partitions are written.
@@ -84,11 +92,12 @@ struct TextArguments {
     std::string text;
 };
 
-using Command = std::variant<RenderArguments, ShootArguments, SampleArguments, VerifyArguments, CompareArguments,
-                             DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
+using Command = std::variant<RenderArguments, ViewArguments, ShootArguments, SampleArguments, VerifyArguments,
+                             CompareArguments, DevicesArguments, InfoArguments, ConvertArguments, TextArguments>;
 
 // Each returns Status::ok, or Status::differs if it compares or judges. Every other failure is thrown as an Error.
 Status run(const RenderArguments& arguments);
+Status run(const ViewArguments& arguments);
 Status run(const ShootArguments& arguments);
 Status run(const SampleArguments& arguments);
 Status run(const VerifyArguments& arguments);

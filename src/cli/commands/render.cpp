@@ -138,12 +138,44 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
     if (arguments.settings.max_instances > 0)
         text += " --max-instances " + std::to_string(arguments.settings.max_instances);
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
+    for (const Plane& plane : arguments.clip) {
+        vector("--clip", plane.normal);
+        append_shortest(text += ":", plane.distance);
+    }
+    for (const Look& look : arguments.looks) {
+        if (look.state) text += *look.state == State::hidden ? " --hide " : " --show ";
+        if (look.color) text += " --color ";
+        append_name(text, look.path);
+        if (!look.color) continue;
+        append_shortest(text += ":", look.color->x);
+        append_shortest(text += ",", look.color->y);
+        append_shortest(text += ",", look.color->z);
+    }
     if (arguments.first_hit) text += " --first-hit";
     if (arguments.transparent) text += " --transparent";
     if (arguments.settings.display_shading) text += " --display-shading";
     return text;
 }
 #endif
+
+/// Refuses a look of no region: the scene itself may have such looks, since regions come and go there.
+void check_looks(const std::vector<Look>& looks, const std::vector<RegionInfo>& regions) {
+    for (const Look& look : looks) {
+        const bool is_there = std::ranges::any_of(regions, [&](const RegionInfo& region) {
+            return region.path.starts_with(look.path) &&
+                   (region.path.size() == look.path.size() || region.path[look.path.size()] == '/');
+        });
+        if (is_there) continue;
+        std::vector<std::string_view> paths;
+        for (const RegionInfo& region : regions) paths.push_back(region.path);
+        const std::string near = suggestion(look.path, paths);
+        refuse(look.color                     ? "--color"
+               : *look.state == State::hidden ? "--hide"
+                                              : "--show",
+               "no region is at '" + look.path + "' or below it",
+               near.empty() ? "'csgrt info --json' lists the regions' paths" : near);
+    }
+}
 
 /// Whether the outputs are pictures with colours only, without figures: then first hits are enough.
 bool only_colors(const RenderArguments& arguments) {
@@ -159,12 +191,14 @@ bool only_colors(const RenderArguments& arguments) {
 }
 
 /// Returns the statistics; `image` is the last frame.
-Statistics render_frames(const Scene& scene, const RenderArguments& arguments, const View& view, Image& image) {
+Statistics render_frames(Scene scene, const RenderArguments& arguments, const View& view, Image& image) {
+    scene.looks.insert(scene.looks.end(), arguments.looks.begin(), arguments.looks.end());
     Framebuffer framebuffer;
     Progress progress;
     progress.stage("compiling");
     HeldRenderer renderer(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
     report(renderer.new_warnings());
+    check_looks(arguments.looks, renderer->regions());
     check_interrupt();
 
     progress.stage("rendering");
@@ -191,6 +225,7 @@ Status run(const RenderArguments& arguments) {
     double load = milliseconds_since(begin);
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
     view.transparent = arguments.transparent;
+    view.clip = arguments.clip;
     if (only_colors(arguments)) {
         view.every_partition = false;
         view.channels = channel::color;

@@ -129,7 +129,7 @@ void sample(const SampleArguments& arguments, PointReader* points, Renderer& ren
         const Box& box = renderer.bounds();
         if (!(box.low.x <= box.high.x))
             refuse("--plane", "the model has no bounded region to cut", "name points with --points");
-        slice = slice_of(box, arguments.plane->normal, arguments.plane->offset, arguments.width, arguments.height);
+        slice = slice_of(box, arguments.plane->normal, arguments.plane->distance, arguments.width, arguments.height);
         renderer.slice(slice, ids);
         check_interrupt();
     }

@@ -1,0 +1,57 @@
+"""A scene in a browser: the command csgrt serves the page."""
+
+from __future__ import annotations
+
+import html
+import os
+import shutil
+import subprocess
+import tempfile
+import weakref
+
+
+def _end(process: subprocess.Popen):
+    process.terminate()
+    process.wait()
+    process.stdout.close()
+
+
+class Page:
+    """A page that shows a scene as it was when Scene.view() made it. A notebook shows it where it is the last value of
+    a cell. It ends with close(), with the last reference, or with Python."""
+
+    def __init__(self, scene, in_browser: bool = False, height: int = 640, command: str = "csgrt"):
+        program = shutil.which(command)
+        if program is None:
+            raise FileNotFoundError(
+                f"scene.view() needs the command {command}, built with cpp-httplib, which is not in this package: "
+                "./setup builds it, and PATH or command= tells where it is")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.json")
+            scene.save(path)
+            arguments = [program, "view", "-"] + ["--open"] * in_browser
+            with open(path) as text:
+                process = subprocess.Popen(arguments, stdin=text, stdout=subprocess.PIPE, text=True)
+            address = process.stdout.readline().strip()
+        self._end = weakref.finalize(self, _end, process)
+        if not address:
+            self.close()
+            raise RuntimeError(f"{program} view ended with status {process.returncode}; it has written why")
+        self.address, self.height = address, height
+
+    def close(self):
+        """Ends the page."""
+        self._end()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def _repr_html_(self) -> str:
+        return (f'<iframe src="{html.escape(self.address)}" style="width: 100%; height: {self.height}px; border: 0">'
+                "</iframe>")
+
+    def __repr__(self):
+        return f"<csgrt.Page {self.address}>"

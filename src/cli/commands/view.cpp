@@ -1,0 +1,101 @@
+// csgrt view: a page that shows a scene, until it is interrupted.
+#include <dlfcn.h>
+#include <spawn.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include <csgrt/image.hpp>
+
+#include "base/shell_word.hpp"
+#include "commands.hpp"
+#include "cli/component.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output.hpp"
+#include "cli/text/partitions.hpp"
+#include "view/functions.hpp"
+
+extern char** environ;
+
+namespace csgrt::cli {
+
+namespace {
+
+#if defined CSGRT_VIEW_LIBRARY
+/// The library for HTTP takes 4 ms to load, which other commands do not wait for.
+const ViewFunctions& view_functions() {
+    void* const library = open_component(CSGRT_VIEW_LIBRARY);
+    void* const symbol = library ? dlsym(library, view_functions_name) : nullptr;
+    if (!symbol) throw Error(Status::file, std::string("cannot load the library for the page: ") + dlerror());
+    return *static_cast<const ViewFunctions*>(symbol);
+}
+#elif defined CSGRT_HAVE_VIEW
+const ViewFunctions& view_functions() { return csgrt_view_functions; }
+#else
+const ViewFunctions& view_functions() {
+    throw Error(Status::usage, "this csgrt was built without cpp-httplib and shows no page: csgrt -o FILE.png draws");
+}
+#endif
+
+/// The words behind `csgrt` that load the same model.
+std::string words_of(const ViewArguments& arguments) {
+    std::string text = shell_word(arguments.scene == "-" ? "SCENE" : arguments.scene);
+    for (const std::string& object : arguments.objects) text += " " + shell_word(object);
+    if (arguments.settings.air) text += " --air";
+    if (arguments.load.strict) text += " --strict";
+    if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
+    for (const std::string& folder : arguments.load.file_folders) text += " --allow-files " + shell_word(folder);
+    if (arguments.settings.max_instances > 0)
+        text += " --max-instances " + std::to_string(arguments.settings.max_instances);
+    if (arguments.settings.tolerance_rule != Tolerance::length)
+        text.append(" --tolerance ").append(name_of(tolerance_names, arguments.settings.tolerance_rule));
+    else if (arguments.settings.tolerance >= 0)
+        append_shortest(text += " --tolerance ", arguments.settings.tolerance);
+    return text;
+}
+
+void open_browser(const std::string& address) {
+    std::string program = "xdg-open", argument = address;
+    char* words[] = {program.data(), argument.data(), nullptr};
+    pid_t process = 0;
+    if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ) != 0)
+        std::fputs("csgrt: warning: there is no xdg-open to open a browser with: open the address yourself\n", stderr);
+}
+
+}  // namespace
+
+Status run(const ViewArguments& arguments) {
+    const ViewFunctions& view = view_functions();
+    prepare_devices(arguments.settings);
+    const auto load_model = [&arguments] {
+        return Model(load(arguments.scene, arguments.load), arguments.objects, arguments.settings);
+    };
+    const Model model = load_model();
+    report(model.warnings());
+    check_interrupt();
+
+    ViewerOptions options;
+    options.address = arguments.address;
+    options.port = arguments.port;
+    options.name =
+        arguments.scene == "-" ? "standard input" : std::filesystem::path(arguments.scene).filename().string();
+    options.command = words_of(arguments);
+    if (arguments.scene != "-") {
+        options.file = arguments.scene;
+        options.load = load_model;
+    }
+#ifdef CSGRT_HAVE_IMAGE
+    options.write_exr = [](const Image& image, const std::string& path) { write_image(image, path); };
+#endif
+    view.serve(
+        model, arguments.settings, options,
+        [&](const std::string& address) {
+            print(address + "\n");
+            std::fflush(stdout);
+            if (arguments.open) open_browser(address);
+        },
+        [] { return !interrupted(); });
+    return Status::ok;
+}
+
+}  // namespace csgrt::cli

@@ -1,0 +1,132 @@
+#include "false_colors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <csgrt/view.hpp>
+
+namespace csgrt {
+
+namespace {
+
+constexpr std::uint32_t opaque = 0xff000000u;
+
+std::uint32_t pixel(double red, double green, double blue) {
+    const auto byte = [](double value) { return static_cast<std::uint32_t>(std::clamp(value, 0.0, 1.0) * 255 + 0.5); };
+    return opaque | byte(blue) << 16 | byte(green) << 8 | byte(red);
+}
+
+std::uint32_t gray(double value) { return pixel(value, value, value); }
+
+/// A bright colour: hues 0 and 1 are red, 1/3 green, 2/3 blue.
+std::uint32_t of_hue(double hue, double value = 1) {
+    const auto part = [&](double shift) {
+        const double place = 6 * (hue + shift - std::floor(hue + shift));
+        return value * std::clamp(std::abs(place - 3) - 1, 0.15, 1.0);
+    };
+    return pixel(part(0), part(-1.0 / 3), part(-2.0 / 3));
+}
+
+/// Neighbours in the list of regions get colours that are far apart.
+std::uint32_t of_region(std::uint32_t number) {
+    if (number == 0) return opaque;
+    constexpr double golden = 0.6180339887498949;
+    return of_hue(golden * number, number % 3 == 0 ? 1 : number % 3 == 1 ? 0.8 : 0.62);
+}
+
+void paint_depth(std::span<const float> depth, std::span<std::uint32_t> pixels) {
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (const float z : depth) {
+        if (!std::isfinite(z)) continue;
+        low = std::min(low, z);
+        high = std::max(high, z);
+    }
+    const double range = high > low ? double{high} - low : 1;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = std::isfinite(depth[i]) ? gray(1 - 0.8 * (double{depth[i]} - low) / range) : opaque;
+}
+
+void paint_normals(const Image& image, std::span<std::uint32_t> pixels) {
+    const std::array<std::span<const float>, 3> n{image.channel("N.X"), image.channel("N.Y"), image.channel("N.Z")};
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const bool hit = n[0][i] != 0 || n[1][i] != 0 || n[2][i] != 0;
+        pixels[i] = hit ? pixel((n[0][i] + 1) / 2, (n[1][i] + 1) / 2, (n[2][i] + 1) / 2) : opaque;
+    }
+}
+
+/// What is claimed twice is red, whatever lies before it; the rest tells what is there.
+void paint_overlaps(const Image& image, std::span<std::uint32_t> pixels) {
+    const auto overlaps = image.channel("overlap"), partitions = image.channel("partitions");
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = overlaps[i] > 0     ? pixel(0.6 + 0.1 * overlaps[i], 0.05, 0.05)
+                    : partitions[i] > 0 ? gray(0.3)
+                                        : opaque;
+}
+
+void paint_segments(std::span<const float> counts, std::span<std::uint32_t> pixels) {
+    const float most = std::max(1.0f, *std::max_element(counts.begin(), counts.end()));
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = counts[i] > 0 ? of_hue(2.0 / 3 * (1 - counts[i] / most)) : opaque;
+}
+
+/// A light line where another ghost begins.
+void outline_ghosts(const Image& image, std::span<std::uint32_t> pixels) {
+    const auto ghosts = image.ids("ghost");
+    const auto width = static_cast<std::size_t>(image.width);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const bool differs =
+            (i % width > 0 && ghosts[i] != ghosts[i - 1]) || (i >= width && ghosts[i] != ghosts[i - width]);
+        if (!differs) continue;
+        std::uint32_t lighter = opaque;
+        for (const int shift : {0, 8, 16}) lighter |= ((pixels[i] >> shift & 0xff) + 255) / 2 << shift;
+        pixels[i] = lighter;
+    }
+}
+
+}  // namespace
+
+std::uint32_t channels_for(Show show, bool has_ghosts) {
+    switch (show) {
+        case Show::color:
+            return channel::display | (has_ghosts ? channel::ghosts : 0);
+        case Show::depth:
+            return channel::distance;
+        case Show::normal:
+            return channel::normal;
+        case Show::region:
+            return channel::ids;
+        case Show::overlap:
+        case Show::segments:
+            return channel::counts;
+    }
+    return channel::display;
+}
+
+void paint(const Image& image, Show show, std::span<std::uint32_t> pixels) {
+    if (pixels.empty()) return;
+    switch (show) {
+        case Show::color:
+            std::ranges::copy(image.ids("RGBA8"), pixels.begin());
+            if (image.has_channel("ghost")) outline_ghosts(image, pixels);
+            break;
+        case Show::depth:
+            paint_depth(image.channel("Z"), pixels);
+            break;
+        case Show::normal:
+            paint_normals(image, pixels);
+            break;
+        case Show::region:
+            std::ranges::transform(image.ids("region"), pixels.begin(), of_region);
+            break;
+        case Show::overlap:
+            paint_overlaps(image, pixels);
+            break;
+        case Show::segments:
+            paint_segments(image.channel("depth"), pixels);
+            break;
+    }
+}
+
+}  // namespace csgrt

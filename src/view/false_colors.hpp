@@ -1,0 +1,20 @@
+// Pictures of what is no colour, and the outlines of ghosts.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <csgrt/image.hpp>
+
+#include "view/asked.hpp"
+
+namespace csgrt {
+
+/// The channels (View::channels) that paint() needs.
+std::uint32_t channels_for(Show show, bool has_ghosts);
+
+/// Pixels as a display has them: R G B A, a byte each from the lowest one on. `pixels` has one value for each of the
+/// picture's.
+void paint(const Image& image, Show show, std::span<std::uint32_t> pixels);
+
+}  // namespace csgrt

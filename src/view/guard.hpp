@@ -1,0 +1,36 @@
+// Who may ask: every request is looked at before its body is read.
+#pragma once
+
+#include <string>
+
+namespace csgrt {
+
+/// 128 random bits, as 32 digits.
+std::string new_token();
+
+/// What of a request tells who asks.
+struct Asker {
+    std::string method, path, host, content_type;
+    bool has_origin = false;
+    std::string origin = {};
+};
+
+/// Where requests are right.
+class Guard {
+public:
+    /// `address`: of the interface that is listened on.
+    Guard(std::string address, std::string token) : address_(std::move(address)), token_(std::move(token)) {}
+
+    /// The status that refuses a request, or 0. A page of another site may send requests to this address, but not with
+    /// its own Origin; a name that its DNS points here comes as the Host. A tunnel changes the port alone.
+    int refusal(const Asker& asker) const;
+    /// "/TOKEN/", with which every path begins.
+    std::string root() const { return "/" + token_ + "/"; }
+
+private:
+    bool is_own_host(const std::string& host) const;
+
+    std::string address_, token_;
+};
+
+}  // namespace csgrt

@@ -1,0 +1,386 @@
+#include "studio.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <random>
+
+#include <csgrt/edit.hpp>
+#include <csgrt/error.hpp>
+
+#include "scene/vector.hpp"
+#include "view/false_colors.hpp"
+
+namespace csgrt {
+
+namespace {
+
+constexpr std::size_t most_dressed = 16, most_pages = 256;
+constexpr std::chrono::milliseconds turn{5};  ///< between two looks whether a frame that waits is still wanted
+
+Json to_json(const Box& box) {
+    if (!(box.low.x <= box.high.x)) return nullptr;
+    for (const double value : {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z})
+        if (!std::isfinite(value)) return nullptr;
+    return {{"low", to_json(box.low)}, {"high", to_json(box.high)}};
+}
+
+Json distance(double t) { return std::isfinite(t) ? Json(t) : Json(nullptr); }
+
+Json to_json(const Model& model, std::int64_t solid) {
+    if (solid < 0 || solid >= static_cast<std::int64_t>(model.solids().size())) return nullptr;
+    const SolidInfo& info = model.solids()[static_cast<std::size_t>(solid)];
+    return {{"name", info.name}, {"type", info.type}};
+}
+
+std::string state_name(State state) {
+    return state == State::shown ? "shown" : state == State::ghost ? "ghost" : "hidden";
+}
+
+/// The scene's camera with every member that a page has. A camera that is given by its eye stands upright here.
+Json camera_of(const Model& model) {
+    const Camera camera = model.scene().camera;
+    double azimuth = camera.azimuth, elevation = camera.elevation, size = camera.view_size.value_or(1000);
+    Vec3 center = camera.center.value_or(camera.look_at.value_or(Vec3{}));
+    const Box& box = model.bounds();
+    if (box.low.x <= box.high.x) {
+        const RayGrid grid = model.grid_of({.width = 1, .height = 1, .camera = camera});
+        const Vec3 ahead = unit(grid.direction);
+        const Vec3 middle = camera.center || camera.look_at ? center : 0.5 * (box.low + box.high);
+        const double distance = dot(middle - grid.origin, ahead);
+        center = grid.origin + distance * ahead;
+        size = length(grid.up) * (grid.is_pinhole ? distance / length(grid.direction) : 1);
+        if (camera.eye) {
+            constexpr double degrees = 180 / std::numbers::pi;
+            elevation = std::asin(std::clamp(-ahead.z, -1.0, 1.0)) * degrees;
+            azimuth = std::atan2(-ahead.y, -ahead.x) * degrees;
+        }
+    }
+    return {{"azimuth", azimuth},
+            {"elevation", elevation},
+            {"perspective", camera.perspective},
+            {"center", to_json(center)},
+            {"view_size", size}};
+}
+
+std::vector<std::string> paths_of(const Model& model) {
+    std::vector<std::string> paths;
+    for (const RegionInfo& region : model.regions()) paths.push_back(region.path);
+    std::ranges::sort(paths);
+    return paths;
+}
+
+/// Whether a region is at a path or below it.
+bool leads_somewhere(const std::vector<std::string>& paths, const std::string& path) {
+    return std::ranges::binary_search(paths, path) || [&] {
+        const auto next = std::ranges::lower_bound(paths, path + "/");
+        return next != paths.end() && next->starts_with(path + "/");
+    }();
+}
+
+/// Neighbours in a row are alike, so that their differences are small and few. zlib's fastest level takes less than the
+/// link it is meant for.
+std::string deflated(const std::vector<std::uint32_t>& pixels) {
+    const std::size_t size = pixels.size() * sizeof pixels[0];
+    std::string differences(size, '\0');
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(pixels.data());
+    for (std::size_t i = 0; i < size; ++i)
+        differences[i] = static_cast<char>(i < 4 ? bytes[i] : bytes[i] - bytes[i - 4]);
+    uLongf length = compressBound(size);
+    std::string packed(length, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(differences.data()),
+                  size, Z_BEST_SPEED) != Z_OK)
+        throw std::bad_alloc();
+    packed.resize(length);
+    return packed;
+}
+
+std::string little_endian(std::uint32_t value) {
+    std::string bytes;
+    for (const int shift : {0, 8, 16, 24}) bytes += static_cast<char>(value >> shift & 0xff);
+    return bytes;
+}
+
+template <class Value>
+std::string bytes_of(const Value* values, std::size_t count) {
+    static_assert(std::endian::native == std::endian::little);
+    return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
+}
+
+/// A file that nobody else can have named, which goes at the end.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::string& extension) {
+        std::random_device random;
+        path_ = std::filesystem::temp_directory_path() /
+                ("csgrt-" + std::to_string(random()) + "-" + std::to_string(random()) + extension);
+    }
+    ~TemporaryFile() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    std::string name() const { return path_.string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace
+
+Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
+    : options_(std::move(options)),
+      settings_([&] {
+          Settings own = settings;
+          own.progress = [this](double) { return !wanted_ || (*wanted_)(); };
+          return own;
+      }()),
+      current_{.base = model},
+      device_(),
+      renderer_(model, settings_) {
+    current_.paths = paths_of(model);
+    device_ = renderer_.statistics().device;
+}
+
+Json Studio::model() const {
+    std::unique_lock lock(current_mutex_);
+    const Model model = current_.base;
+    const std::string error = current_.error, device = device_;
+    const std::uint64_t generation = current_.generation;
+    lock.unlock();
+
+    Json regions = Json::array(), warnings = Json::array();
+    for (const RegionInfo& region : model.regions()) {
+        const Json box = to_json(region.bounds);
+        regions.push_back({{"path", region.path},
+                           {"region_id", region.region_id},
+                           {"air", region.air},
+                           {"material_id", region.material_id},
+                           {"los", region.los},
+                           {"color", to_json(region.color)},
+                           {"state", state_name(region.state)},
+                           {"low", box.is_null() ? box : box["low"]},
+                           {"high", box.is_null() ? box : box["high"]}});
+    }
+    for (const Warning& warning : model.warnings()) {
+        const Place& place = warning.place;
+        warnings.push_back(
+            {{"text", warning.reason},
+             {"object", warning.object},
+             {"place",
+              place.file.empty() || place.line == 0 ? place.pointer : place.file + ":" + std::to_string(place.line)},
+             {"count", warning.count}});
+    }
+    const Scene scene = model.scene();
+    return {
+        {"generation", generation},
+        {"name", options_.name},
+        {"title", scene.title},
+        {"units", scene.units},
+        {"unit_length", scene.unit_length},
+        {"command", options_.command},
+        {"device", device},
+        {"bounds", to_json(model.bounds())},
+        {"view", {{"camera", camera_of(model)}, {"clip", Json::array()}, {"looks", Json::array()}, {"show", "color"}}},
+        {"regions", std::move(regions)},
+        {"warnings", std::move(warnings)},
+        {"exr", bool(options_.write_exr)},
+        {"error", error.empty() ? Json(nullptr) : Json(error)}};
+}
+
+Json Studio::status() const {
+    const std::lock_guard lock(current_mutex_);
+    return {{"generation", current_.generation},
+            {"error", current_.error.empty() ? Json(nullptr) : Json(current_.error)},
+            {"device", device_}};
+}
+
+Model Studio::model_with(const std::vector<Look>& looks) {
+    std::string key;
+    for (const Look& look : looks) {
+        key += look.path + '\n';
+        if (look.state) key += state_name(*look.state);
+        if (look.color) key += bytes_of(&*look.color, 1);
+        key += '\n';
+    }
+    std::unique_lock lock(current_mutex_);
+    if (looks.empty()) return current_.base;
+    auto& dressed = current_.dressed;
+    if (const auto found = std::ranges::find(dressed, key, &std::pair<std::string, Model>::first);
+        found != dressed.end()) {
+        dressed.splice(dressed.begin(), dressed, found);
+        return found->second;
+    }
+    Edit edit(current_.base);
+    for (const Look& look : looks) {
+        if (!leads_somewhere(current_.paths, look.path)) continue;  // it went with another version of the file
+        if (look.state) edit.set_state(look.path, *look.state);
+        if (look.color) edit.set_color(look.path, *look.color);
+    }
+    dressed.emplace_front(std::move(key), edit.commit());
+    if (dressed.size() > most_dressed) dressed.pop_back();
+    return dressed.front().second;
+}
+
+bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_wanted,
+                           const std::function<void()>& draw) {
+    std::unique_lock lock(drawing_, std::defer_lock);
+    while (!lock.try_lock_for(turn))
+        if (!is_wanted()) return false;
+    if (!is_wanted()) return false;
+    wanted_ = &is_wanted;
+    try {
+        renderer_.set_model(model);
+        draw();
+    } catch (const Error& error) {
+        wanted_ = nullptr;
+        if (error.status() != Status::interrupted) throw;
+        return false;
+    }
+    wanted_ = nullptr;
+    const std::lock_guard current(current_mutex_);
+    device_ = renderer_.statistics().device;
+    return true;
+}
+
+Studio::Frame Studio::frame(const Request& request) {
+    Frame frame;
+    frame.studio = this;
+    frame.asked = read_asked(request);
+    frame.number = static_cast<std::uint64_t>(request.count("number", 0, std::numeric_limits<int>::max()));
+    frame.deflates = request.text("encoding") == "deflate";
+    const std::lock_guard lock(current_mutex_);
+    if (pages_.size() > most_pages) pages_.clear();  // frames that are being drawn keep theirs
+    auto& newest = pages_[request.text("page").substr(0, 64)];
+    if (!newest) newest = std::make_shared<std::atomic<std::uint64_t>>();
+    *newest = std::max<std::uint64_t>(*newest, frame.number);
+    frame.newest = newest;
+    return frame;
+}
+
+std::string Studio::Frame::draw(const std::function<bool()>& is_wanted) {
+    const auto is_newest = [&] { return *newest == number && is_wanted(); };
+    Json head;
+    std::string pixels;
+    try {
+        const Model model = studio->model_with(asked.looks);
+        const bool has_ghosts =
+            std::ranges::any_of(model.regions(), [](const RegionInfo& region) { return region.state == State::ghost; });
+        asked.view.channels = channels_for(asked.show, has_ghosts);
+        std::vector<std::uint32_t> painted(static_cast<std::size_t>(asked.view.width) * asked.view.height);
+        const bool is_drawn = studio->with_renderer(model, is_newest, [&] {
+            studio->renderer_.render(asked.view, studio->framebuffer_);
+            head["draw_ms"] = studio->renderer_.statistics().ms.frame;
+            head["device"] = studio->renderer_.statistics().device;
+            paint(studio->framebuffer_.image(), asked.show, painted);
+        });
+        if (is_drawn) {
+            pixels = deflates ? deflated(painted) : bytes_of(painted.data(), painted.size());
+            head.update({{"number", number},
+                         {"width", asked.view.width},
+                         {"height", asked.view.height},
+                         {"samples", asked.view.samples},
+                         {"encoding", deflates ? "deflate" : "raw"}});
+            const std::lock_guard lock(studio->current_mutex_);
+            head["generation"] = studio->current_.generation;
+        } else {
+            head = {{"cancelled", true}};
+        }
+    } catch (const Error& error) {
+        head = {{"error", error.what()}};
+    } catch (const std::bad_alloc&) {
+        head = {{"error", "not enough memory for this picture"}};
+    }
+    const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return little_endian(static_cast<std::uint32_t>(text.size())) + text + pixels;
+}
+
+Json Studio::pick(const Request& request) {
+    const Asked asked = read_asked(request);
+    const Model model = model_with(asked.looks);
+    const int x = request.count("x", 0, asked.view.width - 1), y = request.count("y", 0, asked.view.height - 1);
+    const Pick pick = model.pick(asked.view, x, y);
+    Json answer = {{"region", pick.region < 0 ? Json(nullptr) : Json(pick.region)}};
+    if (pick.region >= 0) answer["point"] = to_json(pick.point);
+    if (request.flag("brief")) return answer;
+    answer["solid"] = to_json(model, pick.solid);
+    if (pick.region >= 0) answer.update({{"t", distance(pick.t)}, {"normal", to_json(pick.normal)}});
+    Json partitions = Json::array(), overlaps = Json::array();
+    for (const Partition& part : pick.along.partitions)
+        partitions.push_back({{"region", part.region},
+                              {"in", distance(part.in)},
+                              {"out", distance(part.out)},
+                              {"in_solid", to_json(model, part.in_solid)},
+                              {"out_solid", to_json(model, part.out_solid)},
+                              {"in_normal", to_json(part.in_normal)},
+                              {"out_normal", to_json(part.out_normal)}});
+    for (const Overlap& overlap : pick.along.overlaps)
+        overlaps.push_back(
+            {{"in", distance(overlap.in)}, {"out", distance(overlap.out)}, {"regions", overlap.regions}});
+    const Vec3 &o = pick.ray.origin, &d = pick.ray.direction;
+    std::string ray;
+    for (const double value : {o.x, o.y, o.z, d.x, d.y, d.z}) ray += (ray.empty() ? "" : " ") + decimal(value);
+    answer.update({{"ray", {{"origin", to_json(o)}, {"direction", to_json(d)}}},
+                   {"partitions", std::move(partitions)},
+                   {"overlaps", std::move(overlaps)},
+                   {"shoot", "printf '" + ray + "\\n' | csgrt shoot " + options_.command + " --rays -"}});
+    return answer;
+}
+
+Json Studio::command(const Request& request) const {
+    return {{"command", "csgrt " + options_.command + command_options(read_asked(request)) + " -o view.png"}};
+}
+
+std::string Studio::slice(const Request& request) {
+    const Model model = model_with(read_asked(request).looks);
+    Array<std::int32_t> ids;
+    model.slice(read_slice(request), ids);
+    return bytes_of(ids.data(), ids.size());
+}
+
+std::string Studio::exr(const Request& request) {
+    if (!options_.write_exr) throw Error(Status::usage, "this csgrt was built without OpenImageIO and writes no EXR");
+    Asked asked = read_asked(request);
+    asked.view.every_partition = true;
+    asked.view.channels = channel::all;
+    Image image;
+    with_renderer(
+        model_with(asked.looks), [] { return true; },
+        [&] {
+            image = renderer_.render(asked.view);
+            renderer_.name_pixels(image);
+        });
+    image.attributes["csgrt:command"] = "csgrt " + options_.command + command_options(asked);
+    const TemporaryFile file(".exr");
+    options_.write_exr(image, file.name());
+    std::ifstream in(file.name(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void Studio::load_again() {
+    std::string error;
+    try {
+        const Model model = options_.load();
+        auto paths = paths_of(model);
+        const std::lock_guard lock(current_mutex_);
+        current_ = {.base = model, .paths = std::move(paths), .generation = current_.generation + 1};
+        return;
+    } catch (const Error& failure) {
+        error = failure.what();
+    } catch (const std::bad_alloc&) {
+        error = "not enough memory to load the model again";
+    }
+    const std::lock_guard lock(current_mutex_);
+    current_.error = error;
+}
+
+}  // namespace csgrt

@@ -1,0 +1,58 @@
+"""scene.view(): the command serves the page."""
+
+import json
+import os
+import time
+import urllib.error
+import urllib.request
+
+import pytest
+
+import csgrt
+
+
+def ask(page, name):
+    request = urllib.request.Request(f"{page.address}api/{name}", b"{}", {"Content-Type": "application/json"})
+    with urllib.request.urlopen(request, timeout=30) as answer:
+        return json.load(answer)
+
+
+@pytest.fixture
+def command(command):
+    if "csgrt view" not in command("--help", capture_output=True, text=True).stdout:
+        pytest.skip("this csgrt was built without cpp-httplib")
+    return os.environ["CSGRT_COMMAND"]
+
+
+def test_a_page_shows_the_scene_as_it_is_and_ends(operators, command):
+    operators["/operators/union"].color = (0, 0.25, 1)
+    operators["/operators/intersection"].state = "hidden"
+    operators.commit()
+    with operators.view(command=command, height=300) as page:
+        model = ask(page, "model")
+        assert [region["path"] for region in model["regions"]] == [region.path for region in operators.regions]
+        looks = {region["path"]: (region["color"], region["state"]) for region in model["regions"]}
+        assert looks["/operators/union"] == ([0, 0.25, 1], "shown")
+        assert looks["/operators/intersection"][1] == "hidden"
+        assert page.address in page._repr_html_() and "300px" in page._repr_html_()
+    with pytest.raises(urllib.error.URLError):
+        ask(page, "model")
+    page = operators.view(command=command)
+    address = page.address
+    del page  # ends it, too
+    time.sleep(0.1)
+    with pytest.raises(urllib.error.URLError):
+        urllib.request.urlopen(address, timeout=5)
+
+
+def test_without_the_command_a_sentence_says_what_is_missing(operators):
+    with pytest.raises(FileNotFoundError, match="scene.view.. needs the command no-such-csgrt"):
+        operators.view(command="no-such-csgrt")
+
+
+def test_a_command_that_fails_raises(operators, command, tmp_path):
+    broken = tmp_path / "csgrt"
+    broken.write_text("#!/bin/sh\nexit 4\n")
+    broken.chmod(0o755)
+    with pytest.raises(RuntimeError, match="ended with status 4"):
+        operators.view(command=str(broken))

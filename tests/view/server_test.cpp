@@ -1,0 +1,355 @@
+// What a Viewer answers is what Model and Renderer say of the same view; and who gets no answer.
+#include <zlib.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include <csgrt/edit.hpp>
+#include <csgrt/renderer.hpp>
+#include <csgrt/scene_io.hpp>
+
+#include "catch.hpp"
+#include "cli/command.hpp"
+#include "folder.hpp"
+#include "page_client.hpp"
+
+using namespace csgrt;
+using namespace csgrt::test;
+
+namespace {
+
+/// What a line of a shell's prints; "failed" in place of it.
+std::string printed_by(const std::string& line) {
+    std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(line.c_str(), "r"), pclose);
+    std::string text;
+    for (int c = 0; (c = std::fgetc(pipe.get())) != EOF;) text += static_cast<char>(c);
+    return pclose(pipe.release()) == 0 ? text : "failed";
+}
+
+constexpr int width = 96, height = 80;
+
+Model operators() { return Model(load_scene(std::getenv("CSGRT_SCENES") + std::string("/operators.json"))); }
+
+View view_of(const json& page_view) {
+    const json& camera = page_view["camera"];
+    View view{.width = width, .height = height};
+    view.camera = {
+        .azimuth = camera["azimuth"], .elevation = camera["elevation"], .perspective = camera["perspective"]};
+    const json& c = camera["center"];
+    view.camera.center = Vec3{c[0], c[1], c[2]};
+    view.camera.view_size = camera["view_size"];
+    return view;
+}
+
+json sized(const json& view) { return {{"view", view}, {"width", width}, {"height", height}}; }
+
+std::string display_bytes(Renderer& renderer, View view) {
+    view.every_partition = false;
+    view.channels = channel::display;
+    const Image image = renderer.render(view);
+    const auto pixels = image.ids("RGBA8");
+    return {reinterpret_cast<const char*>(pixels.data()), pixels.size_bytes()};
+}
+
+std::string inflated(const std::string& packed, std::size_t size) {
+    std::string bytes(size, '\0');
+    uLongf length = size;
+    REQUIRE(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length, reinterpret_cast<const Bytef*>(packed.data()),
+                       packed.size()) == Z_OK);
+    for (std::size_t i = 4; i < bytes.size(); ++i) bytes[i] = static_cast<char>(bytes[i] + bytes[i - 4]);
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("view: a frame has the bytes of the Renderer's picture, packed or not", "[view]") {
+    const Model model = operators();
+    const PageClient page(model);
+    Renderer renderer(model);
+    json view = page.ask("model")["view"];
+    CHECK(page.frame(sized(view)).pixels == display_bytes(renderer, view_of(view)));
+
+    json request = sized(view);
+    request["encoding"] = "deflate";
+    CHECK(inflated(page.frame(request).pixels, 4 * width * height) == display_bytes(renderer, view_of(view)));
+
+    request["samples"] = 16;
+    request["encoding"] = "raw";
+    View sampled = view_of(view);
+    sampled.samples = 16;
+    CHECK(page.frame(request).pixels == display_bytes(renderer, sampled));
+
+    view["clip"] = {{{"normal", {1, 0, 0}}, {"distance", 100}}};
+    view["camera"]["perspective"] = 40;
+    View cut = view_of(view);
+    cut.clip = {{{1, 0, 0}, 100}};
+    CHECK(page.frame(sized(view)).pixels == display_bytes(renderer, cut));
+
+    view["looks"] = {{{"path", "/operators/union"}, {"state", "hidden"}},
+                     {{"path", "/operators"}, {"color", {0, 0.5, 1}}},
+                     {{"path", "/no/such/region"}, {"state", "hidden"}}};
+    renderer.set_model(
+        Edit(model).set_state("/operators/union", State::hidden).set_color("/operators", {0, 0.5, 1}).commit());
+    CHECK(page.frame(sized(view)).pixels == display_bytes(renderer, cut));
+}
+
+TEST_CASE("view: a scene's camera by its eye is shown from there", "[view]") {
+    Scene scene = load_scene(std::getenv("CSGRT_SCENES") + std::string("/operators.json"));
+    for (const double perspective : {0.0, 35.0}) {
+        scene.camera = {.perspective = perspective};
+        scene.camera.eye = Vec3{9000, -7000, 6000};
+        scene.camera.look_at = Vec3{100, 200, 50};
+        const Model model(scene);
+        const PageClient page(model);
+        View view{.width = width, .height = height, .camera = scene.camera};
+        Renderer renderer(model);
+        const std::string wanted = display_bytes(renderer, view),
+                          shown = page.frame(sized(page.ask("model")["view"])).pixels;
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < wanted.size(); i += 4) different += wanted.compare(i, 4, shown, i, 4) != 0;
+        CAPTURE(perspective);
+        CHECK(different < wanted.size() / 4 / 100);  // the angles are rounded
+    }
+}
+
+TEST_CASE("view: a pick tells what Model::pick does, and the command that repeats it", "[view]") {
+    const Model model = operators();
+    const std::string scene = std::getenv("CSGRT_SCENES") + std::string("/operators.json");
+    const PageClient page(model, {.command = scene});
+    json request = sized(page.ask("model")["view"]);
+    int hits = 0;
+    for (int y = 4; y < height; y += 9)
+        for (int x = 4; x < width; x += 9) {
+            request["x"] = x;
+            request["y"] = y;
+            const json answer = page.ask("pick", request);
+            const Pick pick = model.pick(view_of(request["view"]), x, y);
+            REQUIRE(answer["partitions"].size() == pick.along.partitions.size());
+            for (std::size_t i = 0; i < pick.along.partitions.size(); ++i) {
+                const Partition& part = pick.along.partitions[i];
+                const json& row = answer["partitions"][i];
+                CHECK(row["region"] == part.region);
+                CHECK(row["in"] == part.in);
+                CHECK(row["out"] == part.out);
+                CHECK(row["in_solid"]["type"] == model.solids()[part.in_solid].type);
+            }
+            if (pick.region < 0) {
+                CHECK(answer["region"].is_null());
+                continue;
+            }
+            CHECK(answer["region"] == pick.region);
+            CHECK(answer["point"] == json{pick.point.x, pick.point.y, pick.point.z});
+            CHECK(answer["solid"]["name"] == model.solids()[static_cast<std::size_t>(pick.solid)].name);
+            if (hits++ > 0) continue;
+            std::string line = answer["shoot"];  // with this csgrt in place of the one on the path
+            line.replace(line.find("csgrt"), 5, command_test::command());
+            CHECK_THAT(printed_by(line),
+                       Catch::Matchers::Contains("ray 0 " + std::to_string(pick.along.partitions.size())));
+        }
+    CHECK(hits > 10);
+}
+
+TEST_CASE("view: the command draws the page's picture", "[view]") {
+    const std::string scene = std::getenv("CSGRT_SCENES") + std::string("/operators.json");
+    const PageClient page(operators(), {.command = scene});
+    json view = page.ask("model")["view"];
+    view["camera"]["azimuth"] = 71.25;
+    view["clip"] = {{{"normal", {0, 0.6, 0.8}}, {"distance", 512.5}}};
+    view["looks"] = {{{"path", "/operators"}, {"state", "hidden"}},
+                     {{"path", "/operators/plinth@2"}, {"state", "shown"}},
+                     {{"path", "/operators/difference"}, {"state", "shown"}, {"color", {0.25, 0.5, 1}}}};
+    Folder folder;
+    std::string line = page.ask("command", sized(view))["command"];
+    line.replace(0, 5, command_test::command());
+    line.replace(line.find("view.png"), 8, folder / "view.exr");
+    REQUIRE(printed_by(line) == "");
+    const auto pixels = display_pixels(read_image(folder / "view.exr"));
+    CHECK(page.frame(sized(view)).pixels == std::string(pixels.begin(), pixels.end()));
+}
+
+TEST_CASE("view: a slice and an EXR are those of Model and Renderer", "[view]") {
+    const Model model = operators();
+    const PageClient page(model,
+                          {.write_exr = [](const Image& image, const std::string& path) { write_image(image, path); }});
+    json request = sized(page.ask("model")["view"]);
+    request.update({{"center", {0, 0, 10}}, {"right", {100, 0, 0}}, {"up", {0, 100, 0}}});
+    Array<std::int32_t> ids;
+    model.slice({{0, 0, 10}, {100, 0, 0}, {0, 100, 0}, width, height, false}, ids);
+    const auto sliced = page.post("slice", request);
+    CHECK(sliced->body == std::string(reinterpret_cast<const char*>(ids.data()), ids.size() * 4));
+
+    Folder folder;
+    std::ofstream(folder / "a.exr", std::ios::binary) << page.post("exr", request)->body;
+    const Image read = read_image(folder / "a.exr");
+    Renderer renderer(model);
+    CHECK(read.channels == renderer.render(view_of(request["view"])).channels);
+}
+
+TEST_CASE("view: what is no colour is shown, too, and a ghost has an outline", "[view]") {
+    const Model model = Model(load_scene(std::getenv("CSGRT_SCENES") + std::string("/overlap.json")));
+    const PageClient page(model);
+    json view = page.ask("model")["view"];
+    const std::string colors = page.frame(sized(view)).pixels;
+    std::vector<std::string> seen = {colors};
+    for (const char* show : {"depth", "normal", "region", "overlap", "segments"}) {
+        view["show"] = show;
+        seen.push_back(page.frame(sized(view)).pixels);
+        CHECK(seen.back().size() == colors.size());
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) CHECK(seen[i] != seen[j]);
+    CHECK(seen[4].find("\xcc\x0d\x0d\xff"[0]) != std::string::npos);  // red: pixels that are claimed twice
+
+    view["show"] = "color";
+    view["looks"] = {{{"path", "/overlap/left.r"}, {"state", "hidden"}}};
+    const std::string hidden = page.frame(sized(view)).pixels;
+    view["looks"][0]["state"] = "ghost";
+    const std::string ghost = page.frame(sized(view)).pixels;
+    std::size_t lines = 0;
+    for (std::size_t i = 0; i < hidden.size(); i += 4) lines += hidden.compare(i, 4, ghost, i, 4) != 0;
+    CHECK(lines > 20);
+    CHECK(lines < hidden.size() / 4 / 4);
+}
+
+TEST_CASE("view: the newest frame of a page ends those before it, another page's does not", "[view]") {
+    const PageClient page(operators());
+    json slow = {{"view", page.ask("model")["view"]}, {"width", 4096}, {"height", 4096}, {"samples", 64}};
+    FrameAnswer first;
+    std::thread drawing([&] { first = page.frame(slow); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    json quick = sized(slow["view"]);
+    quick["number"] = 2;
+    CHECK(page.frame(quick).pixels.size() == 4 * width * height);
+    drawing.join();
+    CHECK(first.head == json{{"cancelled", true}});
+    CHECK(page.frame(sized(slow["view"])).head == json{{"cancelled", true}});  // number 1 is old
+    quick["page"] = "other";
+    quick["number"] = 1;
+    CHECK(page.frame(quick).pixels.size() == 4 * width * height);
+}
+
+TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
+    const PageClient page(operators());
+    const json slow = {{"view", page.ask("model")["view"]},
+                       {"width", 4096},
+                       {"height", 4096},
+                       {"samples", 256},
+                       {"page", "gone"},
+                       {"number", 1},
+                       {"encoding", "raw"}};
+    const auto start = std::chrono::steady_clock::now();
+    httplib::Client client(page.host());
+    client.set_read_timeout(0, 300'000);  // and closes the connection
+    client.Post(page.root() + "api/frame", slow.dump(), "application/json");
+    CHECK(page.frame(sized(slow["view"])).pixels.size() == 4 * width * height);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
+}
+
+TEST_CASE("view: a changed file is seen, and one that does not load leaves the old model", "[view]") {
+    Folder folder;
+    const std::string file = folder / "scene.json";
+    std::filesystem::copy_file(std::getenv("CSGRT_SCENES") + std::string("/operators.json"), file);
+    const PageClient page(Model(load_scene(file)), {.file = file, .load = [&] { return Model(load_scene(file)); }});
+    const auto until = [&](auto&& is_done) {
+        for (int i = 0; i < 300 && !is_done(page.ask("status")); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return is_done(page.ask("status"));
+    };
+    const json view = page.ask("model")["view"];
+    const std::string before = page.frame(sized(view)).pixels;
+    std::ofstream(file) << "{\"csgrt\": 1, \"solids\": {\"a\": {\"type\": \"spere\"}}}";
+    CHECK(until([](const json& status) { return status["error"].is_string(); }));
+    CHECK(page.ask("status")["error"].get<std::string>().find("spere") != std::string::npos);
+    CHECK(page.frame(sized(view)).pixels == before);
+    std::filesystem::copy_file(std::getenv("CSGRT_SCENES") + std::string("/overlap.json"), file,
+                               std::filesystem::copy_options::overwrite_existing);
+    CHECK(until([](const json& status) { return status["generation"] == 2 && status["error"].is_null(); }));
+    CHECK(page.ask("model")["regions"][0]["path"].get<std::string>().starts_with("/overlap"));
+}
+
+TEST_CASE("view: wrong requests are refused with a sentence that names the member", "[view]") {
+    const PageClient page(operators());
+    const json right = sized(page.ask("model")["view"]);
+    const auto refused = [&](const char* name, json request, const char* pointer, const json& value) {
+        request[json::json_pointer(pointer)] = value;
+        const auto result = page.post(name, request);
+        CHECK(result->status == 400);
+        return json::parse(result->body)["error"].get<std::string>();
+    };
+    using Catch::Matchers::Contains;
+    CHECK_THAT(refused("pick", right, "/x", 96), Contains("x: expected a whole number from 0 to 95"));
+    CHECK_THAT(refused("pick", right, "/x", 0), Contains("y: is missing"));
+    CHECK_THAT(refused("command", right, "/width", 0), Contains("width: expected"));
+    CHECK_THAT(refused("command", right, "/view/camera/azimuth", "35"), Contains("view.camera.azimuth: expected a n"));
+    CHECK_THAT(refused("command", right, "/view/show", "colour"), Contains("show: there is no 'colour'"));
+    CHECK_THAT(refused("command", right, "/view/looks", {{{"path", 1}}}), Contains("view.looks[0].path: expected"));
+    CHECK_THAT(refused("command", right, "/view", 1), Contains("view: expected an object"));
+    const auto client = page.client();
+    CHECK(page.client().Post(page.root() + "api/model", "{", "application/json")->status == 400);
+    CHECK(page.client().Post(page.root() + "api/model", std::string(1'100'000, ' '), "application/json")->status ==
+          413);
+    json request = right;
+    request["view"]["camera"]["perspective"] = 180;
+    request.update({{"page", "a"}, {"number", 1}, {"samples", 1}, {"encoding", "raw"}});
+    CHECK_THAT(page.frame(request).head["error"].get<std::string>(), Contains("perspective"));
+}
+
+TEST_CASE("view: nobody else gets in", "[view]") {
+    const PageClient page(operators());
+    const std::string port = page.host().substr(page.host().rfind(':'));
+    const auto status = [&](const std::string& path, const httplib::Headers& headers) {
+        return page.client().Post(path, headers, "{}", "application/json")->status;
+    };
+    const std::string model = page.root() + "api/model";
+    CHECK(status(model, {}) == 200);
+    CHECK(status(model, {{"Host", "localhost:9000"}, {"Origin", "http://localhost:9000"}}) == 200);  // a tunnel
+    CHECK(status(model, {{"Host", "[::1]:9000"}}) == 200);
+    for (const char* host : {"evil.example", "evil.example:80", "127.0.0.1.evil.example", "10.0.0.1", "127.0.0.1:x",
+                             "[::1", "localhost.", ""})
+        CHECK(status(model, {{"Host", host}}) == 403);
+    for (const std::string& origin : {std::string("http://evil.example"), std::string("null"),
+                                      "https://127.0.0.1" + port, std::string("http://127.0.0.1:1")})
+        CHECK(status(model, {{"Host", "127.0.0.1" + port}, {"Origin", origin}}) == 403);
+    CHECK(status("/api/model", {}) == 404);
+    CHECK(status("/" + std::string(32, '0') + "/api/model", {}) == 404);
+    CHECK(status(page.root() + "api/none", {}) == 404);
+    CHECK(status(page.root() + "../../etc/passwd", {}) == 404);
+    auto client = page.client();
+    CHECK(client.Post(model, "{}", "text/plain")->status == 415);
+    CHECK(client.Get(model)->status == 405);
+    CHECK(client.Get("/")->status == 404);
+    CHECK(client.Get(page.root())->body.find("<html") != std::string::npos);
+    CHECK(client.Get(page.root())->get_header_value("Content-Security-Policy").starts_with("default-src 'none'"));
+
+    try {
+        Viewer second(operators(), {}, {.port = page.port()});
+        FAIL("two Viewers have one port");
+    } catch (const csgrt::Error& error) {
+        CHECK(error.status() == Status::file);
+        CHECK_THAT(error.what(), Catch::Matchers::Contains("another program"));
+    }
+}
+
+TEST_CASE("view: slow clients do not keep others waiting", "[view]") {
+    PageClient page(operators());
+    std::vector<std::unique_ptr<httplib::Client>> idle;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 20; ++i)
+        threads.emplace_back([&] {  // sends a head, and no body
+            httplib::Client client(page.host());
+            client.set_read_timeout(3);
+            client.Post(
+                page.root() + "api/model", 1000,
+                [](std::size_t, std::size_t, httplib::DataSink&) {
+                    std::this_thread::sleep_for(std::chrono::seconds(2));
+                    return false;
+                },
+                "application/json");
+        });
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const auto start = std::chrono::steady_clock::now();
+    CHECK(page.ask("model")["generation"] == 1);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
+    for (std::thread& thread : threads) thread.join();
+}
