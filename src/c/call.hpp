@@ -72,12 +72,14 @@ std::span<T> needed(T* first, std::size_t count, const char* name) {
 inline const char* text_or_empty(const char* text) { return text ? text : ""; }
 std::vector<std::string> texts(const char* const* first, std::size_t count, const char* name);
 
+/// An earlier version of a struct ends before a member of a later one, never within a pointer.
 template <class T>
 std::size_t known_size(const T& given, const char* name) {
-    if (given.size < sizeof(std::size_t) || given.size > sizeof(T)) {
+    if (given.size < sizeof(std::size_t) || given.size > sizeof(T) || given.size % alignof(T) != 0) {
         refuse(
             std::string(name) + "->size is " + std::to_string(given.size) + ", expected " + std::to_string(sizeof(T)),
-            "begin with the defaults of csgrt.h, such as CSGRT_VIEW; the library is version " + std::string(version()));
+            "begin with the struct's defaults in csgrt.h, CSGRT_VIEW for csgrt_view; the library is version " +
+                std::string(version()));
     }
     return given.size;
 }
@@ -106,7 +108,7 @@ const auto& item(const List& list, std::size_t index) {
 template <class Handle, class Body>
 csgrt_status make(Handle** handle, Body body) noexcept {
     return call([&] {
-        CSGRT_NEED(handle) = nullptr;
+        needed(handle, "the pointer to where the new handle goes") = nullptr;
         *handle = new Handle{body()};
     });
 }

@@ -13,6 +13,8 @@ struct Asked {
 
     explicit Asked(const csgrt_rays* given) {
         const csgrt_rays r = read(given, csgrt_rays CSGRT_RAYS, "rays");
+        if (r.grid && r.list) refuse("rays->grid and rays->list are both given");
+        if (r.ranges && r.range_count == 0) refuse("rays->ranges is given, and rays->range_count is 0");
         if (r.grid) {
             rays = grid_of(*r.grid);
         } else {

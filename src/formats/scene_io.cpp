@@ -45,7 +45,10 @@ Scene load_scene(const std::string& path, const LoadOptions& options) {
     if (extension == ".asc") return read_brlcad_asc(path, !options.strict, options.file_folders);
     if (extension == ".g") return read_brlcad_g(path, !options.strict, options.file_folders);
     if (target_of(path).direct) return parse_scene(read_file(path), path, options);
-    refuse(path, "this is no scene by its name", "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) refuse(path, "this is a folder", "name a scene in it");
+    refuse(path.empty() ? "''" : path, "this is no scene by its name",
+           "scenes end in .json (csgrt), .g or .asc (BRL-CAD, binary and text)");
 }
 
 Scene parse_scene(std::string bytes, const std::string& name, const LoadOptions& options) {

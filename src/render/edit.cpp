@@ -11,6 +11,7 @@
 #include "scene/edit_scene.hpp"
 #include "scene/faults/finding_list.hpp"
 #include "scene/faults/objects.hpp"
+#include "scene/nearest.hpp"
 
 namespace csgrt {
 
@@ -72,8 +73,14 @@ void check_paths(const std::vector<Look>& looks, const LookTable& table, const s
     std::vector<bool> used(looks.size());
     for (const RegionInfo& region : regions)
         for (const std::uint32_t i : table.find(region.path)) used[i] = true;
-    for (std::size_t i = 0; i < looks.size(); ++i)
-        if (!used[i]) throw Error(Status::usage, "the model has no region at '" + looks[i].path + "'");
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        const std::string& path = looks[i].path;
+        if (used[i]) continue;
+        std::vector<std::string_view> known;
+        for (const RegionInfo& region : regions) known.push_back(region.path);
+        throw Error(Status::usage, {Diagnostic{.message = "the model has no region at '" + path + "', nor below it",
+                                               .suggestion = did_you_mean(path, known)}});
+    }
 }
 
 /// The same solids and regions, which look as `source` says and `table` has it.

@@ -12,12 +12,14 @@ namespace csgrt {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(Status::usage, what); }
+[[noreturn]] void refuse(const std::string& what, const std::string& suggestion = {}) {
+    throw Error(Status::usage, {Diagnostic{.message = what, .suggestion = suggestion}});
+}
 
 /// Where a path leads. `least`: parts that it must have.
 ObjectPath follow(const Scene& scene, const Names& names, const std::string& path, std::size_t least = 1) {
     ObjectPath found = find_path(scene, names, path);
-    if (found.steps.empty()) refuse(found.fault + (found.suggestion.empty() ? "" : ": " + found.suggestion));
+    if (found.steps.empty()) refuse(found.fault, found.suggestion);
     // An object whose name is the whole path stands alone.
     if (found.steps.size() < least) refuse("'" + path + "' is no leg of a combination: give the path that leads to it");
     return found;
@@ -164,7 +166,7 @@ void add_leg(Scene& scene, const std::string& path, Operator op, const std::stri
     if (names.is_solid(parent)) refuse("'" + path + "' is a solid: it has no legs");
     if (op == Operator::leaf || op == Operator::not_) refuse("a leg is added by an operator of two operands");
     if (names.find(object) == Names::none)
-        refuse("the scene has no object '" + object + "'" + did_you_mean_object(scene, object));
+        refuse("the scene has no object '" + object + "'", did_you_mean_object(scene, object));
     std::vector<TreeNode>& nodes = tree_of(scene, parent).nodes;
     if (nodes.empty() && op != Operator::union_ && op != Operator::xor_)
         refuse("'" + path + "' is empty: a leg can be united with it alone");

@@ -73,7 +73,7 @@ TEST_CASE("every argument of C that is NULL is refused by its name") {
     const csgrt_view view CSGRT_VIEW;
     csgrt_rays rays = CSGRT_RAYS;
     csgrt_model* model = reinterpret_cast<csgrt_model*>(&rays);
-    CHECK_REFUSED(csgrt_load_scene("x.json", nullptr, nullptr), CSGRT_ERROR_USAGE, "handle is NULL");
+    CHECK_REFUSED(csgrt_load_scene("x.json", nullptr, nullptr), CSGRT_ERROR_USAGE, "where the new handle goes is NULL");
     CHECK_REFUSED(csgrt_model_create(nullptr, nullptr, 0, nullptr, &model), CSGRT_ERROR_USAGE, "scene is NULL");
     CHECK(model == nullptr);
     OwnedScene scene;
@@ -127,7 +127,7 @@ TEST_CASE("structs of C of an earlier version have the defaults of later members
     OwnedImage image;
     REQUIRE_OK(csgrt_image_create(&image));
     CHECK(csgrt_renderer_render(w.renderer, &view, image) == CSGRT_OK);
-    for (const std::size_t size : {std::size_t{0}, sizeof(csgrt_view) + 1}) {
+    for (const std::size_t size : {std::size_t{0}, sizeof(csgrt_view) + 1, offsetof(csgrt_view, samples) + 1}) {
         view.size = size;
         CHECK_REFUSED(csgrt_renderer_render(w.renderer, &view, image), CSGRT_ERROR_USAGE,
                       "view->size is " + std::to_string(size));
@@ -161,6 +161,12 @@ TEST_CASE("what C passes on is refused with its index, its value or its place") 
     rays.range_count = 1;
     CHECK(csgrt_model_partitions(w.model, &rays, partitions) == CSGRT_ERROR_USAGE);
     rays.range_count = 0;
+    CHECK_REFUSED(csgrt_model_partitions(w.model, &rays, partitions), CSGRT_ERROR_USAGE, "range_count is 0");
+    rays.ranges = nullptr;
+    const csgrt_ray_grid grid{};
+    rays.grid = &grid;
+    CHECK_REFUSED(csgrt_model_partitions(w.model, &rays, partitions), CSGRT_ERROR_USAGE, "are both given");
+    rays.grid = nullptr;
     csgrt_hits hits = CSGRT_HITS;
     hits.count = 6;
     CHECK_REFUSED(csgrt_model_cast_rays(w.model, &rays, &hits), CSGRT_ERROR_USAGE, "the count is 6, expected 7");

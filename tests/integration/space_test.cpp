@@ -46,8 +46,10 @@ TEST_CASE("a point belongs to the region that begins or goes on there along x") 
     Array<std::int32_t> found;
     renderer.region_at(points, found);
     CHECK(std::vector<std::int32_t>(found.begin(), found.end()) == std::vector<std::int32_t>{-1, 0, 0, 1, 1, -1, -1});
+    const Vec3 wrong =
+        GENERATE(Vec3{0, HUGE_VAL, 0}, Vec3{NAN, 0, 0}, Vec3{0, NAN, 0}, Vec3{0, 0, NAN}, Vec3{0, 0, 2e18});
     try {
-        renderer.region_at(std::vector<Vec3>{{0, 0, 0}, {0, HUGE_VAL, 0}}, found);
+        renderer.region_at(std::vector<Vec3>{{0, 0, 0}, wrong}, found);
         FAIL("it is accepted");
     } catch (const Error& error) {
         CHECK(std::string(error.what()).starts_with("point 1: needs three finite numbers"));

@@ -270,8 +270,13 @@ TEST_CASE("what cannot be is refused with the place, and changes nothing") {
     CHECK(refusal([&] { edit.add(Solid{"ball", Ell{}, {}}); }) == "the scene has an object 'ball' already");
     CHECK(refusal([&] { edit.add("ball", Operator::union_, "box"); }) == "'ball' is a solid: it has no legs");
     CHECK(refusal([&] { edit.remove("/all"); }) == "'/all' is all that is rendered");
-    CHECK(refusal([&] { static_cast<void>(Edit(model).set_color("/all/x", {}).commit()); }) ==
-          "the model has no region at '/all/x'");
+    CHECK(refusal([&] {
+              static_cast<void>(Edit(model).set_color("/all/x", {}).commit());
+          }).starts_with("the model has no region at '/all/x', nor below it"));
+    CHECK(refusal([&] {
+              static_cast<void>(Edit(model).set_color("/all/weel/hub.r", {}).commit());
+          }).find("did you mean '/all/wheel/hub.r'?") != std::string::npos);
+    CHECK(refusal([&] { edit.set_state("", State::hidden); }) == "the path '' names nothing");
     CHECK(refusal([&] {
               static_cast<void>(Edit(model).set_color("/all", {2, 0, 0}).commit());
           }).find("a colour has components from 0 to 1") != std::string::npos);

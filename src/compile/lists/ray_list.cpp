@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "compile/lists/grid.hpp"
 #include "scene/range.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 namespace {
@@ -83,7 +84,7 @@ RayList::RayList(std::span<const Vec3> points)
     : points_(points), ranges_{.all = {0, 0}, .each = {}}, size_(points.size()) {
     for_chunks(size_, 16'384, 0, [&](std::size_t first, std::size_t last, std::size_t) {
         for (std::size_t i = first; i < last; ++i)
-            if (!(largest(points[i]) <= Limits::ray_origin))
+            if (!is_finite(points[i]) || largest(points[i]) > Limits::ray_origin)
                 throw Error(Status::usage, "point " + std::to_string(i) + ": needs three finite numbers of at most " +
                                                number_text(Limits::ray_origin) + " mm");
     });
