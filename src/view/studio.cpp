@@ -23,7 +23,7 @@ namespace csgrt {
 
 namespace {
 
-constexpr std::size_t most_dressed = 16, most_pages = 256;
+constexpr std::size_t most_dressed = 16, most_pages = 256, most_spare = 2;
 constexpr std::chrono::milliseconds turn{5};  ///< between two looks whether a frame that waits is still wanted
 
 Json to_json(const Box& box) {
@@ -267,41 +267,50 @@ Studio::Frame Studio::frame(const Request& request) {
     return frame;
 }
 
-std::string Studio::Frame::draw(const std::function<bool()>& is_wanted) {
+void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::function<void(std::string_view)>& send) {
     const auto is_newest = [&] { return *newest == number && is_wanted(); };
-    Json head;
-    std::string pixels;
+    const auto send_head = [&](const Json& head) {
+        const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+        send(little_endian(static_cast<std::uint32_t>(text.size())) + text);
+    };
+    std::vector<std::uint32_t> pixels;
     try {
         const Model model = studio->model_with(asked.looks);
         const bool has_ghosts =
             std::ranges::any_of(model.regions(), [](const RegionInfo& region) { return region.state == State::ghost; });
         asked.view.channels = channels_for(asked.show, has_ghosts);
-        std::vector<std::uint32_t> painted(static_cast<std::size_t>(asked.view.width) * asked.view.height);
-        const bool is_drawn = studio->with_renderer(model, is_newest, [&] {
-            studio->renderer_.render(asked.view, studio->framebuffer_);
-            head["draw_ms"] = studio->renderer_.statistics().ms.frame;
-            head["device"] = studio->renderer_.statistics().device;
-            paint(studio->framebuffer_.image(), asked.show, painted);
-        });
-        if (is_drawn) {
-            pixels = deflates ? deflated(painted) : bytes_of(painted.data(), painted.size());
-            head.update({{"number", number},
-                         {"width", asked.view.width},
-                         {"height", asked.view.height},
-                         {"samples", asked.view.samples},
-                         {"encoding", deflates ? "deflate" : "raw"}});
+        Json head = {{"number", number},
+                     {"width", asked.view.width},
+                     {"height", asked.view.height},
+                     {"samples", asked.view.samples},
+                     {"encoding", deflates ? "deflate" : "raw"}};
+        {
             const std::lock_guard lock(studio->current_mutex_);
             head["generation"] = studio->current_.generation;
-        } else {
-            head = {{"cancelled", true}};
+            if (!studio->spare_pixels_.empty()) {
+                pixels = std::move(studio->spare_pixels_.back());
+                studio->spare_pixels_.pop_back();
+            }
         }
+        pixels.resize(static_cast<std::size_t>(asked.view.width) * static_cast<std::size_t>(asked.view.height));
+        if (!studio->with_renderer(model, is_newest, [&] {
+                studio->renderer_.render(asked.view, studio->framebuffer_);
+                head["draw_ms"] = studio->renderer_.statistics().ms.frame;
+                head["device"] = studio->renderer_.statistics().device;
+                paint(studio->framebuffer_.image(), asked.show, pixels);
+            }))
+            return send_head({{"cancelled", true}});
+        const std::string packed = deflates ? deflated(pixels) : std::string();
+        send_head(head);
+        send(deflates ? std::string_view(packed)
+                      : std::string_view(reinterpret_cast<const char*>(pixels.data()), 4 * pixels.size()));
     } catch (const Error& error) {
-        head = {{"error", error.what()}};
+        return send_head({{"error", error.what()}});
     } catch (const std::bad_alloc&) {
-        head = {{"error", "not enough memory for this picture"}};
+        return send_head({{"error", "not enough memory for this picture"}});
     }
-    const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return little_endian(static_cast<std::uint32_t>(text.size())) + text + pixels;
+    const std::lock_guard lock(studio->current_mutex_);
+    if (studio->spare_pixels_.size() < most_spare) studio->spare_pixels_.push_back(std::move(pixels));
 }
 
 Json Studio::pick(const Request& request) {

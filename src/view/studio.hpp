@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,8 +38,8 @@ public:
     /// A picture of a page. The newest of a page's ends those before it; `is_wanted` ends it, too.
     class Frame {
     public:
-        /// Its length in 4 bytes, a text of JSON, and pixels.
-        std::string draw(const std::function<bool()>& is_wanted);
+        /// The answer in pieces: the length of a text of JSON in 4 bytes, the text, and pixels.
+        void draw(const std::function<bool()>& is_wanted, const std::function<void(std::string_view)>& send);
 
     private:
         friend class Studio;
@@ -72,6 +73,8 @@ private:
     Current current_;
     std::string device_;  ///< what drew last; under current_mutex_, too
     std::map<std::string, std::shared_ptr<std::atomic<std::uint64_t>>> pages_;
+    /// Of frames that were sent, for the next: new memory takes the system longer than a GPU takes for the picture.
+    std::vector<std::vector<std::uint32_t>> spare_pixels_;
 
     std::timed_mutex drawing_;
     const std::function<bool()>* wanted_ = nullptr;  ///< of the frame that is drawn

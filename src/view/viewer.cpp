@@ -4,11 +4,13 @@
 
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -24,6 +26,7 @@ namespace csgrt {
 namespace {
 
 constexpr std::size_t most_bytes = 1'000'000;  ///< of a request
+constexpr std::size_t piece = 120'000;         ///< of an answer, of which the library makes copies
 /// Each connection has a thread until it is quiet. Those of slow clients wait for it, and take none from others.
 constexpr std::size_t threads = 64;
 constexpr int reading_seconds = 5, writing_seconds = 10, quiet_seconds = 1;
@@ -154,8 +157,11 @@ struct Viewer::Impl {
     void send_frame(const Request& request, httplib::Response& response) {
         response.set_chunked_content_provider(
             bytes_type, [this, frame = studio.frame(request)](std::size_t, httplib::DataSink& sink) mutable {
-                const std::string bytes = frame.draw([&] { return !stopping && sink.is_writable(); });
-                sink.write(bytes.data(), bytes.size());
+                frame.draw([&] { return !stopping && sink.is_writable(); },
+                           [&](std::string_view bytes) {
+                               for (; !bytes.empty(); bytes.remove_prefix(std::min(piece, bytes.size())))
+                                   if (!sink.write(bytes.data(), std::min(piece, bytes.size()))) return;
+                           });
                 sink.done();
                 return true;
             });
