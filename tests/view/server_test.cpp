@@ -118,6 +118,7 @@ TEST_CASE("view: a pick tells what Model::pick does, and the command that repeat
     const std::string scene = std::getenv("CSGRT_SCENES") + std::string("/operators.json");
     const PageClient page(model, {.command = scene});
     json request = sized(page.ask("model")["view"]);
+    json hit;
     int hits = 0;
     for (int y = 4; y < height; y += 9)
         for (int x = 4; x < width; x += 9) {
@@ -142,12 +143,22 @@ TEST_CASE("view: a pick tells what Model::pick does, and the command that repeat
             CHECK(answer["point"] == json{pick.point.x, pick.point.y, pick.point.z});
             CHECK(answer["solid"]["name"] == model.solids()[static_cast<std::size_t>(pick.solid)].name);
             if (hits++ > 0) continue;
+            hit = request;
             std::string line = answer["shoot"];  // with this csgrt in place of the one on the path
             line.replace(line.find("csgrt"), 5, command_test::command());
             CHECK_THAT(printed_by(line),
                        Catch::Matchers::Contains("ray 0 " + std::to_string(pick.along.partitions.size())));
         }
     CHECK(hits > 10);
+
+    request = hit;
+    const json before = page.ask("pick", request);
+    REQUIRE(before["partitions"].size() > 0);
+    request["view"]["looks"] = {{{"path", "/operators"}, {"state", "hidden"}}};
+    request["view"]["clip"] = {{{"normal", {1, 0, 0}}, {"distance", -1e6}}};
+    const json after = page.ask("pick", request);
+    CHECK(after["region"].is_null());
+    CHECK(after["partitions"] == before["partitions"]);
 }
 
 TEST_CASE("view: the command draws the page's picture", "[view]") {
@@ -243,6 +254,18 @@ TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
     client.set_read_timeout(0, 300'000);  // and closes the connection
     client.Post(page.root() + "api/frame", slow.dump(), "application/json");
     CHECK(page.frame(sized(slow["view"])).pixels.size() == 4 * width * height);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
+}
+
+TEST_CASE("view: run ends while a frame is drawn, and at the button", "[view]") {
+    auto page = std::make_unique<PageClient>(operators());
+    const json slow = {{"view", page->ask("model")["view"]}, {"width", 4096}, {"height", 4096}, {"samples", 256}};
+    std::thread drawing([&, &client = *page] { CHECK(client.frame(slow).head == json{{"cancelled", true}}); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto start = std::chrono::steady_clock::now();
+    CHECK(page->ask("end") == json::object());
+    drawing.join();
+    page.reset();
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
 }
 
