@@ -10,9 +10,10 @@ from page import Page, Server, new_browser
 def take_screenshots(csgrt, root, work, folder):
     os.makedirs(folder, exist_ok=True)
     driver = new_browser(work, 1280, 860)
+    os.chdir(root)  # the page names the scene as it was given
 
     def shot(scene, name, act):
-        server = Server(csgrt, os.path.join(root, "scenes", scene))
+        server = Server(csgrt, os.path.join("scenes", scene))
         try:
             page = Page(driver, server.address)
             act(page)
@@ -23,18 +24,18 @@ def take_screenshots(csgrt, root, work, folder):
         finally:
             server.close()
 
-    def ask(page):
-        page.press("fit")
-        page.click(*page.screen([0, -3250 - 420, 900]))
+    def ask(page):  # along a row of shapes; then it is seen from the side
+        page.press("view-right").press("fit").click(*page.screen([-50, -3250, 150]))
+        page.js("turn(325, 28, csgrt.view.camera.center); changed()")
+        page.idle().press("fit")
 
     def cut(page):
         page.press("view-iso").press("toggle-answer").press("toggle-cut").press("add-plane")
         page.press("cut-0-slice").press("fit")
 
     def overlap(page):
-        page.press("fit").press("toggle-parts").press("toggle-cut").press("add-plane").press("cut-0-set-x")
-        page.set("cut-0-distance", "10").press("cut-0-slice")
-        page.click(*page.screen([10, 50, 50]))
+        page.press("toggle-parts").press("toggle-cut").press("add-plane").press("cut-0-set-x")
+        page.set("cut-0-distance", "10").press("cut-0-slice").press("fit").click(*page.screen([10, 50, 50]))
 
     try:
         shot("operators.json", "viewer-ask.png", ask)
@@ -72,9 +73,9 @@ def measure(csgrt, work, model):
                 server.close()
         median = statistics.median
         print(f"{os.path.basename(model)}: first pixels {median(first):.2f} s after the command's start; dragging "
-              f"{median(fps):.0f} frames a second (1/{median(divisors):g} of the size), {median(latencies):.0f} ms from "
-              f"the mouse to pixels; {median(fulls):.0f} ms from rest to the full picture; {median(answers):.0f} ms from "
-              f"a click to its answer", flush=True)
+              f"{median(fps):.0f} frames a second (1/{median(divisors):g} of the size), {median(latencies):.0f} ms "
+              f"from mouse to pixels; {median(fulls):.0f} ms from rest to the full picture; {median(answers):.0f} ms "
+              "from a click to its answer", flush=True)
     finally:
         driver.quit()
 
@@ -100,13 +101,14 @@ def drag(page, seconds, release=True):
     middle = [v / 2 for v in page.js("return [csgrt.size.css_width, csgrt.size.css_height]")]
     page.mouse("mousePressed", *middle, clickCount=1)
     time.sleep(0.3)
-    box = page.js("const b = canvas.getBoundingClientRect(); csgrt.latencies.length = 0; return [b.left, b.top, csgrt.frames]")
+    box = page.js("const b = canvas.getBoundingClientRect(); csgrt.latencies.length = 0;"
+                  "return [b.left, b.top, csgrt.frames]")
     began, now = time.time(), 0
     while now < seconds:
         now = time.time() - began
         at = [middle[0] + 250 * math.sin(now), middle[1] + 120 * math.sin(1.7 * now)]
-        page.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": box[0] + at[0], "buttons": 1,
-                                                                 "y": box[1] + at[1], "button": "left"})
+        page.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {
+            "type": "mouseMoved", "x": box[0] + at[0], "y": box[1] + at[1], "button": "left", "buttons": 1})
         time.sleep(0.008)
     frames = page.js("return csgrt.frames") - box[2]
     took = time.time() - began

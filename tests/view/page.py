@@ -93,7 +93,8 @@ class Page:
         return self.js("return csgrt.view")
 
     def mouse(self, kind, x, y, button="left", on="canvas", **more):
-        box = self.js("const b = document.getElementById(arguments[0]).getBoundingClientRect(); return [b.left, b.top]", on)
+        box = self.js("const b = document.getElementById(arguments[0]).getBoundingClientRect();"
+                      "return [b.left, b.top]", on)
         self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {
             "type": kind, "x": box[0] + x, "y": box[1] + y, "button": button, **more})
 
@@ -131,7 +132,8 @@ class Page:
         return self.driver.execute_async_script("""
             const [url, done] = arguments, image = new Image();
             image.onload = () => {
-              const other = document.createElement("canvas"), w = other.width = image.width, h = other.height = image.height;
+              const other = document.createElement("canvas");
+              const w = other.width = image.width, h = other.height = image.height;
               other.getContext("2d").drawImage(image, 0, 0);
               if (w !== canvas.width || h !== canvas.height) return done([999, w * h]);
               const [a, b] = [other, canvas].map(c => c.getContext("2d").getImageData(0, 0, w, h).data);

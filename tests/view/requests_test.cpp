@@ -27,6 +27,15 @@ using namespace csgrt::test;
 
 namespace {
 
+// The sanitizers find what is lost, and open files themselves.
+#if defined __SANITIZE_ADDRESS__
+constexpr bool is_sanitized = true;
+#elif defined __has_feature
+constexpr bool is_sanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool is_sanitized = false;
+#endif
+
 volatile std::sig_atomic_t opened = 0;
 
 /// For all threads, until the process ends.
@@ -140,15 +149,17 @@ TEST_CASE("view: requests at random do no harm", "[.requests]") {
         for (int i = 0; i < some; ++i) send_to(page.port(), request(random, page.root(), host, view), random);
     };
     send_some(count / 3);  // threads and their memory come now
-    REQUIRE(watch_files());
+    if (!is_sanitized) REQUIRE(watch_files());
     const long before = resident_kilobytes(memory);
     send_some(count - count / 3);
-    const long after = resident_kilobytes(memory);
-    CHECK(opened == 0);
-    CAPTURE(before, after);
-    CHECK(after < before + 30'000);
     CHECK(page.ask("model")["generation"] == 1);
-    CHECK(open("/proc/self/status", O_RDONLY) < 0);
-    CHECK(opened == 1);  // so it would have been seen
+    if (!is_sanitized) {
+        const long after = resident_kilobytes(memory);
+        CAPTURE(before, after);
+        CHECK(after < before + 30'000);
+        CHECK(opened == 0);
+        CHECK(open("/proc/self/status", O_RDONLY) < 0);
+        CHECK(opened == 1);  // so it would have been seen
+    }
     close(memory);
 }

@@ -1,6 +1,7 @@
 // What a Viewer answers is what Model and Renderer say of the same view; and who gets no answer.
 #include <zlib.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -260,11 +261,13 @@ TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
 TEST_CASE("view: run ends while a frame is drawn, and at the button", "[view]") {
     auto page = std::make_unique<PageClient>(operators());
     const json slow = {{"view", page->ask("model")["view"]}, {"width", 4096}, {"height", 4096}, {"samples", 256}};
-    std::thread drawing([&, &client = *page] { CHECK(client.frame(slow).head == json{{"cancelled", true}}); });
+    json answer;
+    std::thread drawing([&answer, &slow, &client = *page] { answer = client.frame(slow).head; });
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const auto start = std::chrono::steady_clock::now();
     CHECK(page->ask("end") == json::object());
     drawing.join();
+    CHECK(answer == json{{"cancelled", true}});
     page.reset();
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
 }
@@ -355,24 +358,22 @@ TEST_CASE("view: nobody else gets in", "[view]") {
 }
 
 TEST_CASE("view: slow clients do not keep others waiting", "[view]") {
-    PageClient page(operators());
-    std::vector<std::unique_ptr<httplib::Client>> idle;
-    std::vector<std::thread> threads;
+    const PageClient page(operators());
+    std::atomic<int> done{0};
+    std::vector<std::jthread> slow;
     for (int i = 0; i < 20; ++i)
-        threads.emplace_back([&] {  // sends a head, and no body
+        slow.emplace_back([&] {  // sends a head, and no body
             httplib::Client client(page.host());
-            client.set_read_timeout(3);
             client.Post(
                 page.root() + "api/model", 1000,
                 [](std::size_t, std::size_t, httplib::DataSink&) {
-                    std::this_thread::sleep_for(std::chrono::seconds(2));
+                    std::this_thread::sleep_for(std::chrono::seconds(4));
                     return false;
                 },
                 "application/json");
+            ++done;
         });
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto start = std::chrono::steady_clock::now();
     CHECK(page.ask("model")["generation"] == 1);
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
-    for (std::thread& thread : threads) thread.join();
+    CHECK(done == 0);
 }
