@@ -1,16 +1,26 @@
-// csgrt.h answers with the bits of the C++ interface.
-#include <array>
+// csgrt.h answers with the bits of the C++ interface, and after edits so do the other interfaces.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <iomanip>
+#include <map>
+#include <memory>
 #include <random>
+#include <sstream>
+
+#include <csgrt/librt.h>
 
 #include "c/owned.hpp"
-#include "folder.hpp"
+#include "cli/command.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scenes.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;
 using namespace csgrt::test;
+using command_test::read_file, command_test::run;
 
 namespace {
 
@@ -42,6 +52,7 @@ void require_same(const csgrt_partitions* found, const Partitions& p) {
     REQUIRE(same_bytes(a.overlap_splits, a.overlap_splits ? a.ray_count + 1 : 0, p.overlap_splits));
     REQUIRE(same_bytes(a.overlap_t_in, a.overlap_count, p.overlap_t_in));
     REQUIRE(same_bytes(a.overlap_t_out, a.overlap_count, p.overlap_t_out));
+    REQUIRE(same_bytes(a.overlap_region_splits, a.overlap_splits ? a.overlap_count + 1 : 0, p.overlap_region_splits));
     REQUIRE(same_bytes(a.overlap_region_ids, a.claimant_count, p.overlap_region_ids));
 }
 
@@ -174,6 +185,139 @@ void require_same_pictures(const csgrt_scene* c_scene, const csgrt_model* c_mode
     CHECK(std::memcmp(&ray, &pick.ray, sizeof ray) == 0);
 }
 
+std::string text_of(const auto&... words) {
+    std::ostringstream text;
+    text << std::setprecision(17) << std::showpoint;  // "-0.000": a float in Python
+    (text << ... << words);
+    return text.str();
+}
+
+std::string bytes_of(const auto& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]};
+}
+
+/// The bytes of everything, by the names that Python has.
+struct Answers {
+    Partitions rows;
+    std::map<std::string, std::string> bytes;
+};
+
+Answers answers_of(Renderer& renderer, const std::vector<Ray>& rays, const Camera& camera) {
+    Answers answers;
+    Partitions& p = answers.rows;
+    renderer.partitions(rays, p, {.solids = true, .normals = true, .overlaps = true});
+    Array<std::int32_t> cut;
+    renderer.slice(slice_of(renderer.bounds(), {0, 0, 1}, 2.5, 40, 30), cut);
+    answers.bytes = {{"slice", bytes_of(cut)},
+                     {"ray_splits", bytes_of(p.ray_splits)},
+                     {"region_ids", bytes_of(p.region_ids)},
+                     {"t_in", bytes_of(p.t_in)},
+                     {"t_out", bytes_of(p.t_out)},
+                     {"in_solids", bytes_of(p.in_solids)},
+                     {"out_solids", bytes_of(p.out_solids)},
+                     {"in_normals", bytes_of(p.in_normals)},
+                     {"out_normals", bytes_of(p.out_normals)},
+                     {"overlap_splits", bytes_of(p.overlap_splits)},
+                     {"overlap_t_in", bytes_of(p.overlap_t_in)},
+                     {"overlap_t_out", bytes_of(p.overlap_t_out)},
+                     {"overlap_region_splits", bytes_of(p.overlap_region_splits)},
+                     {"overlap_region_ids", bytes_of(p.overlap_region_ids)}};
+    const std::uint32_t channels = channel::all | channel::display | channel::ghosts;
+    const Image image = renderer.render({.width = 48, .height = 36, .camera = camera, .channels = channels});
+    for (std::size_t i = 0; i < image.names.size(); ++i) answers.bytes[image.names[i]] = bytes_of(image.channels[i]);
+    return answers;
+}
+
+void require_same_librt(const std::string& file, const std::vector<Ray>& rays, std::vector<RayPartitions> expected) {
+    const std::unique_ptr<rt_i, decltype(&rt_free_rti)> rtip(rt_dirbuild(file.c_str(), nullptr, 0), rt_free_rti);
+    REQUIRE(rtip);
+    rt_prep(rtip.get());
+    std::vector<RayPartitions> found(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        expected[i].overlaps.clear();  // librt has no list of them
+        xray ray;
+        librt::copy(ray.r_pt, rays[i].origin);
+        librt::copy(ray.r_dir, rays[i].direction);
+        librt::shoot(rtip.get(), ray, [&](const partition& row) {
+            const auto id = [](long bit) { return static_cast<std::uint32_t>(bit); };
+            const auto normal = [](const hit* end) {
+                return Vec3{end->hit_normal[X], end->hit_normal[Y], end->hit_normal[Z]};
+            };
+            found[i].partitions.push_back({row.pt_inhit->hit_dist, row.pt_outhit->hit_dist, normal(row.pt_inhit),
+                                           normal(row.pt_outhit), id(row.pt_regionp->reg_bit),
+                                           id(row.pt_inseg->seg_stp->st_bit), id(row.pt_outseg->seg_stp->st_bit)});
+            return true;
+        });
+    }
+    csgrt::test::require_same(found, expected);
+}
+
+void require_same_command(const std::string& scene, const std::vector<Ray>& rays, const Answers& expected) {
+    NEEDS_COMMAND();
+    const Folder folder;
+    std::string list, records;
+    for (const auto& [o, d] : rays) list += text_of(o.x, ' ', o.y, ' ', o.z, ' ', d.x, ' ', d.y, ' ', d.z, '\n');
+    const auto put = [&](auto value) { records.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    const Partitions& p = expected.rows;
+    for (std::size_t ray = 0; ray < rays.size(); ++ray)
+        for (auto i = std::size_t(p.ray_splits[ray]); i < std::size_t(p.ray_splits[ray + 1]); ++i) {
+            put(std::int64_t(ray)), put(p.region_ids[i]), put(p.in_solids[i]), put(p.out_solids[i]);
+            put(p.t_in[i]), put(p.t_out[i]), put(p.in_normals[i]), put(p.out_normals[i]);
+        }
+    const std::string file = folder / "answer.npy";
+    REQUIRE(run({"shoot", scene, "--rays", folder.write("rays", list), "--format", "binary", "-o", file}).status == 0);
+    REQUIRE((read_file(file) == records));
+    REQUIRE(run({"sample", scene, "--plane", "z:2.5", "--size", "40x30", "-o", file}).status == 0);
+    REQUIRE(read_file(file).ends_with(expected.bytes.at("slice")));
+#ifdef CSGRT_HAVE_IMAGE
+    REQUIRE(run({scene, "--size", "48x36", "-o", folder / "picture.exr"}).status == 0);
+    const Image image = read_image(folder / "picture.exr");
+    REQUIRE(image.names.size() == 13);
+    for (std::size_t i = 0; i < image.names.size(); ++i) {
+        INFO(image.names[i]);
+        REQUIRE((bytes_of(image.channels[i]) == expected.bytes.at(image.names[i])));
+    }
+#endif
+}
+
+/// Python makes the edits and answers in files.
+void require_same_python(const std::string& edits, const std::string& edited, const std::vector<Ray>& rays,
+                         const Answers& expected) {
+    const char* const python = std::getenv("CSGRT_PYTHON");
+    if (!python) return;  // the sanitizers' builds have no package
+    const auto calls = [&](const std::string& words) {
+        return std::system(text_of('"', python, "\" ", words).c_str()) == 0;
+    };
+    if (!calls("-c 'import csgrt' 2>/dev/null")) {
+        std::puts("SKIPPED: the interpreter of CSGRT_PYTHON has no package csgrt; the other interfaces agree");
+        return;
+    }
+    const Folder folder;
+    folder.write("wheels.json", wheels);
+    folder.write("rays", bytes_of(rays));
+    const std::string program = folder.write("program.py", R"(
+import os, sys
+import csgrt, numpy
+os.chdir(sys.path[0])
+scene = csgrt.load('wheels.json')
+)" + edits + R"(
+scene.save('edited.json')
+rays = numpy.fromfile('rays').reshape(-1, 6)
+answers = scene.partitions(rays, solids=True, normals=True, overlaps=True)
+answers['slice'] = scene.slice((0, 0, 1), 2.5, (40, 30))
+image = scene.render(48, 36, every_partition=True)
+answers.update((name, image[name]) for name in image.names)
+for name, values in answers.items():
+    values.tofile(name)
+)");
+    REQUIRE(calls(program));
+    CHECK((read_file(folder / "edited.json") == edited));
+    for (const auto& [name, bytes] : expected.bytes) {
+        INFO(name);
+        CHECK((read_file(folder / name) == bytes));
+    }
+}
+
 }  // namespace
 
 TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of C++") {
@@ -198,8 +342,9 @@ TEST_CASE("pictures, partitions, hits, slices and points from C have the bits of
     }
 }
 
-TEST_CASE("after 100 edits from C a model has the bits of the same edits in C++") {
-    OwnedScene c_scene, parts;
+// Each edit is written as a line of Python, too, which its interpreter runs.
+TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have the same bits", "[.interfaces]") {
+    OwnedScene c_scene, parts, edited;
     OwnedModel c_model;
     OwnedRenderer c_renderer;
     REQUIRE_OK(csgrt_parse_scene(wheels, std::strlen(wheels), "wheels.json", nullptr, &c_scene));
@@ -208,7 +353,8 @@ TEST_CASE("after 100 edits from C a model has the bits of the same edits in C++"
     REQUIRE_OK(csgrt_scene_create(&parts));
     const Scene scene = parse_scene(wheels, "wheels.json");
     Renderer renderer(scene);
-    std::mt19937 random(58);
+    std::string python;
+    std::mt19937 random(61);
     const auto part = [&] { return static_cast<double>(random() % 1001) / 1000; };
     for (int i = 0; i < 100; ++i) {
         OwnedEdit c_edit;
@@ -219,69 +365,74 @@ TEST_CASE("after 100 edits from C a model has the bits of the same edits in C++"
         const std::string path = regions[random() % static_cast<unsigned>(regions.size())].path;
         const double x = part(), y = part();
         const Matrix matrix = {1, 0, 0, 20 * x, 0, 1, 0, -30 * y, 0, 0, 1, x, 0, 0, 0, 1};
-        switch (i % 7) {
+        const std::string moved = text_of("csgrt.translate(", 20 * x, ", ", -30 * y, ", ", x, ")");
+        switch (i % 6 == 5 && regions.size() < 16 ? 4 : i % 6) {
             case 0: {
                 const csgrt_vec3 color{x, y, 1};
                 edit.set_color(path, {x, y, 1});
                 REQUIRE_OK(csgrt_edit_set_color(c_edit, path.c_str(), &color));
+                python += text_of("scene['", path, "'].color = (", x, ", ", y, ", 1)\n");
                 break;
             }
-            case 1:
-                edit.set_state(path, static_cast<State>(i % 3));
-                REQUIRE_OK(csgrt_edit_set_state(c_edit, path.c_str(), i % 3));
+            case 1: {
+                const int state = static_cast<int>(random() % 3);
+                edit.set_state(path, static_cast<State>(state));
+                REQUIRE_OK(csgrt_edit_set_state(c_edit, path.c_str(), state));
+                python += text_of("scene['", path, "'].state = ['shown', 'ghost', 'hidden'][", state, "]\n");
                 break;
+            }
             case 2: {
                 csgrt_finish finish = CSGRT_FINISH;
                 finish.specular = x;
                 edit.set_finish(path, {.specular = x});
                 REQUIRE_OK(csgrt_edit_set_finish(c_edit, path.c_str(), &finish));
+                python += text_of("scene['", path, "'].finish = {'specular': ", x, "}\n");
                 break;
             }
             case 3:
-                edit.set_matrix(path, matrix, y < 0.5 ? Edit::Share::alone : Edit::Share::all);
-                REQUIRE_OK(csgrt_edit_set_matrix(c_edit, path.c_str(), matrix.data(), y >= 0.5));
+                edit.set_matrix(path, matrix);
+                REQUIRE_OK(csgrt_edit_set_matrix(c_edit, path.c_str(), matrix.data(), 0));
+                python += text_of("scene['", path, "'].matrix = ", moved, "\n");
                 break;
             case 4: {
-                const double radius = 1 + 20 * x;
-                const std::string name = "new" + std::to_string(i);
-                const std::array<double, 9> axes{radius, 0, 0, 0, radius, 0, 0, 0, radius}, none{};
-                const csgrt_member members[] = {{"center", none.data(), 3, 0, nullptr},
-                                                {"a", axes.data(), 3, 0, nullptr},
-                                                {"b", axes.data() + 3, 3, 0, nullptr},
-                                                {"c", axes.data() + 6, 3, 0, nullptr}};
+                const double radius = 1 + 20 * x, center[] = {0, 0, 0};
+                const std::string name = text_of("new", i), solid = name + ".sphere1";  // as Python calls it
+                const csgrt_member members[] = {{"center", center, 3, 0, nullptr}, {"radius", &radius, 1, 0, nullptr}};
                 const Ell ball{{}, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}};
-                REQUIRE_OK(csgrt_scene_add_solid(parts, name.c_str(), "ell", members, 4));
+                REQUIRE_OK(csgrt_scene_add_solid(parts, solid.c_str(), "sphere", members, 2));
                 if (y < 0.5) {
                     edit.replace("ball", ball);
-                    REQUIRE_OK(csgrt_edit_replace(c_edit, "ball", parts, name.c_str()));
+                    REQUIRE_OK(csgrt_edit_replace(c_edit, "ball", parts, solid.c_str()));
+                    python += text_of("scene.replace('ball', csgrt.sphere(", radius, "))\n");
                     break;
                 }
-                edit.add(Solid{name, ball}).add("wheel", Operator::union_, name, matrix);
+                const csgrt_tree_node leaf = CSGRT_OBJECT(solid.c_str());
+                csgrt_combination whole = CSGRT_COMBINATION;
+                whole.name = name.c_str();
+                whole.nodes = &leaf;
+                whole.node_count = 1;
+                whole.region = 1;
+                REQUIRE_OK(csgrt_scene_add_combination(parts, &whole));
+                edit.add(Combination{.name = name, .tree = tree(solid), .region = true}).add(Solid{solid, ball});
+                edit.add("wheel", Operator::union_, name, matrix);
                 REQUIRE_OK(csgrt_edit_add(c_edit, parts, name.c_str(), 0));
+                REQUIRE_OK(csgrt_edit_add(c_edit, parts, solid.c_str(), 0));
                 REQUIRE_OK(csgrt_edit_add_leg(c_edit, "wheel", CSGRT_UNION, name.c_str(), matrix.data()));
+                python += text_of("scene.add('", name, "', csgrt.sphere(", radius, "), top=False)\n");
+                python += text_of("scene.add_leg('wheel', '", name, "', matrix=", moved, ")\n");
                 break;
             }
-            case 5:
-                if (i % 2 == 0 || regions.size() < 3) continue;
+            default:
                 edit.remove(path);
                 REQUIRE_OK(csgrt_edit_remove(c_edit, path.c_str()));
-                break;
-            default: {
-                csgrt_light light = CSGRT_LIGHT;
-                light.position = {100 * x, 100, 100};
-                const csgrt_vec3 color{0, y, 0};
-                edit.set_lights({{.position = {100 * x, 100, 100}}}).set_ambient(y).set_background({0, y, 0});
-                REQUIRE_OK(csgrt_edit_set_lights(c_edit, &light, 1));
-                REQUIRE_OK(csgrt_edit_set_ambient(c_edit, y));
-                REQUIRE_OK(csgrt_edit_set_background(c_edit, &color));
-            }
+                python += text_of("scene.remove('", path, "')\n");
         }
         renderer.set_model(edit.commit());
         REQUIRE_OK(csgrt_edit_commit(c_edit, &c_model));
         REQUIRE_OK(csgrt_renderer_set_model(c_renderer, c_model));
+        python += "scene.commit()\n";
     }
     OwnedModel latest;
-    OwnedScene edited;
     REQUIRE_OK(csgrt_renderer_model(c_renderer, &latest));
     require_same_rays(latest, c_renderer, renderer);
     require_same_places(latest, c_renderer, renderer);
@@ -298,11 +449,42 @@ TEST_CASE("after 100 edits from C a model has the bits of the same edits in C++"
         REQUIRE_OK(csgrt_model_finish(latest, i, &finish));
         CHECK(finish.specular == renderer.regions()[i].finish.specular);
     }
+
     const Folder folder;
-    const std::string path = folder / "edited.json";
+    const std::string file = folder / "edited.json";
     REQUIRE_OK(csgrt_model_scene(latest, &edited));
-    REQUIRE_OK(csgrt_save_scene(edited, path.c_str()));
-    CHECK(csgrt::Model(load_scene(path)).regions().size() == info.region_count);
+    REQUIRE_OK(csgrt_save_scene(edited, file.c_str()));
+    save_scene(renderer.model().scene(), folder / "edited_by_cpp.json");
+    CHECK((read_file(file) == read_file(folder / "edited_by_cpp.json")));
+    const std::vector<Ray> rays = random_rays(renderer.bounds(), 200);
+    require_same_librt(file, rays, renderer.shoot(rays));
+    const Answers expected = answers_of(renderer, rays, scene.camera);
+    CHECK(std::ranges::any_of(expected.rows.in_normals, [](const Vec3& n) { return n.x == 0 && std::signbit(n.x); }));
+    CHECK(expected.bytes.at("ghost").find_first_not_of('\0') != std::string::npos);
+    CHECK_FALSE(expected.bytes.at("overlap_t_in").empty());
+    require_same_command(file, rays, expected);
+    require_same_python(python, read_file(file), rays, expected);
+
+    // What Python has no names for.
+    OwnedEdit c_edit;
+    Edit edit(renderer.model());
+    REQUIRE_OK(csgrt_edit_create(latest, &c_edit));
+    const std::string path = renderer.regions()[0].path;
+    const Matrix matrix = {1, 0, 0, 9, 0, 1, 0, -7, 0, 0, 1, 2, 0, 0, 0, 1};
+    csgrt_light light = CSGRT_LIGHT;
+    light.position = {50, 100, 100};
+    const csgrt_vec3 color{0, 0.5, 0};
+    edit.set_matrix(path, matrix, Edit::Share::all).set_lights({{.position = {50, 100, 100}}});
+    edit.set_ambient(0.3).set_background({0, 0.5, 0});
+    REQUIRE_OK(csgrt_edit_set_matrix(c_edit, path.c_str(), matrix.data(), 1));
+    REQUIRE_OK(csgrt_edit_set_lights(c_edit, &light, 1));
+    REQUIRE_OK(csgrt_edit_set_ambient(c_edit, 0.3));
+    REQUIRE_OK(csgrt_edit_set_background(c_edit, &color));
+    renderer.set_model(edit.commit());
+    REQUIRE_OK(csgrt_edit_commit(c_edit, &latest));
+    REQUIRE_OK(csgrt_renderer_set_model(c_renderer, latest));
+    require_same_rays(latest, c_renderer, renderer);
+    require_same_pictures(c_scene, latest, c_renderer, renderer, scene.camera);
 }
 
 TEST_CASE("batches from C are those of a grid, and may be ended") {

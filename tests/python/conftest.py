@@ -32,18 +32,6 @@ def command():
 
 
 @pytest.fixture
-def shoot(command, tmp_path):
-    """What `csgrt shoot` answers to rays: the records of docs/shoot.md."""
-
-    def answer(scene, rays, *options):
-        np.savetxt(tmp_path / "rays", np.reshape(rays, (-1, 6)), fmt="%.17g")
-        command("shoot", scene, "--rays", tmp_path / "rays", "--format", "npy", "-o", tmp_path / "rows.npy", *options)
-        return np.load(tmp_path / "rows.npy")
-
-    return answer
-
-
-@pytest.fixture
 def random_rays():
     def make(scene, count, seed=1):
         """Rays through two random points of the scene's box, of any length."""
