@@ -50,18 +50,21 @@ class Image:
 
     def to_pillow(self):
         """The colours as a Pillow image: RGB if all pixels are opaque, else RGBA. Raises ImportError without Pillow."""
-        from PIL import Image as pillow
-
+        try:
+            from PIL import Image as pillow
+        except ModuleNotFoundError:
+            raise ModuleNotFoundError("pictures need Pillow: pip install 'csgrt[pictures]'", name="PIL") from None
         color = self.color
         return pillow.fromarray(color[..., :3] if (color[..., 3] == 255).all() else color)
 
     def save(self, path, format: str | None = None):  # noqa: A002
         """Writes the colours by Pillow, whose format the extension tells: .png, .jpg, .tif, ..."""
+        picture = self.to_pillow()
         from PIL import PngImagePlugin
 
         header = PngImagePlugin.PngInfo()
         header.add(b"sRGB", b"\0")  # other formats do not look at it
-        self.to_pillow().save(path, format, pnginfo=header)
+        picture.save(path, format, pnginfo=header)
 
     def _repr_png_(self) -> bytes:
         from io import BytesIO

@@ -19,7 +19,10 @@ def blocks():
 @pytest.mark.parametrize("block", list(blocks()))
 def test_examples_of_the_documents_run(block, tmp_path):
     (tmp_path / "scenes").symlink_to(ROOT / "scenes")
-    subprocess.run([sys.executable, "-c", block], check=True, cwd=tmp_path)
+    program = [sys.executable, "-c", block]
+    printed = subprocess.run(program, check=True, cwd=tmp_path, stdout=subprocess.PIPE, text=True).stdout
+    shown = re.findall(r"^# (.*)$", block, re.MULTILINE)
+    assert not shown or printed.splitlines() == shown
 
 
 def test_the_example_prints_partitions():

@@ -2,6 +2,8 @@
 
 import io
 import pickle
+import re
+import sys
 import warnings
 
 import numpy as np
@@ -23,6 +25,12 @@ def test_a_picture_has_the_bits_of_the_command(operators, scenes, command, tmp_p
     np.testing.assert_array_equal(np.asarray(pillow.open(tmp_path / "ours.png").convert("RGBA")), theirs)
     assert pillow.open(tmp_path / "ours.png").mode == "RGB"
     assert pillow.open(io.BytesIO(image._repr_png_())).size == (96, 64)
+
+
+def test_a_picture_without_pillow_is_not_saved_and_says_what_to_install(operators, monkeypatch):
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    with pytest.raises(ModuleNotFoundError, match=r"pictures need Pillow: pip install 'csgrt\[pictures\]'"):
+        operators.render(8, 8).save("view.png")
 
 
 def test_views_of_a_picture_share_its_memory(operators):
