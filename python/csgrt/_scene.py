@@ -100,6 +100,8 @@ class Scene(_core.Scene):
     def __init__(self, scene: Part | Mapping[str, Part] | _core.Source, objects: Iterable[str] = (), **settings):
         if isinstance(scene, Part):
             scene = {"part": scene}
+        if not isinstance(scene, (Mapping, _core.Source)):
+            raise TypeError("a Scene takes a Part or a dict of Parts; csgrt.load(path) reads a file")
         if not isinstance(scene, _core.Source):
             scene = _parse(scene_text(scene))
         super().__init__(scene, [objects] if isinstance(objects, str) else list(objects), _settings(settings))

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 
-def translate(x: float = 0, y: float = 0, z: float = 0) -> np.ndarray:
-    """The (4, 4) matrix that moves by x, y, z mm."""
+def translate(x: float | Sequence[float] = 0, y: float = 0, z: float = 0) -> np.ndarray:
+    """The (4, 4) matrix that moves by x, y, z mm: three numbers, or one sequence of three."""
+    if np.ndim(x):
+        x, y, z = x
     matrix = np.eye(4)
     matrix[:3, 3] = x, y, z
     return matrix
@@ -35,6 +37,12 @@ def rotate(x: float = 0, y: float = 0, z: float = 0) -> np.ndarray:
     return matrix
 
 
+def _part(value) -> Part:
+    if not isinstance(value, Part):
+        raise TypeError(f"expected a Part, not {value!r}")
+    return value
+
+
 class Part:
     """A tree of solids: a | b or a + b is the union, a - b, a & b, and a ^ b the exclusive or.
 
@@ -54,13 +62,16 @@ class Part:
         """The part moved by a (4, 4) matrix on column vectors, in mm."""
         return Part(self._kind, self._data, np.asarray(matrix, float) @ self._matrix)
 
-    def translate(self, x: float = 0, y: float = 0, z: float = 0) -> Part:
+    def translate(self, x: float | Sequence[float] = 0, y: float = 0, z: float = 0) -> Part:
+        """The part moved by x, y, z mm: three numbers, or one sequence of three."""
         return self.transform(translate(x, y, z))
 
     def rotate(self, x: float = 0, y: float = 0, z: float = 0) -> Part:
+        """The part turned about the origin: about x, then about y, then about z, degrees."""
         return self.transform(rotate(x, y, z))
 
     def scale(self, x: float, y: float | None = None, z: float | None = None) -> Part:
+        """The part scaled about the origin by x, or by x, y and z. A negative number mirrors."""
         return self.transform(scale(x, y, z))
 
     def color(self, rgb, **finish) -> Part:
@@ -71,18 +82,18 @@ class Part:
         return Part("region", (self._plain(), {"color": [float(c) for c in rgb], **finish}))
 
     def __or__(self, other: Part) -> Part:
-        return _join("union", self, other)
+        return _join("union", self, _part(other))
 
     __add__ = __or__
 
     def __and__(self, other: Part) -> Part:
-        return self._each(lambda part: _join("intersection", part, other._plain()))
+        return self._each(lambda part: _join("intersection", part, _part(other)._plain()))
 
     def __sub__(self, other: Part) -> Part:
-        return self._each(lambda part: _join("difference", part, other._plain()))
+        return self._each(lambda part: _join("difference", part, _part(other)._plain()))
 
     def __xor__(self, other: Part) -> Part:
-        return _join("xor", self._plain(), other._plain())
+        return _join("xor", self._plain(), _part(other)._plain())
 
     def _each(self, change: Callable[[Part], Part]) -> Part:
         """Changes each coloured part by itself, and keeps its colour."""
@@ -122,6 +133,8 @@ def sphere(radius: float) -> Part:
 
 def box(size, center: bool = False) -> Part:
     """A box of that size, a number or (x, y, z), from the origin on, or about it."""
+    if np.shape(size) not in ((), (3,)):
+        raise ValueError(f"the size of a box is a number or (x, y, z), not {size!r}")
     sides = np.broadcast_to(np.asarray(size, float), 3)
     low = -sides / 2 if center else np.zeros(3)
     return solid("box", low=low, high=low + sides)
@@ -198,13 +211,13 @@ def scene_text(parts: Mapping[str, Part]) -> str:
 
     writer = _Writer()
     for name, part in parts.items():
-        writer.top(name, part)
+        writer.top(name, _part(part))
     scene = {"csgrt": 1, "solids": writer.solids, "combinations": writer.combinations, "objects": list(parts)}
     return json.dumps(scene, default=lambda value: value.tolist())
 
 
 def shape_text(part: Part) -> str:
     """The JSON of a single solid."""
-    if part._kind != "solid" or not (part._matrix == np.eye(4)).all():
+    if _part(part)._kind != "solid" or not (part._matrix == np.eye(4)).all():
         raise ValueError("a solid is replaced by a single solid that is not moved; add() takes any part")
     return scene_text({"part": part})

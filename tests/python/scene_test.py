@@ -114,6 +114,18 @@ def test_solids_in_code_are_exact():
     assert csgrt.rotate(x=90).tolist() == [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]
 
 
+def test_code_names_what_is_no_part_or_no_size():
+    ball = csgrt.sphere(1)
+    for wrong in (lambda: ball - 1, lambda: ball | 1, lambda: csgrt.Scene({"a": 1})):
+        with pytest.raises(TypeError, match="expected a Part, not 1"):
+            wrong()
+    with pytest.raises(TypeError, match="csgrt.load"):
+        csgrt.Scene("a.json")
+    with pytest.raises(ValueError, match=r"the size of a box is a number or \(x, y, z\), not \(1, 2\)"):
+        csgrt.box((1, 2))
+    assert (csgrt.translate((1, 2, 3)) == csgrt.translate(1, 2, 3)).all()
+
+
 def test_colours_make_regions(tmp_path):
     wheel = csgrt.torus(2, 0.5).color((0, 0, 0), shine=5)
     hull = csgrt.box((8, 4, 2), center=True)
