@@ -61,7 +61,7 @@ class Subtree:
 
     @color.setter
     def color(self, rgb):
-        self._scene.set_color(self.path, rgb)
+        self._scene._set_color(self.path, rgb)
 
     @property
     def state(self) -> str:
@@ -70,14 +70,14 @@ class Subtree:
 
     @state.setter
     def state(self, state: str):
-        self._scene.set_state(self.path, state)
+        self._scene._set_state(self.path, state)
 
     def _set_finish(self, members: Mapping):
         part = sphere(1).color((1, 1, 1), **members)
-        self._scene.set_finish(self.path, _parse(scene_text({"finish": part})))
+        self._scene._set_finish(self.path, _parse(scene_text({"finish": part})))
 
     def _set_matrix(self, matrix):
-        self._scene.set_matrix(self.path, _matrix(matrix))
+        self._scene._set_matrix(self.path, _matrix(matrix))
 
     finish = property(None, _set_finish, doc="Set: a dict of specular, diffuse, ambient, shine, as in csgrt's JSON.")
     matrix = property(None, _set_matrix, doc="Set: the (4, 4) matrix of the path's last leg, of this instance alone.")
@@ -118,23 +118,23 @@ class Scene(_core.Scene):
     def regions(self) -> Regions:
         """The regions, by id or by path: id, path, material, bounds, color, state, region_id, air, los."""
         if self._regions is None:
-            self._regions = Regions(self.region_rows())
+            self._regions = Regions(self._region_rows())
         return self._regions
 
     @property
     def solids(self) -> list[Solid]:
         """The solids, by the ids that solid_ids, in_solids and out_solids have."""
-        return [Solid(*row) for row in self.solid_rows()]
+        return [Solid(*row) for row in self._solid_rows()]
 
     @property
     def warnings(self) -> list[Warning]:
         """What was tolerated or left out, and what is to be said of devices."""
-        return [Warning(row[0], Place(*row[1]), *row[2:]) for row in self.warning_rows()]
+        return [Warning(row[0], Place(*row[1]), *row[2:]) for row in self._warning_rows()]
 
     @property
     def bounds(self) -> np.ndarray:
         """(2, 3) float64: the low and the high corner of the box around all regions, mm."""
-        return np.array(self.box)
+        return np.array(self._box)
 
     # ---- Rays: (..., 6) float64, origin in mm and direction of any length but 0. In C order they are read in place.
 
@@ -146,7 +146,7 @@ class Scene(_core.Scene):
         solid_ids (...) int32; normals (..., 3) float64. Raises csgrt.Error (usage, out_of_memory, device_fault).
         """
         rays = _doubles(rays, 6, "rays")
-        return self.hit_arrays(rays, *_range(rays, tnear, tfar), solids, normals)
+        return self._hit_arrays(rays, *_range(rays, tnear, tfar), solids, normals)
 
     def partitions(self, rays, tnear=0.0, tfar=np.inf, *, solids: bool = False, normals: bool = False,
                    overlaps: bool = False, hidden: bool = True) -> dict:
@@ -162,19 +162,19 @@ class Scene(_core.Scene):
         Raises csgrt.Error (usage, out_of_memory, device_fault).
         """
         rays = _doubles(rays, 6, "rays")
-        return self.partition_arrays(rays, *_range(rays, tnear, tfar), solids, normals, overlaps, hidden)
+        return self._partition_arrays(rays, *_range(rays, tnear, tfar), solids, normals, overlaps, hidden)
 
     def test_occlusions(self, rays, tnear=0.0, tfar=np.inf) -> np.ndarray:
         """Whether rays meet a region that pictures show: (...) bool. Arguments and errors: as of cast_rays."""
         rays = _doubles(rays, 6, "rays")
-        return self.occluded(rays, *_range(rays, tnear, tfar))
+        return self._occluded(rays, *_range(rays, tnear, tfar))
 
     def region_at(self, points) -> np.ndarray:
         """The ids of the regions that hold points: (..., 3) float64, mm, gives (...) int32; -1: nothing.
 
         Of two regions that touch at the point it is the one that begins there along +x. Raises csgrt.Error.
         """
-        return self.regions_at(_doubles(points, 3, "points"))
+        return self._regions_at(_doubles(points, 3, "points"))
 
     # ---- Views
 
@@ -206,15 +206,15 @@ class Scene(_core.Scene):
             made.channels = _COLOR | _DISTANCE | _NORMAL | _IDS | _DISPLAY | _GHOSTS
             if made.every_partition:
                 made.channels |= _COUNTS
-        return Image(*self.planes(made))
+        return Image(*self._planes(made))
 
     def pick(self, column: int, row: int, width: int = 1024, height: int = 1024, **view) -> Pick:
         """What render() with the same view shows at a pixel, from the top left, and all partitions along its ray."""
-        return Pick(*self.pick_row(self._view(width, height, view), column, row))
+        return Pick(*self._pick_row(self._view(width, height, view), column, row))
 
     def rays_of(self, width: int = 1024, height: int = 1024, **view) -> np.ndarray:
         """The rays of a picture: (height, width, 6) float64."""
-        return self.view_rays(self._view(width, height, view))
+        return self._view_rays(self._view(width, height, view))
 
     # ---- Edits, which take effect with commit()
 
@@ -224,22 +224,22 @@ class Scene(_core.Scene):
 
     def add(self, name: str, part: Part, top: bool = True):
         """Adds a part under a new name. It is rendered if it is a top object, or joined to one. Raises csgrt.Error."""
-        self.add_objects(_parse(scene_text({name: part})), name if top else "")
+        self._add_objects(_parse(scene_text({name: part})), name if top else "")
 
     def add_leg(self, combination: str, object: str, operator: str = "union", matrix=np.eye(4)):  # noqa: A002
         """A combination's tree becomes: tree, operator ("union", "difference", "intersection", "xor"), object."""
-        self.join(combination, operator, object, _matrix(matrix))
+        self._join(combination, operator, object, _matrix(matrix))
 
     def replace(self, solid: str, part: Part):
         """A solid gets another shape, in all of its places. Raises csgrt.Error, or ValueError for a tree."""
-        self.replace_shape(solid, _parse(shape_text(part)))
+        self._replace_shape(solid, _parse(shape_text(part)))
 
     def commit(self):
         """Makes all edits. If csgrt.Error is raised, the scene is as it was, and the edits wait: see discard().
 
         Paths of colours, finishes and states are looked up here, those of other edits at once.
         """
-        self.commit_edits()
+        self._commit_edits()
         self._regions = None
 
     def save(self, path):
@@ -247,7 +247,7 @@ class Scene(_core.Scene):
         path = os.fspath(path)
         if not path.endswith(".json"):
             raise ValueError("scenes are written as .json")
-        self.save_json(path)
+        self._save_json(path)
 
     def view(self, *, in_browser: bool = False, height: int = 640, command: str = "csgrt") -> Page:
         """A page that shows the scene as it is now: to turn it, cut it, hide parts, ask what is behind a pixel. A

@@ -285,6 +285,7 @@ nb::object rays_of(LiveScene& scene, const View& view) {
 }
 
 nb::dict verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
+    if (rays == 0) throw usage("verify() needs a ray at least");
     const Verification result = scene.verify(rays, seed);
     nb::dict figures;
     figures["passed"] = result.passed();
@@ -307,62 +308,62 @@ void bind_scene(nb::module_& module) {
     using namespace nb::literals;
     nb::class_<LiveScene>(module, "Scene", "What csgrt.Scene is made of.")
         .def(nb::init<Scene&, std::vector<std::string>, const Settings&>(), "source"_a, "objects"_a, "settings"_a)
-        .def("region_rows", &region_rows)
-        .def("solid_rows", &solid_rows)
-        .def("warning_rows", &warning_rows)
-        .def_prop_ro("box", [](const LiveScene& scene) { return scene.model().bounds(); })
+        .def("_region_rows", &region_rows)
+        .def("_solid_rows", &solid_rows)
+        .def("_warning_rows", &warning_rows)
+        .def_prop_ro("_box", [](const LiveScene& scene) { return scene.model().bounds(); })
         .def_prop_ro(
             "tolerance", [](const LiveScene& scene) { return scene.model().tolerance(); },
             "Millimetres: ends of segments closer than this are one")
         .def_prop_ro("units", &LiveScene::units, "The unit of the file. All values here are millimetres")
         .def_prop_ro("title", &LiveScene::title, "The file's title")
         .def_prop_ro("camera", &LiveScene::camera, nb::rv_policy::copy, "A copy of the scene's own camera")
-        .def("partition_arrays",
+        .def("_partition_arrays",
              [](LiveScene& scene, const Doubles& rays, double near, double far, std::optional<Doubles> ranges,
                 bool solids, bool normals, bool overlaps, bool hidden) {
                  return partitions(scene, rays, {near, far}, ranges, {solids, normals, overlaps, hidden});
              })
-        .def("hit_arrays",
+        .def("_hit_arrays",
              [](LiveScene& scene, const Doubles& rays, double near, double far, std::optional<Doubles> ranges,
                 bool solids, bool normals) {
                  return cast_rays(scene, rays, {near, far}, ranges, {.solids = solids, .normals = normals});
              })
-        .def("occluded",
+        .def("_occluded",
              [](LiveScene& scene, const Doubles& rays, double near, double far, std::optional<Doubles> ranges) {
                  return occluded(scene, rays, {near, far}, ranges);
              })
-        .def("regions_at", &region_at)
+        .def("_regions_at", &region_at)
         .def("slice", &slice, "normal"_a, "offset"_a, "pixels"_a = std::pair(512, 512), "hidden"_a = true,
              "Which region holds each pixel of a cut by the plane n . p = offset (n: the normal's unit vector).\n\n"
              "pixels: (width, height), square, over the whole model. hidden=False leaves out what pictures do not show."
              "\nReturns (height, width) int32: ids in regions; -1 nothing, -2 several that overlap. Seen from the side "
              "to which the normal points, z up, or y up where the normal is z.\nRaises csgrt.Error (usage).")
-        .def("planes", &render)
-        .def("pick_row", &pick)
-        .def("view_rays", &rays_of)
+        .def("_planes", &render)
+        .def("_pick_row", &pick)
+        .def("_view_rays", &rays_of)
         .def("verify", &verify, "rays"_a = 10'000, "seed"_a = 1,
              "Judges a sample of rays, on the device and on the reference, by 113-bit arithmetic.\n\n"
              "Returns a dict: passed (no decided ray is wrong, no bit differs), rays, hits, decided, ties, wrong, "
              "bit_differences, ends,\nfarthest_mm, worst_ulps (errors of distances), device. Raises csgrt.Error.")
-        .def("set_color", [](LiveScene& scene, const std::string& path,
-                             const Vec3& color) { scene.edit([&](Edit& e) { e.set_color(path, color); }); })
-        .def("set_finish",
+        .def("_set_color", [](LiveScene& scene, const std::string& path,
+                              const Vec3& color) { scene.edit([&](Edit& e) { e.set_color(path, color); }); })
+        .def("_set_finish",
              [](LiveScene& scene, const std::string& path, const Scene& source) {
                  scene.edit([&](Edit& e) { e.set_finish(path, first<Combination>(source).finish.value_or(Finish{})); });
              })
-        .def("set_state",
+        .def("_set_state",
              [](LiveScene& scene, const std::string& path, const std::string& state) {
                  scene.edit([&](Edit& e) { e.set_state(path, value_of(state_names, "a state", state, usage)); });
              })
-        .def("set_matrix",
+        .def("_set_matrix",
              [](LiveScene& scene, const std::string& path, const Matrices& matrix) {
                  scene.edit([&](Edit& e) { e.set_matrix(path, matrix_of(matrix)); });
              })
-        .def("replace_shape",
+        .def("_replace_shape",
              [](LiveScene& scene, const std::string& solid, const Scene& source) {
                  scene.edit([&](Edit& e) { e.replace(solid, first<Solid>(source).shape); });
              })
-        .def("add_objects",
+        .def("_add_objects",
              [](LiveScene& scene, const Scene& source, const std::string& top) {
                  scene.edit([&](Edit& e) {
                      // The last is the one whose name the caller chose: if that is taken, nothing is added.
@@ -370,7 +371,7 @@ void bind_scene(nb::module_& module) {
                          e.add(source.objects[i], name_of(source.objects[i]) == top);
                  });
              })
-        .def("join",
+        .def("_join",
              [](LiveScene& scene, const std::string& combination, const std::string& op, const std::string& object,
                 const Matrices& matrix) {
                  scene.edit([&](Edit& e) {
@@ -380,7 +381,7 @@ void bind_scene(nb::module_& module) {
         .def(
             "remove", [](LiveScene& scene, const std::string& path) { scene.edit([&](Edit& e) { e.remove(path); }); },
             "path"_a, "Removes the last leg of a path, for all that share the combination. Takes effect with commit().")
-        .def("commit_edits",
+        .def("_commit_edits",
              [](LiveScene& scene) {
                  scene.edit([&](Edit& e) {
                      scene.use(e.commit());
@@ -390,7 +391,7 @@ void bind_scene(nb::module_& module) {
         .def(
             "discard", [](LiveScene& scene) { scene.edit([&](Edit&) { scene.forget_edits(); }); },
             "Forgets the edits since the last commit().")
-        .def("save_json", [](const LiveScene& scene, const std::string& path) {
+        .def("_save_json", [](const LiveScene& scene, const std::string& path) {
             const Model model = scene.model();
             nb::gil_scoped_release unlocked;
             save_scene(model.scene(), path);

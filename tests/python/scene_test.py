@@ -184,6 +184,8 @@ def test_warnings_are_values_and_warn_once(tmp_path):
 def test_verify_judges_a_scene(operators):
     result = operators.verify(rays=200)
     assert result["passed"] and result["rays"] == 200 and result["wrong"] == result["bit_differences"] == 0
+    with pytest.raises(csgrt.Error, match="needs a ray at least"):
+        operators.verify(0)
 
 
 def test_devices_are_listed():
