@@ -7,7 +7,7 @@
     parts = scene.partitions(rays)
 
 Lengths are millimetres, angles degrees, coordinates right-handed with z up, matrices 4 x 4 on column vectors. Distances
-along a ray count lengths of its direction. Failures are csgrt.Error.
+along a ray count lengths of its direction. Failures are csgrt.Error; see there.
 """
 
 from ._core import Camera, Settings, View, device_rows, rays_parallel, rays_pinhole

@@ -51,6 +51,8 @@ def _parse(text: str) -> _core.Source:
 class Subtree:
     """The object at the end of a path, in its place. Changes take effect with Scene.commit()."""
 
+    __slots__ = ("_scene", "path")
+
     def __init__(self, scene: Scene, path: str):
         self._scene, self.path = scene, path
 
@@ -116,7 +118,7 @@ class Scene(_core.Scene):
 
     @property
     def regions(self) -> Regions:
-        """The regions, by id or by path: id, path, material, bounds, color, state, region_id, air, los."""
+        """The regions, by id or by path; see csgrt.Region for its members and its ids."""
         if self._regions is None:
             self._regions = Regions(self._region_rows())
         return self._regions
@@ -136,14 +138,17 @@ class Scene(_core.Scene):
         """(2, 3) float64: the low and the high corner of the box around all regions, mm."""
         return np.array(self._box)
 
-    # ---- Rays: (..., 6) float64, origin in mm and direction of any length but 0. In C order they are read in place.
+    # ---- Rays
 
     def cast_rays(self, rays, tnear=0.0, tfar=np.inf, *, solids: bool = True, normals: bool = True) -> dict:
         """Where rays first meet a region that pictures show.
 
-        rays: (..., 6). tnear, tfar: numbers, or arrays that fit the shape (...), in lengths of the direction.
-        Returns a dict of arrays: t_hit (...) float64, infinity for a miss; region_ids (...) int32, -1 for a miss;
-        solid_ids (...) int32; normals (..., 3) float64. Raises csgrt.Error (usage, out_of_memory, device_fault).
+        rays: (..., 6): origin in mm, direction of any length but 0. A distance along a ray counts lengths of the
+        direction from the origin: mm if the direction is a unit vector. tnear, tfar: numbers, or arrays that fit the
+        shape (...): where rays begin and end. Returns a dict of arrays: t_hit (...) float64, infinity for a miss;
+        region_ids (...) int32, indices into regions, -1 for a miss; solid_ids (...) int32, indices into solids: whose
+        surface it is, -1 for a miss; normals (..., 3) float64, outward from the region.
+        Raises csgrt.Error (usage, out_of_memory, device_fault), TypeError or ValueError (arrays of wrong shapes).
         """
         rays = _doubles(rays, 6, "rays")
         return self._hit_arrays(rays, *_range(rays, tnear, tfar), solids, normals)
@@ -152,10 +157,16 @@ class Scene(_core.Scene):
                    overlaps: bool = False, hidden: bool = True) -> dict:
         """Which region holds which part of each ray.
 
-        rays, tnear, tfar: as in cast_rays. hidden=False leaves out regions that pictures do not show.
-        Returns a dict of arrays. The rows of ray i are ray_splits[i] to ray_splits[i + 1].
-        ray_splits: (rays + 1) int64. region_ids: (rows) int32. t_in, t_out: (rows) float64.
-        solids=True: in_solids, out_solids, (rows) int32, -1 where the range cuts.
+        rays, tnear, tfar: as in cast_rays. hidden=False leaves out regions whose state is "ghost" or "hidden".
+        Returns a dict of arrays without the rays' leading shape: the rows of ray i, from 0, in the order of
+        rays.reshape(-1, 6), are ray_splits[i] to ray_splits[i + 1], from front to back.
+        ray_splits: (rays + 1) int64. region_ids: (rows) int32, indices into regions.
+        t_in, t_out: (rows) float64: where the ray enters and leaves the region, in lengths of its direction from its
+        origin. They are cut at tnear and tfar: with tnear=0 what is before the origin is left out, and t_in is 0 if the
+        origin is inside; tnear=-np.inf gives all of the line.
+        solids=True: in_solids, out_solids, (rows) int32, indices into solids: through whose surface the ray enters and
+        leaves; -1 where the range cuts. It is a solid of the region, one that is subtracted from it, or one of the
+        region that has the neighbouring partition.
         normals=True: in_normals, out_normals, (rows, 3) float64, outward.
         overlaps=True: overlap_splits (rays + 1), overlap_t_in, overlap_t_out (overlaps),
         overlap_region_splits (overlaps + 1), overlap_region_ids.
@@ -219,7 +230,10 @@ class Scene(_core.Scene):
     # ---- Edits, which take effect with commit()
 
     def __getitem__(self, path: str) -> Subtree:
-        """What is at a path such as "/all/turret@2": its matrix, color, finish and state can be set."""
+        """What is at a path such as "/all/turret@2": its matrix, color, finish and state can be set.
+
+        commit() looks up paths of colours, finishes and states, and raises csgrt.Error for an unknown one.
+        """
         return Subtree(self, path)
 
     def add(self, name: str, part: Part, top: bool = True):

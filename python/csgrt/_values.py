@@ -6,6 +6,20 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 
+def _describe(kind: type, **members: str):
+    """Gives the members of a NamedTuple docstrings. Those that their names describe have none."""
+    for name in kind._fields:
+        getattr(kind, name).__doc__ = members.get(name, "")
+
+
+def did_you_mean(wrong: str, known) -> str:
+    """What a sentence about an unknown name ends with: the nearest known one, if any is near."""
+    from difflib import get_close_matches
+
+    near = [name for name in known if name.endswith(wrong)] or get_close_matches(wrong, known)
+    return f": did you mean {near[0]!r}?" if near else ""
+
+
 class Place(NamedTuple):
     """A place in a file. Text has line and column (from 1; 0: unknown), binary formats the offset (-1: unknown)."""
 
@@ -13,7 +27,10 @@ class Place(NamedTuple):
     line: int
     column: int
     offset: int
-    pointer: str  #: a JSON pointer, or the name of an object
+    pointer: str
+
+
+_describe(Place, pointer="A JSON pointer, or the name of an object")
 
 
 class Diagnostic(NamedTuple):
@@ -25,8 +42,11 @@ class Diagnostic(NamedTuple):
     excerpt: str
 
 
+_describe(Diagnostic)
+
+
 class Error(RuntimeError):
-    """Every failure of csgrt.
+    """A failure of csgrt. Wrong types, shapes, paths and ids raise TypeError, ValueError, KeyError and IndexError.
 
     status: "usage", "scene", "no_device", "out_of_memory", "file", "device_fault", "differs" or "interrupted".
     diagnostics: all findings, at least one. place, suggestion: those of the first.
@@ -53,12 +73,16 @@ class Error(RuntimeError):
 class Warning(NamedTuple):  # noqa: A001
     """A fault that was tolerated: csgrt left something out or replaced it, and uses the rest as it is."""
 
-    object: str  #: its name; "": the whole file, or a device
+    object: str
     place: Place
     reason: str
     count: int
-    appearance: bool  #: it changes colours only, not what rays hit
-    text: str  #: all of it on one line
+    appearance: bool
+    text: str
+
+
+_describe(Warning, object='Its name; "": the whole file, or a device', text="All of it on one line",
+          appearance="It changes colours only, not what rays hit")
 
 
 class SceneWarning(UserWarning):
@@ -66,17 +90,31 @@ class SceneWarning(UserWarning):
 
 
 class Region(NamedTuple):
-    """One region of a scene: a piece of one material."""
+    """One region of a scene: a piece of one material. To change it: scene[path].color, .state, ..., then commit().
 
-    id: int  #: the index in Scene.regions, which region_ids have
+    Its number in csgrt is id, the index in Scene.regions. The region_ids of rays and points and Pick.region_id are this
+    number, -1 for a miss; Image.region_ids is id + 1, 0 for a miss. The member region_id is BRL-CAD's number, which no
+    array has.
+    """
+
+    id: int
     path: str
-    material: int  #: BRL-CAD's number of the material
-    bounds: tuple  #: (low, high), mm; as BRL-CAD computes it, so not always tight
-    color: tuple  #: red, green, blue; display values, 0 to 1
-    state: str  #: "shown", "ghost" or "hidden"
-    region_id: int  #: BRL-CAD's number of the region
+    material: int
+    bounds: tuple
+    color: tuple
+    state: str
+    region_id: int
     air: int
     los: int
+
+
+_describe(Region, id="The index in Scene.regions",
+          path="The names of the legs on the way down, /all/turret@2; no other region has it",
+          material="BRL-CAD's number of the material", bounds="(low, high), mm; as BRL-CAD computes it, so not always "
+          "tight", color="Red, green, blue; display values, 0 to 1", state='"shown", "ghost" or "hidden"',
+          region_id="BRL-CAD's number of the region, which is not its index",
+          air="BRL-CAD's number of the air; other than 0: a region of air",
+          los="BRL-CAD's percentage of the line of sight")
 
 
 class Solid(NamedTuple):
@@ -87,8 +125,14 @@ class Solid(NamedTuple):
     piece: int
 
 
+_describe(Solid, type="BRL-CAD's name: ell, tgc, arb8, ...", piece="From 0")
+
+
 class Regions(Sequence):
-    """The regions of a scene, by id or by path. A table when printed."""
+    """The regions of a scene, by id or by path. A table when printed.
+
+    Raises IndexError for negative ids, since -1 is a miss, and KeyError for unknown paths.
+    """
 
     def __init__(self, rows):
         self._rows = [Region(*row) for row in rows]
@@ -98,7 +142,14 @@ class Regions(Sequence):
         return len(self._rows)
 
     def __getitem__(self, key):
-        return self._by_path[key] if isinstance(key, str) else self._rows[key]
+        if isinstance(key, str):
+            path = "/" + key.removeprefix("/")
+            if path not in self._by_path:
+                raise KeyError(f"no region has the path {key!r}" + did_you_mean(path, self._by_path))
+            return self._by_path[path]
+        if not isinstance(key, slice) and key < 0:
+            raise IndexError(f"no region has the id {key}; -1 is a miss")
+        return self._rows[key]
 
     def __repr__(self):
         shown = self._rows if len(self) <= 40 else self._rows[:20] + self._rows[-20:]
@@ -120,19 +171,28 @@ class Device(NamedTuple):
     version: str
     driver: str
     type: str
-    memory: int  #: bytes
-    max_allocation: int  #: bytes
+    memory: int
+    max_allocation: int
     compute_units: int
     fp64: bool
+
+
+_describe(Device, memory="Bytes", max_allocation="Bytes", fp64="It computes in double precision")
 
 
 class Pick(NamedTuple):
     """What a picture shows at a pixel, and everything along its ray."""
 
-    region_id: int  #: -1: nothing
+    region_id: int
     solid_id: int
-    t: float  #: lengths of the ray's direction
-    point: tuple  #: mm
+    t: float
+    point: tuple
     normal: tuple
-    ray: tuple  #: origin, direction
-    partitions: list  #: (region id, t_in, t_out) of all regions along the ray, hidden ones, too
+    ray: tuple
+    partitions: list
+
+
+_describe(Pick, region_id="The index in Scene.regions; -1: nothing", solid_id="The index in Scene.solids; -1: nothing",
+          t="Lengths of the ray's direction", point="mm", normal="Unit, outward from the region",
+          ray="Origin, direction", partitions="(index in Scene.regions, t_in, t_out) of all regions along the ray, "
+          "hidden ones, too")

@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import pydoc
 import re
 import shutil
 import signal
@@ -179,5 +180,7 @@ def test_the_package_has_stubs_and_every_name_a_docstring():
     assert os.path.exists(os.path.join(folder, "py.typed")) and os.path.exists(os.path.join(folder, "_core.pyi"))
     for name in csgrt.__all__:
         assert getattr(csgrt, name).__doc__, name
+        assert "Alias for field" not in pydoc.render_doc(getattr(csgrt, name)), name
+    assert all(getattr(csgrt.Scene, name).__doc__ for name in dir(csgrt.Scene) if not name.startswith("_"))
     for name in ("cast_rays", "partitions", "test_occlusions", "region_at", "slice", "render", "pick", "verify"):
         assert "Raises" in getattr(csgrt.Scene, name).__doc__ or name in ("test_occlusions", "pick"), name

@@ -17,6 +17,7 @@ def test_any_leading_shape_is_kept(operators):
     assert grid["normals"].shape == (20, 30, 3)
     for name, values in grid.items():
         np.testing.assert_array_equal(values.reshape(flat[name].shape), flat[name])
+    assert operators.partitions(rays)["ray_splits"].shape == (601,)
     assert operators.test_occlusions(rays[3, 4]).shape == ()
     assert operators.region_at(np.zeros((2, 1, 4, 3))).shape == (2, 1, 4)
     assert operators.partitions(np.zeros((0, 6)))["ray_splits"].tolist() == [0]
@@ -68,6 +69,15 @@ def test_ranges_for_all_rays_and_for_each(operators):
     assert (one["t_in"] >= 100).all() and (one["t_out"] <= 2000).all()
 
 
+def test_partitions_begin_at_the_origin_and_tell_whose_surfaces_bound_them():
+    scene = csgrt.Scene(csgrt.box(20, center=True) - csgrt.sphere(5).translate(x=-10))
+    ray = [[0, 0, 0, -2, 0, 0]]  # from inside the box into the ball that is subtracted from it
+    cut, whole = (scene.partitions(ray, tnear=tnear, solids=True) for tnear in (0, -np.inf))
+    assert (cut["t_in"], cut["t_out"], cut["in_solids"]) == (0, 2.5, -1)
+    assert (whole["t_in"], whole["t_out"]) == (-5, 2.5)
+    assert [scene.solids[whole[side][0]].type for side in ("in_solids", "out_solids")] == ["arb8", "ell"]
+
+
 def test_places_have_the_bits_of_the_command(operators, scenes, command, tmp_path):
     points = np.random.default_rng(2).uniform(*operators.bounds, (500, 3))
     np.savetxt(tmp_path / "points", points, fmt="%.17g")
@@ -111,7 +121,12 @@ def test_regions_are_those_of_info(operators, scenes, command):
     for region, row in zip(operators.regions, listed["regions"]):
         assert (region.id, region.path, region.material) == (row["index"], row["path"], row["material_id"])
         assert region.bounds == (tuple(row["bounds"]["low"]), tuple(row["bounds"]["high"]))
-        assert operators.regions[region.path] is region
+        assert operators.regions[region.path] is operators.regions[region.path[1:]] is region
     assert "/operators/xor" in repr(operators.regions)
     assert operators.bounds.tolist() == [listed["bounds"]["low"], listed["bounds"]["high"]]
     assert operators.units == "mm"
+    with pytest.raises(IndexError, match="-1 is a miss"):
+        operators.regions[-1]
+    for path in ("union", "/operators/unoin"):
+        with pytest.raises(KeyError, match="did you mean '/operators/union'?"):
+            operators.regions[path]

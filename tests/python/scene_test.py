@@ -74,9 +74,14 @@ def test_edits_take_effect_with_commit(operators):
     with pytest.raises(csgrt.Error, match="a state is one of shown, ghost, hidden, not gone"):
         operators[path].state = "gone"
     operators["/operators/nothing"].color = (1, 0, 0)
-    with pytest.raises(csgrt.Error, match="no region at '/operators/nothing'"):
-        operators.commit()
+    for _ in range(2):  # a refused edit waits
+        with pytest.raises(csgrt.Error, match="no region at '/operators/nothing'"):
+            operators.commit()
     operators.discard()
+    with pytest.raises(AttributeError, match="colour"):
+        operators[path].colour = (1, 0, 0)
+    with pytest.raises(AttributeError):
+        operators.regions[path].state = "hidden"
     operators.remove(path)
     operators.add("extra", csgrt.sphere(500))
     operators.replace("extra.sphere1", csgrt.sphere(700))
