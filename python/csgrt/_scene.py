@@ -12,23 +12,43 @@ from . import _core
 from ._image import Image
 from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
-from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning
+from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean
 
 _COLOR, _DISTANCE, _NORMAL, _IDS, _COUNTS, _DISPLAY, _GHOSTS = (1 << bit for bit in range(7))
+
+# What members take, by their annotations in the stub.
+_TAKEN = {"float": "a number", "int": "a whole number", "bool": "True or False", "str": "a string",
+          "float | None": "a number or None", "collections.abc.Sequence[float] | None": "three numbers or None",
+          "collections.abc.Sequence[tuple[collections.abc.Sequence[float], float]]": "a list of (normal, distance)"}
+
+
+def _assign(members: Mapping, what: str, *targets):
+    """Each member's value becomes that of the first target that has the member. Raises TypeError."""
+    for name, value in members.items():
+        target = next((t for t in targets if not name.startswith("_") and hasattr(t, name)), None)
+        if target is None:
+            known = [name for t in targets for name in dir(t) if not name.startswith("_")]
+            near = did_you_mean(name, known) or "; there are " + ", ".join(known)
+            raise TypeError(f"{what} {name}{near}")
+        try:
+            setattr(target, name, value)
+        except TypeError:
+            taken = getattr(type(target), name).fset.__doc__.split("arg: ")[1].split(", /")[0]
+            raise TypeError(f"{name}: expected {_TAKEN.get(taken, taken)}, not {value!r}") from None
 
 
 def _settings(given: Mapping) -> _core.Settings:
     settings = _core.Settings()
-    for name, value in given.items():
-        if not hasattr(settings, name):
-            known = ", ".join(name for name in dir(settings) if not name.startswith("_"))
-            raise TypeError(f"csgrt has no setting {name}; the settings are {known}")
-        setattr(settings, name, str(value) if name == "device" else value)
+    if "device" in given:
+        given = {**given, "device": str(given["device"])}
+    _assign(given, "csgrt has no setting", settings)
     return settings
 
 
 def _doubles(values, last: int, what: str) -> np.ndarray:
     """The values as they are, if they are float64 in C order; else a copy."""
+    if isinstance(values, np.ndarray) and values.dtype.kind == "c":
+        raise TypeError(f"{what} are real, not {values.dtype}")
     array = np.ascontiguousarray(values, np.float64)
     if array.shape[-1] != last:
         raise ValueError(f"{what} have the shape (..., {last}), not {array.shape}")
@@ -40,7 +60,11 @@ def _range(rays: np.ndarray, tnear, tfar):
     if np.ndim(tnear) == 0 and np.ndim(tfar) == 0:
         return float(tnear), float(tfar), None
     ranges = np.empty(rays.shape[:-1] + (2,))
-    ranges[..., 0], ranges[..., 1] = tnear, tfar
+    for i, (name, end) in enumerate((("tnear", tnear), ("tfar", tfar))):
+        try:
+            ranges[..., i] = end
+        except ValueError:
+            raise ValueError(f"{name} has the shape {np.shape(end)}, and the rays have {ranges.shape[:-1]}") from None
     return 0.0, 0.0, ranges
 
 
@@ -190,27 +214,25 @@ class Scene(_core.Scene):
     # ---- Views
 
     def _view(self, width: int, height: int, options: Mapping) -> _core.View:
-        view, camera = _core.View(), self.camera
+        if "eye" in options and ("azimuth" in options or "elevation" in options):
+            raise ValueError("eye cannot be combined with azimuth or elevation")
+        view, members = _core.View(), {"camera": self.camera, "width": width, "height": height}
         if "azimuth" in options or "elevation" in options:
-            camera.eye = None
+            members["eye"] = None
         if "eye" in options:
-            camera.view_size = None
+            members["view_size"] = None
         if "look_at" in options:
-            camera.center = None
-        for name, value in options.items():
-            target = camera if hasattr(camera, name) else view
-            if name.startswith("_") or not hasattr(target, name):
-                raise TypeError(f"a view has no {name}; it has what csgrt.Camera and csgrt.View have")
-            setattr(target, name, value)
-        view.width, view.height, view.camera = width, height, camera
+            members["center"] = None
+        _assign({**members, **options}, "a view has no", view.camera, view)
         return view
 
     def render(self, width: int = 1024, height: int = 1024, **view) -> Image:
         """A picture: .color, .rgba, .depth, .normal, .region_ids, and by name image["ghost"].
 
-        view: azimuth, elevation, perspective, center, view_size, eye, look_at, up (as of csgrt.Camera; default: the
-        scene's camera); clip: up to six planes (normal, distance); samples: rays a pixel; transparent; every_partition:
-        adds the channels depth, partitions, overlap. Raises csgrt.Error (usage, out_of_memory, device_fault).
+        view: azimuth, elevation, perspective, center, view_size, eye, look_at, up (as of csgrt.Camera; default: those
+        of camera=, or of the scene's camera); clip: up to six planes (normal, distance); samples: rays a pixel;
+        transparent; every_partition: adds the channels depth, partitions, overlap.
+        Raises csgrt.Error (usage, out_of_memory, device_fault), TypeError or ValueError (members and their values).
         """
         made = self._view(width, height, {"every_partition": False, **view})
         if "channels" not in view:

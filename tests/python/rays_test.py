@@ -110,6 +110,10 @@ def test_pinhole_rays_are_those_of_a_picture(operators):
 def test_wrong_shapes_and_rays_are_refused_with_a_sentence(operators):
     with pytest.raises(ValueError, match=r"rays have the shape \(\.\.\., 6\), not \(3, 5\)"):
         operators.cast_rays(np.zeros((3, 5)))
+    with pytest.raises(TypeError, match="rays are real, not complex128"):
+        operators.cast_rays(np.zeros((3, 6), complex))
+    with pytest.raises(ValueError, match=r"tnear has the shape \(2,\), and the rays have \(3,\)"):
+        operators.cast_rays(np.zeros((3, 6)), tnear=[0, 1])
     with pytest.raises(csgrt.Error, match="ray 1: needs a direction other than 0") as caught:
         operators.partitions([[0, 0, 0, 1, 0, 0], [0] * 6])
     assert caught.value.status == "usage"

@@ -58,6 +58,28 @@ def test_pick_tells_what_the_picture_shows(operators):
     assert found.partitions
 
 
+@pytest.mark.parametrize("error, view, message", [
+    (TypeError, {"width": (64, 64)}, "width: expected a whole number, not (64, 64)"),
+    (TypeError, {"azimuth": "30"}, "azimuth: expected a number, not '30'"),
+    (TypeError, {"eye": (0, 1)}, "eye: expected three numbers or None, not (0, 1)"),
+    (TypeError, {"view_size": "a"}, "view_size: expected a number or None, not 'a'"),
+    (TypeError, {"transparent": 1}, "transparent: expected True or False, not 1"),
+    (TypeError, {"clip": ((0, 0, 1), 3)}, "clip: expected a list of (normal, distance), not ((0, 0, 1), 3)"),
+    (TypeError, {"azimut": 3}, "a view has no azimut: did you mean 'azimuth'?"),
+    (ValueError, {"eye": (0, 0, 1), "azimuth": 3}, "eye cannot be combined with azimuth or elevation"),
+])
+def test_a_view_names_the_member_that_it_refuses(operators, error, view, message):
+    with pytest.raises(error, match=re.escape(message)):
+        operators.render(**view)
+
+
+def test_a_view_has_the_camera_that_is_given(operators):
+    camera = operators.camera
+    camera.azimuth, camera.perspective = 80, 10
+    given = operators.rays_of(8, 8, camera=camera, perspective=30)
+    np.testing.assert_array_equal(given, operators.rays_of(8, 8, azimuth=80, perspective=30))
+
+
 def test_edits_take_effect_with_commit(operators):
     path = "/operators/union"
     before = operators.render(64, 64)
@@ -170,8 +192,10 @@ def test_an_error_has_status_place_and_suggestion(tmp_path):
     with pytest.raises(csgrt.Error) as caught:
         csgrt.Scene(csgrt.sphere(1), device="no such device")
     assert caught.value.status == "no_device"
-    with pytest.raises(TypeError, match="csgrt has no setting devise"):
+    with pytest.raises(TypeError, match="csgrt has no setting devise: did you mean 'device'?"):
         csgrt.Scene(csgrt.sphere(1), devise="cpu")
+    with pytest.raises(TypeError, match="tolerance: expected a number, not 'surfaces'"):
+        csgrt.Scene(csgrt.sphere(1), tolerance="surfaces")
 
 
 def test_warnings_are_values_and_warn_once(tmp_path):
