@@ -17,7 +17,7 @@ if(HOW STREQUAL "package")
     run(${CMAKE_COMMAND} --build ${WORK}/csgrt)
     run(${CMAKE_COMMAND} --install ${WORK}/csgrt --prefix ${WORK}/first)
     file(RENAME ${WORK}/first ${WORK}/prefix)
-    run(${WORK}/prefix/bin/csgrt render ${ROOT}/scenes/operators.json --size 32 -o ${WORK}/operators.exr)
+    run(${WORK}/prefix/bin/csgrt verify ${ROOT}/scenes/operators.json --rays 100)
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/install -B ${WORK}/build ${options} -DCMAKE_CXX_STANDARD=${STANDARD}
     -DHOW=${HOW} -DCSGRT=${ROOT} -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
