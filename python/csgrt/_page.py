@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-import html
-import os
-import shutil
-import subprocess
-import tempfile
-import weakref
 
-
-def _end(process: subprocess.Popen):
+def _end(process):
     process.terminate()
     process.wait()
     process.stdout.close()
@@ -21,6 +14,12 @@ class Page:
     a cell. It ends with close(), with the last reference, or with Python."""
 
     def __init__(self, scene, in_browser: bool = False, height: int = 640, command: str = "csgrt"):
+        import os  # here: these take as long to load as the rest of the package
+        import shutil
+        import subprocess
+        import tempfile
+        import weakref
+
         program = shutil.which(command)
         if program is None:
             raise FileNotFoundError(
@@ -50,7 +49,7 @@ class Page:
         self.close()
 
     def _repr_html_(self) -> str:
-        return (f'<iframe src="{html.escape(self.address)}" style="width: 100%; height: {self.height}px; border: 0">'
+        return (f'<iframe src="{self.address}" style="width: 100%; height: {self.height}px; border: 0">'
                 "</iframe>")
 
     def __repr__(self):

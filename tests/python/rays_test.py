@@ -44,6 +44,24 @@ def test_rays_are_read_in_place_and_answers_are_not_copied(operators):
     assert not any(values.flags.owndata for values in (*parts.values(), *hits.values()))
 
 
+def test_few_rays_have_the_bits_of_many(operators, random_rays):
+    """Up to 64 rays are answered by the model itself."""
+    rays = random_rays(operators, 500)
+    every = {"solids": True, "normals": True, "overlaps": True}
+    many, hits, dark = operators.partitions(rays, **every), operators.cast_rays(rays), operators.test_occlusions(rays)
+    points = rays[:, :3] + 0.5 * rays[:, 3:]
+    ids = operators.region_at(points)
+    for first, last in ((0, 1), (1, 65), (65, 130), (130, 133)):
+        few = operators.partitions(rays[first:last], **every)
+        rows = slice(*many["ray_splits"][[first, last]])
+        for name in ("region_ids", "t_in", "t_out", "in_solids", "out_normals"):
+            assert few[name].tobytes() == many[name][rows].tobytes()
+        for name, answer in operators.cast_rays(rays[first:last]).items():
+            assert answer.tobytes() == hits[name][first:last].tobytes()
+        assert (operators.test_occlusions(rays[first:last]) == dark[first:last]).all()
+        assert (operators.region_at(points[first:last]) == ids[first:last]).all()
+
+
 def test_answers_outlive_their_scene(scenes):
     scene = csgrt.load(scenes / "operators.json")
     rays = csgrt.rays_parallel(scene.bounds, "x", (200, 200))
