@@ -1,4 +1,5 @@
 #include <csgrt/csgrt.hpp>
+#include <csgrt/viewer.hpp>
 
 #include <cstdio>
 #include <string_view>
@@ -27,6 +28,11 @@ int main() {
 #ifdef CONSUMER_HAS_IMAGE
     csgrt::write_image(renderer.render({.width = 8, .height = 8}), "ball.exr");
     std::printf("%d pixels wide\n", csgrt::read_image("ball.exr").width);
+#endif
+#ifdef CONSUMER_HAS_VIEW
+    csgrt::Viewer viewer(renderer.model(), {}, {.name = "ball"});
+    viewer.run([] { return false; });
+    std::printf("a page was at %s\n", viewer.address().c_str());
 #endif
     for (const auto& p : rays[0].partitions) std::printf("in %g out %g\n", p.in, p.out);
     return rays[0].partitions.size() == 1 && rays[0].partitions[0].in == 8 && rays[0].partitions[0].out == 10 ? 0 : 1;
