@@ -32,7 +32,9 @@ constexpr std::size_t threads = 64;
 constexpr int reading_seconds = 5, writing_seconds = 10, quiet_seconds = 1;
 constexpr std::chrono::milliseconds tick{100}, look{250};
 constexpr int bad_request = 400, too_large = 413, server_error = 500;
-constexpr const char* json_type = "application/json";
+/// Debian's library would pack "application/json" by Brotli at its slowest, which takes seconds, wherever a browser lets
+/// it. It does not pack this type, nor what comes by a provider of a given length.
+constexpr const char* json_type = "application/json; charset=utf-8";
 constexpr const char* bytes_type = "application/octet-stream";
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -102,7 +104,10 @@ struct Viewer::Impl {
             if (response.body.empty()) refuse(response, response.status, "refused");
         });
         server.Get(guard.root(), [](const httplib::Request&, httplib::Response& response) {
-            response.set_content(page_html(), "text/html; charset=utf-8");
+            response.set_content_provider(page_html().size(), "text/html; charset=utf-8",
+                                          [](std::size_t begin, std::size_t length, httplib::DataSink& sink) {
+                                              return sink.write(page_html().data() + begin, length);
+                                          });
         });
         answer_json("model", [this](const Request&) { return studio.model(); });
         answer_json("status", [this](const Request&) { return studio.status(); });

@@ -321,6 +321,15 @@ TEST_CASE("view: wrong requests are refused with a sentence that names the membe
     CHECK_THAT(page.frame(request).head["error"].get<std::string>(), Contains("perspective"));
 }
 
+TEST_CASE("view: no answer waits for a packer, whatever a browser takes", "[view]") {
+    const PageClient page(operators());
+    const httplib::Headers any = {{"Accept-Encoding", "gzip, deflate, br"}};
+    CHECK(page.post("model", json::object(), any)->get_header_value("Content-Encoding").empty());
+    const auto html = page.client().Get(page.root(), any);
+    CHECK(html->get_header_value("Content-Encoding").empty());
+    CHECK(html->body == page.client().Get(page.root())->body);
+}
+
 TEST_CASE("view: nobody else gets in", "[view]") {
     const PageClient page(operators());
     const std::string port = page.host().substr(page.host().rfind(':'));

@@ -1,0 +1,499 @@
+"""The page of `csgrt view` in a browser: every control, by pixels and numbers.
+
+    browser_test.py CSGRT ROOT WORK [--screenshots FOLDER] [--measure MODEL...] [TEST...]
+
+CSGRT is the program, ROOT the checkout, WORK a folder to write to. Pictures are compared with those that the command
+draws which the page tells, and answers with those of the `csgrt shoot` that it tells.
+"""
+import contextlib
+import http.client
+import json
+import math
+import os
+import subprocess
+import sys
+import time
+import unittest
+import urllib.parse
+
+try:
+    import figures
+    from boxes import HOSTILE, scene
+    from page import BROWSER, DRIVER, Keys, Page, Server, new_browser
+except ImportError as missing:
+    print(f"SKIPPED: {missing} (Debian, Ubuntu: apt-get install python3-selenium)")
+    sys.exit(0)
+if BROWSER is None or DRIVER is None:
+    print("SKIPPED: there is no chromium (Debian, Ubuntu: apt-get install chromium chromium-driver)")
+    sys.exit(0)
+
+class Browser(unittest.TestCase):
+    """One browser and one server for all; each test starts the page anew."""
+
+    @classmethod
+    def setUpClass(cls):
+        os.makedirs(WORK, exist_ok=True)
+        cls.scene = cls.write("boxes.json", scene())
+        cls.server = Server(CSGRT, cls.scene)
+        cls.driver = new_browser(WORK)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.driver.quit()
+        cls.server.close()
+
+    @staticmethod
+    def write(name, text):  # at once: nobody sees half a file
+        path = os.path.join(WORK, name)
+        with open(path + ".new", "w", encoding="utf-8") as file:
+            file.write(text)
+        os.replace(path + ".new", path)
+        return path
+
+    def setUp(self):
+        self.page = Page(self.driver, self.server.address)
+        self.middle = [v / 2 for v in self.page.js("return [csgrt.size.css_width, csgrt.size.css_height]")]
+
+    def tearDown(self):
+        wrong = [line["message"] for line in self.driver.get_log("browser") if line["level"] == "SEVERE"]
+        self.assertEqual([m for m in wrong if "ERR_" not in m and "status of" not in m], [])
+
+    @contextlib.contextmanager
+    def page_of(self, *arguments):
+        server = Server(CSGRT, *arguments)
+        try:
+            yield Page(self.driver, server.address)
+        finally:
+            server.close()
+
+    def shell(self, line):
+        path = os.path.dirname(os.path.abspath(CSGRT)) + os.pathsep + os.environ["PATH"]
+        return subprocess.run(line, shell=True, cwd=WORK, env={**os.environ, "PATH": path}, text=True,
+                              capture_output=True, check=True).stdout
+
+    def assert_as_the_command_draws(self):
+        self.page.press("get-command")
+        self.page.wait(lambda: "--azimuth" in self.page.text("command"))
+        self.shell(self.page.text("command"))
+        with open(os.path.join(WORK, "view.png"), "rb") as file:
+            self.assertEqual(self.page.difference(file.read()), [0, 0])
+
+    def named(self, x, y):
+        """The region that hovering names."""
+        self.page.mouse("mouseMoved", x + 1, y, button="none")
+        time.sleep(0.2)
+        self.page.mouse("mouseMoved", x, y, button="none")
+        time.sleep(0.3)
+        return self.page.text("hover")
+
+    def test_a_click_gives_what_shoot_gives(self):
+        page = self.page
+        page.click(*self.middle)
+        lines = self.shell(page.text("shoot")).splitlines()
+        parts = [line.split() for line in lines if line.startswith("/")]
+        overlaps = [line.split() for line in lines if line.startswith("overlap ")]
+        self.assertEqual((parts[0][0], page.text("selected-path")), ("/all/front.r", "/all/front.r"))
+        cells = page.js("return [...document.querySelectorAll('#end-rows tr')].map(r => [r.className, "
+                        "...[...r.cells].map(c => c.textContent)])")
+        self.assertEqual([c[1] for c in cells if c[0] == "part"], [p[0].rsplit("/", 1)[1] for p in parts])
+        ends = [c[2:] for c in cells if c[0] in ("in", "out")]
+        self.assertEqual(len(ends), 2 * len(parts))
+        for i, part in enumerate(parts):
+            for end, t, solid, kind in ((ends[2 * i], part[1], part[9], part[11]),
+                                        (ends[2 * i + 1], part[2], part[10], part[12])):
+                self.assertAlmostEqual(float(end[0]), float(t), delta=1e-4)
+                self.assertEqual(end[1:], [solid, kind])
+        self.assertEqual([c[2] for c in cells if "gap" in c[0]], ["10 mm"])
+        self.assertEqual(len(overlaps), 1)
+        (red,) = [c[1] for c in cells if "red" in c[0]]
+        for word in (*overlaps[0][1:3], "back.r", "twin.r"):
+            self.assertIn(str(round(float(word), 4)).removesuffix(".0") if word[0].isdigit() else word, red)
+        page.id("copy-shoot").click()
+        self.assertEqual(page.text("copy-shoot"), "Copied")
+        # The bar: to scale, from the first end to the last.
+        low, high = float(parts[0][1]), float(parts[-1][2])
+        bar = page.js("const w = document.getElementById('beam').clientWidth; return [...document.querySelectorAll("
+                      "'#beam button')].map(b => [b.dataset.path, b.offsetLeft / w, b.offsetWidth / w])")
+        self.assertEqual([b[0] for b in bar], [p[0] for p in parts])
+        for b, p in zip(bar, parts):
+            self.assertAlmostEqual(b[1], (float(p[1]) - low) / (high - low), delta=0.01)
+            self.assertAlmostEqual(b[2], (float(p[2]) - float(p[1])) / (high - low), delta=0.01)
+        page.js("document.querySelector('#beam button[data-path$=\"twin.r\"]').click()")
+        self.assertEqual(page.text("selected-path"), "/all/pair/twin.r")
+        self.assertIn("102", page.text("selected-facts"))
+        self.assertEqual(page.js("return document.querySelector('#rows [aria-selected=true]').dataset.path"),
+                         "/all/pair/twin.r")
+
+    def test_open_ends_and_nothing(self):
+        ground = {"csgrt": 1, "solids": {"under": {"type": "half", "normal": [0, 0, 1], "distance": 0}},
+                  "combinations": {"ground.r": {"tree": "under", "region": True, "id": 1}}}
+        with self.page_of(self.write("ground.json", json.dumps(ground))) as page:
+            page.keys("7").click(*self.middle)
+            self.assertIn("open", page.text("end-rows"))
+            self.assertEqual(page.js("return document.querySelectorAll('#beam .open-out').length"), 1)
+        page = Page(self.driver, self.server.address)
+        page.click(3, 3)
+        self.assertIn("nothing", page.text("hit-facts"))
+        page.keys(Keys.ESCAPE)
+        self.assertFalse(page.id("hit").is_displayed())
+
+    def test_the_distance_between_two_clicks(self):
+        page = self.page
+        page.click(*page.screen([80, 10, 20]))
+        page.click(*page.screen([80, -20, -20]))
+        mm = 200 / page.js("return csgrt.size.height")  # of a pixel: clicks have whole ones
+        said = page.text("measure").split()
+        self.assertAlmostEqual(float(said[5]), 50, delta=2 * mm)
+        for word, value in (("(dx", 0), ("dy", -30), ("dz", -40)):
+            self.assertAlmostEqual(float(said[said.index(word) + 1].rstrip(",)")), value, delta=2 * mm)
+
+    def test_hidden_ghost_isolated_coloured(self):
+        page, at = self.page, self.middle
+        red = page.color(*at)
+        self.assertGreater(red[0], red[2] + 50)
+        self.assertEqual(self.named(*at), "/all/front.r")
+        page.click(*at)
+        page.press("selected-hide")
+        self.assertEqual(self.named(*at), "/all/pair/twin.r")
+        blue = page.color(*at)
+        self.assertGreater(blue[2], blue[0] + 50)
+        self.assert_as_the_command_draws()
+        page.press("selected-ghost")
+        self.assertEqual(page.view()["looks"], [{"path": "/all/front.r", "state": "ghost"}])
+        edge = page.screen([80, 50, 0])
+        self.assertNotEqual([page.color(edge[0] + d, edge[1]) for d in range(-3, 4)],
+                            [page.color(edge[0] + d - 12, edge[1]) for d in range(-3, 4)])  # an outline
+        self.assertEqual(self.named(*at), "/all/pair/twin.r")
+        page.press("selected-isolate")
+        self.assertEqual(page.view()["looks"], [{"path": "/all", "state": "hidden"},
+                                                {"path": "/all/front.r", "state": "shown"}])
+        self.assertEqual(self.named(*page.screen([40, 55, 0])), "")  # back.r is hidden
+        page.press("show-all")
+        self.assertEqual(page.view()["looks"], [])
+        page.set("selected-color", "#ffff00")
+        yellow = page.color(*at)
+        self.assertGreater(min(yellow[:2]), yellow[2] + 50)
+        self.assert_as_the_command_draws()
+
+    def test_the_tree_and_its_search(self):
+        page = self.page
+        row = "document.querySelector('#rows [data-path=\"%s\"]')"
+
+        def paths():
+            return page.js("return [...document.querySelectorAll('.row:not([hidden])')].map(r => r.dataset.path)")
+        self.assertEqual(sorted(paths()), sorted(["/all", "/all/front.r", "/all/pair", "/all/" + HOSTILE]))
+        self.assertNotEqual(page.driver.title, "broken")
+        page.set("search", "TWIN")
+        self.assertEqual(paths(), ["/all/pair/twin.r"])
+        page.js(row % "/all/pair/twin.r" + ".state.click()")  # shown, ghost, hidden
+        page.js(row % "/all/pair/twin.r" + ".state.click()")
+        self.assertEqual(page.view()["looks"], [{"path": "/all/pair/twin.r", "state": "hidden"}])
+        page.set("search", "")
+        self.assertEqual(page.js("return " + row % "/all/pair" + ".state.textContent"), "\u25d2")  # some of each
+        page.js(row % "/all/pair" + ".twist.click()")
+        self.assertIn("/all/pair/back.r", paths())
+        for _ in range(2):  # of some: shown, then ghost; the look below it goes
+            page.js(row % "/all/pair" + ".state.click()")
+        self.assertEqual(page.view()["looks"], [{"path": "/all/pair", "state": "ghost"}])
+        page.js(row % "/all/pair/back.r" + ".only.click()")
+        self.assertEqual(page.idle().view()["looks"][-1], {"path": "/all/pair/back.r", "state": "shown"})
+        page.id("tree").send_keys(Keys.HOME, Keys.ARROW_DOWN, " ")
+        page.idle()
+        self.assertIn(page.text("selected-path"), paths()[1:])
+
+    def test_warnings_lead_to_their_objects(self):
+        with self.page_of(os.path.join(ROOT, "scenes", "broken", "missing_member.asc")) as page:
+            page.press("toggle-warnings")
+            count = page.js("return csgrt.model.warnings.length")
+            self.assertGreater(count, 0)
+            self.assertEqual(len(page.id("warning-list").find_elements("tag name", "button")), count)
+            page.press("warning-0")
+            wanted = page.js("return csgrt.model.warnings[0].object")
+            self.assertIn(wanted, page.text("selected-path") + page.text("bar"))
+
+    def test_a_cut_is_that_of_the_command(self):
+        page = self.page
+        page.press("toggle-cut").press("add-plane")
+        self.assertEqual(page.view()["clip"], [{"normal": [1, 0, 0], "distance": 40}])
+        page.set("cut-0-distance", "45")
+        self.assertEqual(self.named(self.middle[0] + 30, self.middle[1] + 30), "/all/pair/twin.r")
+        self.assert_as_the_command_draws()
+        page.set("cut-0-distance", "30")
+        page.press("cut-0-flip")
+        self.assertEqual(page.view()["clip"], [{"normal": [-1, 0, 0], "distance": -30}])
+        page.press("cut-0-set-y")
+        self.assertEqual(page.view()["clip"][0]["normal"], [0, 1, 0])
+        page.set("cut-0-slider", "12.5")
+        for name, value in (("x", "1"), ("y", "2"), ("z", "2")):
+            page.set("cut-0-" + name, value)
+        self.assertAlmostEqual(page.view()["clip"][0]["normal"][0], 1 / 3)
+        page.press("add-plane").press("add-plane")
+        self.assertFalse(page.id("add-plane").is_enabled())
+        self.assertEqual(len(page.view()["clip"]), 3)
+        page.press("cut-2-set-z").press("view-iso")
+        self.assert_as_the_command_draws()
+        page.press("cut-1-remove").press("cut-1-remove").press("cut-0-remove")
+        self.assertEqual(page.view()["clip"], [])
+
+    def test_a_handle_moves_its_plane(self):
+        page = self.page
+        page.press("view-iso").press("toggle-cut").press("add-plane")
+        start = page.js("return ['cx', 'cy'].map(name => Number(handles[0].grip.getAttribute(name)))")
+        clip = page.view()["clip"][0]
+        step = [b - a for a, b in zip(page.screen([0, 0, 0]), page.screen([10, 0, 0]))]
+        page.drag(start, [a + b for a, b in zip(start, step)])
+        moved = page.view()["clip"][0]
+        self.assertEqual(moved["normal"], clip["normal"])
+        self.assertAlmostEqual(moved["distance"] - clip["distance"], 10, delta=1)
+
+    def test_the_slice_of_a_plane(self):
+        page = self.page
+        page.press("toggle-cut").press("add-plane").set("cut-0-distance", "30").press("cut-0-slice")
+        name = page.js("return Object.fromEntries(model.regions.map(r => [r.id, r.path]))")
+
+        def drawn():
+            page.wait(lambda: page.js("return !slice.busy && !slice.again && slice.ids !== null"))
+
+        def at(y, z):
+            """The place in the pane of a point of the plane."""
+            return page.js("""
+                const box = pane(), plane = view.clip[0], {right, up} = plane_axes(plane), [u, v] = slice.place;
+                const from = minus([30, ...arguments], plane_middle(plane));
+                return [box.width / 2 + (dot(from, right) - u) / slice.mm,
+                        box.height / 2 - (dot(from, up) - v) / slice.mm]""", y, z)
+
+        def held(y, z):
+            return page.js("return slice_id(...arguments)", *at(y, z))
+        drawn()
+        self.assertEqual(held(0, 0), -2)
+        self.assertEqual(name[str(held(55, 0))], "/all/pair/back.r")
+        self.assertEqual(held(0, 80), -1)
+        self.assertIn("overlap", page.text("slice-overlap"))
+        page.mouse("mouseMoved", *at(55, 0), button="none", on="slice-canvas")
+        self.assertTrue(page.text("hover").startswith("/all/pair/back.r at 30 "), page.text("hover"))
+        before = at(0, 0), page.js("return slice.mm")
+        page.mouse("mouseWheel", *before[0], button="none", on="slice-canvas", deltaX=0, deltaY=-200)
+        page.wait(lambda: page.js("return slice.mm") < before[1])
+        self.assertLess(math.dist(at(0, 0), before[0]), 1)
+        page.drag(before[0], [before[0][0] + 40, before[0][1] + 10], on="slice-canvas")
+        self.assertLess(math.dist(at(0, 0), [before[0][0] + 40, before[0][1] + 10]), 2)
+        page.set("cut-0-distance", "45")
+        drawn()
+        self.assertEqual(name[str(held(0, 0))], "/all/pair/twin.r")
+        page.press("slice-close")
+        self.assertFalse(page.id("slice").is_displayed())
+
+    def test_the_mouse_moves_the_camera(self):
+        page, camera = self.page, lambda: self.page.view()["camera"]
+        for perspective in (False, True):
+            page.start(self.server.address)
+            if perspective:
+                page.keys("5")
+                self.assertEqual(camera()["perspective"], 30)
+            point = [80, 30, 25]
+            start = page.screen(point)
+            page.drag(start, [start[0] + 60, start[1] + 40])
+            self.assertNotEqual(camera()["azimuth"], 0)
+            self.assertLess(math.dist(page.screen(point), start), 2)  # it stays where it is
+            self.assertEqual(self.named(*start), "/all/front.r")
+            self.assert_as_the_command_draws()
+            for more in ({"modifiers": 8}, {"button": "middle"}):
+                start = page.screen(point)
+                page.drag(start, [start[0] + 30, start[1] - 20], **more)
+                self.assertLess(math.dist(page.screen(point), [start[0] + 30, start[1] - 20]), 3)
+            page.drag(self.middle, [self.middle[0], self.middle[1] + 600])
+            self.assertEqual(camera()["elevation"], 90)
+            at, size = [200, 100], camera()["view_size"]
+            under = page.js("return under(csgrt.view.camera, 200, 100)")
+            page.mouse("mouseWheel", *at, button="none", deltaX=0, deltaY=-300)
+            page.wait(lambda: camera()["view_size"] < size)
+            self.assertLess(math.dist(page.screen(under), at), 0.1)
+        page.start(self.server.address)
+        page.click(*page.screen([80, 30, 25]), times=2)
+        self.assertLess(math.dist(camera()["center"], [80, 30, 25]), 1)
+
+    def test_touch(self):
+        page, box = self.page, self.page.js("const b = canvas.getBoundingClientRect(); return [b.left, b.top]")
+
+        def touch(*steps):
+            for kind, *points in [*zip(["touchStart"] + ["touchMove"] * 9, *zip(*steps)), ("touchEnd",)]:
+                self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [
+                    {"x": box[0] + x, "y": box[1] + y, "id": i} for i, (x, y) in enumerate(points)]})
+            page.idle()
+        touch(([200, 200],), ([230, 220],), ([260, 240],))
+        self.assertNotEqual(page.view()["camera"]["azimuth"], 0)
+        size, azimuth = page.view()["camera"]["view_size"], page.view()["camera"]["azimuth"]
+        touch(([200, 200], [260, 260]), ([190, 190], [270, 270]), ([150, 150], [310, 310]))
+        self.assertLess(page.view()["camera"]["view_size"], 0.6 * size)
+        self.assertEqual(page.view()["camera"]["azimuth"], azimuth)
+
+    def test_keys(self):
+        page, camera = self.page, lambda: self.page.view()["camera"]
+        for key, azimuth, elevation in (("1", 0, 0), ("3", 270, 0), ("7", 270, 90), ("9", 35, 25)):
+            page.keys(key)
+            self.assertEqual((camera()["azimuth"], camera()["elevation"]), (azimuth, elevation))
+        page.keys(Keys.ARROW_LEFT, Keys.ARROW_UP)
+        self.assertEqual((camera()["azimuth"], camera()["elevation"]), (40, 20))
+        center = camera()["center"]
+        page.keys(("s", Keys.ARROW_RIGHT))
+        self.assertGreater(math.dist(camera()["center"], center), 1)
+        size = camera()["view_size"]
+        page.keys("+")
+        self.assertAlmostEqual(camera()["view_size"], 0.8 * size)
+        page.keys("-", "1", "f")
+        self.assertLess(math.dist(camera()["center"], [40, 0, 0]), 1e-6)
+        self.assertAlmostEqual(camera()["view_size"], 120 * 1.06 * max(1, self.middle[1] / self.middle[0]), delta=0.01)
+        page.keys("+", Keys.ENTER, "d", "d", "p")
+        page.wait(lambda: page.text("selected-path") == "/all/front.r")
+        page.keys("h")
+        self.assertEqual(page.view()["looks"], [{"path": "/all/front.r", "state": "hidden"}])
+        page.keys("u", "c")
+        page.wait(lambda: abs(camera()["center"][0] - 80) < 1e-6)
+        page.keys("?")
+        self.assertTrue(page.id("help").is_displayed())
+        self.assertIn("BRL-CAD", page.text("key-list"))
+        page.keys(Keys.ESCAPE)
+        self.assertFalse(page.id("help").is_displayed())
+        page.keys("/", "t", "w")
+        self.assertEqual(page.js("return document.getElementById('search').value"), "tw")
+
+    def test_what_pixels_show(self):
+        seen = {self.page.picture()}
+        for show in ("depth", "normal", "region", "overlap", "segments"):
+            self.page.set("show", show, "change")
+            seen.add(self.page.picture())
+        self.assertEqual(len(seen), 6)
+
+    def test_coarse_then_full_then_samples(self):
+        page = self.page
+        full = page.js("return csgrt.size.width")
+        page.js("csgrt.widths = []; const shown = show_frame; loop.divisor = 4; csgrt.samples = 16;"
+                "show_frame = (job, head, pixels) => { csgrt.widths.push([head.width, job.samples]);"
+                "shown(job, head, pixels); }")
+        page.drag(self.middle, [self.middle[0] + 90, self.middle[1]])
+        page.idle(16)
+        widths = page.js("return csgrt.widths")
+        self.assertLess(min(width for width, _ in widths), full)
+        self.assertEqual(widths[-3:], [[full, 1], [full, 4], [full, 16]])
+        raw = page.picture()
+        page.js("loop.deflate = true; csgrt.samples = 1; loop.number -= loop.number % 8; changed()")
+        page.idle().js("csgrt.samples = 16")
+        page.idle(16)
+        self.assertEqual(page.js("return csgrt.lastFrame.encoding"), "deflate")
+        self.assertEqual(page.difference(raw), [0, 0])
+
+    def test_a_client_that_goes_and_a_newer_frame_cancel(self):
+        page, url = self.page, urllib.parse.urlsplit(self.server.address)
+        big = {"page": "gone", "number": 1, "view": page.view(), "width": 8000, "height": 8000, "samples": 64,
+               "encoding": "raw"}
+        client = http.client.HTTPConnection(url.netloc)
+        client.request("POST", url.path + "api/frame", json.dumps(big), {"Content-Type": "application/json"})
+        time.sleep(0.3)
+        client.close()
+        began = time.time()
+        page.press("view-iso")
+        self.assertLess(time.time() - began, 5)  # the large one would take minutes
+        first = page.driver.execute_async_script("""
+            const [big, done] = arguments, first = post("frame", {...big, number: 2}).then(read_frame);
+            setTimeout(() => post("frame", {...big, number: 3, width: 8, height: 8}), 300);
+            first.then(frame => done(frame.head));""", big)
+        self.assertEqual(first, {"cancelled": True})
+
+    def test_two_pages_and_the_link(self):
+        page = self.page
+        page.keys("9").click(*self.middle)
+        page.press("selected-hide").press("toggle-cut").press("add-plane")
+        page.wait(lambda: "looks" in urllib.parse.unquote(page.driver.current_url.partition("#")[2]))
+        time.sleep(0.4)  # the address follows the view
+        link, picture, first = page.driver.current_url, page.picture(), page.driver.current_window_handle
+        page.driver.switch_to.new_window("tab")
+        try:
+            other = Page(page.driver, self.server.address)
+            self.assertEqual(other.view()["looks"], [])
+            self.assertNotEqual(other.difference(picture)[1], 0)
+            other.start(link)
+            self.assertEqual(other.difference(picture), [0, 0])
+            other.press("show-all")
+            other.start(self.server.address + "#%7Bbad")
+            self.assertIn("address", other.text("bar"))
+            self.assertEqual(other.view()["clip"], [])
+        finally:
+            page.driver.close()
+            page.driver.switch_to.window(first)
+        self.assertEqual(page.idle().difference(picture), [0, 0])
+
+    def test_a_changed_file_is_seen(self):
+        page, at = self.page, self.middle
+        page.press("view-iso").press("view-front").click(*at)
+        page.press("selected-hide")
+        generation = page.js("return csgrt.model.generation")
+        try:
+            self.write("boxes.json", scene()[:-20])
+            page.wait(lambda: page.id("bar").is_displayed())
+            self.assertEqual(self.named(*at), "/all/pair/twin.r")  # the old model
+            self.write("boxes.json", scene(pane=([90, -45, -45], [95, 45, 45], [0.9, 0.9, 0.1])))
+            page.wait(lambda: page.js("return csgrt.model.generation") > generation)
+            page.idle()
+            self.assertFalse(page.id("bar").is_displayed())
+            self.assertEqual(self.named(*at), "/all/pane.r")
+            self.assertEqual(page.view()["looks"], [{"path": "/all/front.r", "state": "hidden"}])
+        finally:
+            self.write("boxes.json", scene())
+            page.wait(lambda: page.js("return csgrt.model.regions.length") == 4)
+
+    def test_saved_files(self):
+        page = self.page
+        page.press("view-iso")
+        names = {"save-png": "boxes.png", "save-view": "boxes-view.json"}
+        if page.js("return csgrt.model.exr"):
+            names["save-exr"] = "boxes.exr"
+        made = {}
+        for button, name in names.items():
+            path = os.path.join(WORK, name)
+            if os.path.exists(path):
+                os.remove(path)
+            page.press(button)
+            page.wait(lambda: os.path.exists(path) and os.path.getsize(path) > 0)
+            with open(path, "rb") as file:
+                made[name] = file.read()
+        self.assertEqual(page.difference(made["boxes.png"]), [0, 0])
+        self.assertEqual(made.get("boxes.exr", b"\x76\x2f\x31\x01")[:4], b"\x76\x2f\x31\x01")
+        view = page.view()
+        self.assertEqual(json.loads(made["boxes-view.json"]), view)
+        page.press("view-front")
+        page.id("open-view").send_keys(os.path.join(WORK, "boxes-view.json"))
+        page.wait(lambda: page.view() == view)
+        page.id("open-view").send_keys(self.write("broken.json", '{"camera": 1, "clip": "no"}'))
+        page.wait(lambda: "is no view" in page.text("bar"))
+        self.assertEqual(page.view(), view)
+
+    def test_the_end(self):
+        server = Server(CSGRT, self.scene)
+        page = Page(self.driver, server.address)
+        page.press("end")
+        self.assertTrue(page.id("ask-end").is_displayed())
+        page.press("end-no")
+        self.assertIsNone(server.process.poll())
+        page.press("end")
+        page.js("document.getElementById('end-yes').click()")
+        page.wait(lambda: page.id("end-page").is_displayed())
+        self.assertEqual(server.process.wait(10), 0)
+        server.close()
+
+    def test_a_server_that_is_gone_is_said(self):
+        with self.page_of(self.scene) as page:
+            picture = page.picture()
+        page.wait(lambda: "csgrt does not answer" in page.text("bar"))
+        self.assertEqual(page.difference(picture), [0, 0])
+
+
+if __name__ == "__main__":
+    CSGRT, ROOT, WORK = map(os.path.abspath, sys.argv[1:4])
+    rest = sys.argv[4:]
+    if rest[:1] == ["--screenshots"]:
+        figures.take_screenshots(CSGRT, ROOT, WORK, rest[1])
+    elif rest[:1] == ["--measure"]:
+        for model in rest[1:]:
+            figures.measure(CSGRT, WORK, model)
+    else:
+        unittest.main(argv=[sys.argv[0], *rest])
