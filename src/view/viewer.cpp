@@ -32,8 +32,8 @@ constexpr std::size_t threads = 64;
 constexpr int reading_seconds = 5, writing_seconds = 10, quiet_seconds = 1;
 constexpr std::chrono::milliseconds tick{100}, look{250};
 constexpr int bad_request = 400, too_large = 413, server_error = 500;
-/// Debian's library would pack "application/json" by Brotli at its slowest, which takes seconds, wherever a browser lets
-/// it. It does not pack this type, nor what comes by a provider of a given length.
+/// Debian's library would pack "application/json" by Brotli at its slowest, which takes seconds, wherever a browser
+/// lets it. It does not pack this type, nor what comes by a provider of a given length.
 constexpr const char* json_type = "application/json; charset=utf-8";
 constexpr const char* bytes_type = "application/octet-stream";
 
