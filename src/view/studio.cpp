@@ -204,7 +204,7 @@ Json Studio::status() const {
             {"device", device_}};
 }
 
-Model Studio::model_with(const std::vector<Look>& looks) {
+Studio::Dressed Studio::model_with(const std::vector<Look>& looks) {
     std::string key;
     for (const Look& look : looks) {
         key += look.path + '\n';
@@ -213,12 +213,13 @@ Model Studio::model_with(const std::vector<Look>& looks) {
         key += '\n';
     }
     std::unique_lock lock(current_mutex_);
-    if (looks.empty()) return current_.base;
+    const std::uint64_t generation = current_.generation;
+    if (looks.empty()) return {current_.base, generation};
     auto& dressed = current_.dressed;
     if (const auto found = std::ranges::find(dressed, key, &std::pair<std::string, Model>::first);
         found != dressed.end()) {
         dressed.splice(dressed.begin(), dressed, found);
-        return found->second;
+        return {found->second, generation};
     }
     Edit edit(current_.base);
     for (const Look& look : looks) {
@@ -228,7 +229,7 @@ Model Studio::model_with(const std::vector<Look>& looks) {
     }
     dressed.emplace_front(std::move(key), edit.commit());
     if (dressed.size() > most_dressed) dressed.pop_back();
-    return dressed.front().second;
+    return {dressed.front().second, generation};
 }
 
 bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_wanted,
@@ -275,7 +276,7 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
     };
     std::vector<std::uint32_t> pixels;
     try {
-        const Model model = studio->model_with(asked.looks);
+        const auto [model, generation] = studio->model_with(asked.looks);
         const bool has_ghosts =
             std::ranges::any_of(model.regions(), [](const RegionInfo& region) { return region.state == State::ghost; });
         asked.view.channels = channels_for(asked.show, has_ghosts);
@@ -283,10 +284,10 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
                      {"width", asked.view.width},
                      {"height", asked.view.height},
                      {"samples", asked.view.samples},
+                     {"generation", generation},
                      {"encoding", deflates ? "deflate" : "raw"}};
         {
             const std::lock_guard lock(studio->current_mutex_);
-            head["generation"] = studio->current_.generation;
             if (!studio->spare_pixels_.empty()) {
                 pixels = std::move(studio->spare_pixels_.back());
                 studio->spare_pixels_.pop_back();
@@ -315,10 +316,10 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
 
 Json Studio::pick(const Request& request) {
     const Asked asked = read_asked(request);
-    const Model model = model_with(asked.looks);
+    const auto [model, generation] = model_with(asked.looks);
     const int x = request.count("x", 0, asked.view.width - 1), y = request.count("y", 0, asked.view.height - 1);
     const Pick pick = model.pick(asked.view, x, y);
-    Json answer = {{"region", pick.region < 0 ? Json(nullptr) : Json(pick.region)}};
+    Json answer = {{"region", pick.region < 0 ? Json(nullptr) : Json(pick.region)}, {"generation", generation}};
     if (pick.region >= 0) answer["point"] = to_json(pick.point);
     if (request.flag("brief")) return answer;
     answer["solid"] = to_json(model, pick.solid);
@@ -350,7 +351,7 @@ Json Studio::command(const Request& request) const {
 }
 
 std::string Studio::slice(const Request& request) {
-    const Model model = model_with(read_asked(request).looks);
+    const Model model = model_with(read_asked(request).looks).model;
     Array<std::int32_t> ids;
     model.slice(read_slice(request), ids);
     return bytes_of(ids.data(), ids.size());
@@ -363,7 +364,7 @@ std::string Studio::exr(const Request& request) {
     asked.view.channels = channel::all;
     Image image;
     with_renderer(
-        model_with(asked.looks), [] { return true; },
+        model_with(asked.looks).model, [] { return true; },
         [&] {
             image = renderer_.render(asked.view);
             renderer_.name_pixels(image);

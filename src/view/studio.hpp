@@ -63,7 +63,12 @@ private:
         std::string error = {};
         std::list<std::pair<std::string, Model>> dressed = {};  ///< the last ones, the latest first
     };
-    Model model_with(const std::vector<Look>& looks);
+    /// The model with these looks; the numbers of regions are those of `generation`.
+    struct Dressed {
+        Model model;
+        std::uint64_t generation;
+    };
+    Dressed model_with(const std::vector<Look>& looks);
     /// Calls draw(renderer, framebuffer) when no other frame is drawn; false: it was given up.
     bool with_renderer(const Model& model, const std::function<bool()>& is_wanted, const std::function<void()>& draw);
 
