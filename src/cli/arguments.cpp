@@ -197,6 +197,7 @@ void define(Options& options, RenderArguments& arguments) {
         "p with NX,NY,NZ . p > OFFSET; up to six times",
         arguments.clip, parse_plane, "a plane such as z:2.5 or 1,0,1:2.5");
     define_looks(options, arguments.looks);
+    options.count("--samples", "rays a pixel, whose mean the colours are; 1 if not given", arguments.samples, 1, 256);
     options.flag("--first-hit",
                  "draw first hits only, several times faster: without the channels depth, partitions and overlap",
                  arguments.first_hit);

@@ -145,6 +145,7 @@ std::string command_options(const Asked& asked) {
                        " --perspective " + decimal(camera.perspective);
     if (camera.center) text += " --center " + text_of(*camera.center);
     if (camera.view_size) text += " --view-size " + decimal(*camera.view_size);
+    if (asked.view.samples > 1) text += " --samples " + std::to_string(asked.view.samples);
     for (const Plane& plane : asked.view.clip)
         text += " --clip " + text_of(plane.normal) + ":" + decimal(plane.distance);
     for (const Look& look : asked.looks) {

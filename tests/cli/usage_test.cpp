@@ -153,6 +153,7 @@ TEST_CASE("help lists every option, and every option listed is understood") {
           "--hide PATH",
           "--show PATH",
           "--color PATH:R,G,B",
+          "--samples N",
           "--device NAME|cpu|gpu|N",
           "--reference",
           "--stats FILE",

@@ -283,6 +283,37 @@ class Browser(unittest.TestCase):
         page.press("slice-close")
         self.assertFalse(page.id("slice").is_displayed())
 
+    def test_planes_differ_and_a_normal_of_zeros_is_said(self):
+        page = self.page
+        page.press("toggle-cut")
+        for _ in range(3):
+            page.press("add-plane")
+        normals = [[abs(v) for v in plane["normal"]] for plane in page.view()["clip"]]
+        self.assertEqual(sorted(normals), [[0, 0, 1], [0, 1, 0], [1, 0, 0]])
+        for axis in "xyz":
+            page.set(f"cut-0-{axis}", "0")
+        page.wait(lambda: "not 0 0 0" in page.text("bar"))
+        page.js("document.querySelector('#note-plane button').click()")
+        self.assertFalse(page.id("bar").is_displayed())
+
+    def test_own_colours_come_back(self):
+        page = self.page
+        page.click(*self.middle)
+        page.js("act.color('/all', [0, 1, 0])")
+        page.idle()
+        self.assertEqual(len(page.view()["looks"]), 1)
+        page.press("selected-own").idle()
+        self.assertEqual(page.view()["looks"], [])
+
+    def test_the_wheel_does_not_pass_what_it_goes_to(self):
+        page = self.page
+        page.keys("5").idle()
+        place, size = page.screen([80, 30, 25]), page.view()["camera"]["view_size"]
+        for _ in range(20):
+            page.mouse("mouseWheel", *place, button="none", deltaX=0, deltaY=-120)
+        page.wait(lambda: page.view()["camera"]["view_size"] < 0.03 * size)
+        self.assertEqual(self.named(*place), "/all/front.r")
+
     def test_the_mouse_moves_the_camera(self):
         page, camera = self.page, lambda: self.page.view()["camera"]
         for perspective in (False, True):
@@ -304,7 +335,8 @@ class Browser(unittest.TestCase):
             page.drag(self.middle, [self.middle[0], self.middle[1] + 600])
             self.assertEqual(camera()["elevation"], 90)
             at, size = [200, 100], camera()["view_size"]
-            under = page.js("return under(csgrt.view.camera, 200, 100)")
+            under = page.js("return ask_pixel(200, 100, true).then(made => "
+                            "under(csgrt.view.camera, 200, 100, depth_of(made.point)))")
             page.mouse("mouseWheel", *at, button="none", deltaX=0, deltaY=-300)
             page.wait(lambda: camera()["view_size"] < size)
             self.assertLess(math.dist(page.screen(under), at), 0.1)

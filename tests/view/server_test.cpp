@@ -172,12 +172,14 @@ TEST_CASE("view: the command draws the page's picture", "[view]") {
                      {{"path", "/operators/plinth@2"}, {"state", "shown"}},
                      {{"path", "/operators/difference"}, {"state", "shown"}, {"color", {0.25, 0.5, 1}}}};
     Folder folder;
-    std::string line = page.ask("command", sized(view))["command"];
+    json request = sized(view);
+    request["samples"] = 4;
+    std::string line = page.ask("command", request)["command"];
     line.replace(0, 5, command_test::command());
     line.replace(line.find("view.png"), 8, folder / "view.exr");
     REQUIRE(printed_by(line) == "");
     const auto pixels = display_pixels(read_image(folder / "view.exr"));
-    CHECK(page.frame(sized(view)).pixels == std::string(pixels.begin(), pixels.end()));
+    CHECK(page.frame(request).pixels == std::string(pixels.begin(), pixels.end()));
 }
 
 TEST_CASE("view: a slice and an EXR are those of Model and Renderer", "[view]") {

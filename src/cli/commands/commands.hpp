@@ -34,6 +34,7 @@ struct RenderArguments : SceneArguments {
     std::string view;  ///< file of a saved view; empty: none
     std::vector<Plane> clip;
     std::vector<Look> looks;
+    int samples = 1;  ///< a pixel
     bool first_hit = false, transparent = false;
     std::string stats;  ///< file, "-" or empty
     int repeat = 1;

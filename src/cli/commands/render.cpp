@@ -138,6 +138,7 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
     if (arguments.settings.max_instances > 0)
         text += " --max-instances " + std::to_string(arguments.settings.max_instances);
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
+    if (arguments.samples > 1) text += " --samples " + std::to_string(arguments.samples);
     for (const Plane& plane : arguments.clip) {
         vector("--clip", plane.normal);
         append_shortest(text += ":", plane.distance);
@@ -226,6 +227,7 @@ Status run(const RenderArguments& arguments) {
     View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
     view.transparent = arguments.transparent;
     view.clip = arguments.clip;
+    view.samples = arguments.samples;
     if (only_colors(arguments)) {
         view.every_partition = false;
         view.channels = channel::color;
