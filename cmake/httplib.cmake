@@ -3,15 +3,18 @@
 # its classes depends on them.
 find_path(CSGRT_httplib_INCLUDE_DIR httplib.h HINTS ${httplib_ROOT} PATH_SUFFIXES include)
 find_library(CSGRT_httplib_LIBRARY cpp-httplib HINTS ${httplib_ROOT} PATH_SUFFIXES lib)
-mark_as_advanced(CSGRT_httplib_INCLUDE_DIR CSGRT_httplib_LIBRARY)
-find_package(ZLIB QUIET)
+# Not FindZLIB, whose names a parent project would see.
+find_path(CSGRT_zlib_INCLUDE_DIR zlib.h HINTS ${zlib_ROOT} PATH_SUFFIXES include)
+find_library(CSGRT_zlib_LIBRARY z HINTS ${zlib_ROOT} PATH_SUFFIXES lib)
+mark_as_advanced(CSGRT_httplib_INCLUDE_DIR CSGRT_httplib_LIBRARY CSGRT_zlib_INCLUDE_DIR CSGRT_zlib_LIBRARY)
 
 set(csgrt_has_httplib OFF)
-if(CSGRT_httplib_INCLUDE_DIR AND ZLIB_FOUND AND NOT CMAKE_CROSSCOMPILING)
+if(CSGRT_httplib_INCLUDE_DIR AND CSGRT_zlib_INCLUDE_DIR AND CSGRT_zlib_LIBRARY AND NOT CMAKE_CROSSCOMPILING)
     set(csgrt_has_httplib ON)
     add_library(csgrt_httplib INTERFACE IMPORTED)
-    target_include_directories(csgrt_httplib SYSTEM INTERFACE ${CSGRT_httplib_INCLUDE_DIR})
-    target_link_libraries(csgrt_httplib INTERFACE ZLIB::ZLIB Threads::Threads)
+    target_include_directories(csgrt_httplib SYSTEM INTERFACE
+        ${CSGRT_httplib_INCLUDE_DIR} ${CSGRT_zlib_INCLUDE_DIR})
+    target_link_libraries(csgrt_httplib INTERFACE ${CSGRT_zlib_LIBRARY} Threads::Threads)
     if(CSGRT_httplib_LIBRARY)
         target_link_libraries(csgrt_httplib INTERFACE ${CSGRT_httplib_LIBRARY})
         target_compile_definitions(csgrt_httplib INTERFACE
