@@ -1,5 +1,6 @@
 #include "asked.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
@@ -134,6 +135,10 @@ Slice read_slice(const Request& request) {
             .width = request.count("width", 1, most_pixels_of_side),
             .height = request.count("height", 1, most_pixels_of_side),
             .hidden = false};
+}
+
+std::string_view name_of(State state) {
+    return std::ranges::find(states, state, &std::pair<std::string_view, State>::second)->first;
 }
 
 Json to_json(const Vec3& v) { return {v.x, v.y, v.z}; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,8 @@ Asked read_asked(const Request& request);
 Slice read_slice(const Request& request);
 
 Json to_json(const Vec3& v);
+/// As requests have it.
+std::string_view name_of(State state);
 
 /// The options of the command that draws the same: " --size 800x600 --azimuth 35 ...".
 std::string command_options(const Asked& asked);

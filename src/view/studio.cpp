@@ -41,13 +41,8 @@ Json to_json(const Model& model, std::int64_t solid) {
     return {{"name", info.name}, {"type", info.type}};
 }
 
-std::string state_name(State state) {
-    return state == State::shown ? "shown" : state == State::ghost ? "ghost" : "hidden";
-}
-
-/// The scene's camera with every member that a page has. A camera that is given by its eye stands upright here.
-Json camera_of(const Model& model) {
-    const Camera camera = model.scene().camera;
+/// A camera with every member that a page has. One that is given by its eye stands upright here.
+Json camera_of(const Model& model, const Camera& camera) {
     double azimuth = camera.azimuth, elevation = camera.elevation, size = camera.view_size.value_or(1000);
     Vec3 center = camera.center.value_or(camera.look_at.value_or(Vec3{}));
     const Box& box = model.bounds();
@@ -138,17 +133,25 @@ private:
 }  // namespace
 
 Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
-    : options_(std::move(options)),
-      settings_([&] {
+    : options_(std::move(options)), current_{.base = model, .paths = paths_of(model)}, renderer_(model, [&] {
           Settings own = settings;
           own.progress = [this](double) { return !wanted_ || (*wanted_)(); };
           return own;
-      }()),
-      current_{.base = model},
-      device_(),
-      renderer_(model, settings_) {
-    current_.paths = paths_of(model);
+      }()) {
     device_ = renderer_.statistics().device;
+    spare_pixels_.reserve(most_spare);
+}
+
+Studio::Lent::Lent(Studio& from) : studio(from) {
+    const std::lock_guard lock(studio.current_mutex_);
+    if (studio.spare_pixels_.empty()) return;
+    pixels = std::move(studio.spare_pixels_.back());
+    studio.spare_pixels_.pop_back();
+}
+
+Studio::Lent::~Lent() {
+    const std::lock_guard lock(studio.current_mutex_);
+    if (studio.spare_pixels_.size() < most_spare) studio.spare_pixels_.push_back(std::move(pixels));
 }
 
 Json Studio::model() const {
@@ -167,7 +170,7 @@ Json Studio::model() const {
                            {"material_id", region.material_id},
                            {"los", region.los},
                            {"color", to_json(region.color)},
-                           {"state", state_name(region.state)},
+                           {"state", name_of(region.state)},
                            {"low", box.is_null() ? box : box["low"]},
                            {"high", box.is_null() ? box : box["high"]}});
     }
@@ -181,20 +184,23 @@ Json Studio::model() const {
              {"count", warning.count}});
     }
     const Scene scene = model.scene();
-    return {
-        {"generation", generation},
-        {"name", options_.name},
-        {"title", scene.title},
-        {"units", scene.units},
-        {"unit_length", scene.unit_length},
-        {"command", options_.command},
-        {"device", device},
-        {"bounds", to_json(model.bounds())},
-        {"view", {{"camera", camera_of(model)}, {"clip", Json::array()}, {"looks", Json::array()}, {"show", "color"}}},
-        {"regions", std::move(regions)},
-        {"warnings", std::move(warnings)},
-        {"exr", bool(options_.write_exr)},
-        {"error", error.empty() ? Json(nullptr) : Json(error)}};
+    return {{"generation", generation},
+            {"name", options_.name},
+            {"title", scene.title},
+            {"units", scene.units},
+            {"unit_length", scene.unit_length},
+            {"command", options_.command},
+            {"device", device},
+            {"bounds", to_json(model.bounds())},
+            {"view",
+             {{"camera", camera_of(model, scene.camera)},
+              {"clip", Json::array()},
+              {"looks", Json::array()},
+              {"show", "color"}}},
+            {"regions", std::move(regions)},
+            {"warnings", std::move(warnings)},
+            {"exr", bool(options_.write_exr)},
+            {"error", error.empty() ? Json(nullptr) : Json(error)}};
 }
 
 Json Studio::status() const {
@@ -208,7 +214,7 @@ Studio::Dressed Studio::model_with(const std::vector<Look>& looks) {
     std::string key;
     for (const Look& look : looks) {
         key += look.path + '\n';
-        if (look.state) key += state_name(*look.state);
+        if (look.state) key += name_of(*look.state);
         if (look.color) key += bytes_of(&*look.color, 1);
         key += '\n';
     }
@@ -238,16 +244,17 @@ bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_w
     while (!lock.try_lock_for(turn))
         if (!is_wanted()) return false;
     if (!is_wanted()) return false;
-    wanted_ = &is_wanted;
+    struct Wanted {
+        const std::function<bool()>*& by_renderer;
+        ~Wanted() { by_renderer = nullptr; }
+    } wanted{wanted_ = &is_wanted};
     try {
         renderer_.set_model(model);
         draw();
     } catch (const Error& error) {
-        wanted_ = nullptr;
         if (error.status() != Status::interrupted) throw;
         return false;
     }
-    wanted_ = nullptr;
     const std::lock_guard current(current_mutex_);
     device_ = renderer_.statistics().device;
     return true;
@@ -274,7 +281,6 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
         const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
         send(little_endian(static_cast<std::uint32_t>(text.size())) + text);
     };
-    std::vector<std::uint32_t> pixels;
     try {
         const auto [model, generation] = studio->model_with(asked.looks);
         const bool has_ghosts =
@@ -286,13 +292,8 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
                      {"samples", asked.view.samples},
                      {"generation", generation},
                      {"encoding", deflates ? "deflate" : "raw"}};
-        {
-            const std::lock_guard lock(studio->current_mutex_);
-            if (!studio->spare_pixels_.empty()) {
-                pixels = std::move(studio->spare_pixels_.back());
-                studio->spare_pixels_.pop_back();
-            }
-        }
+        Lent lent(*studio);
+        std::vector<std::uint32_t>& pixels = lent.pixels;
         pixels.resize(static_cast<std::size_t>(asked.view.width) * static_cast<std::size_t>(asked.view.height));
         if (!studio->with_renderer(model, is_newest, [&] {
                 studio->renderer_.render(asked.view, studio->framebuffer_);
@@ -306,12 +307,10 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
         send(deflates ? std::string_view(packed)
                       : std::string_view(reinterpret_cast<const char*>(pixels.data()), 4 * pixels.size()));
     } catch (const Error& error) {
-        return send_head({{"error", error.what()}});
+        send_head({{"error", error.what()}});
     } catch (const std::bad_alloc&) {
-        return send_head({{"error", "not enough memory for this picture"}});
+        send_head({{"error", "not enough memory for this picture"}});
     }
-    const std::lock_guard lock(studio->current_mutex_);
-    if (studio->spare_pixels_.size() < most_spare) studio->spare_pixels_.push_back(std::move(pixels));
 }
 
 Json Studio::pick(const Request& request) {

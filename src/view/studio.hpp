@@ -69,16 +69,25 @@ private:
         std::uint64_t generation;
     };
     Dressed model_with(const std::vector<Look>& looks);
-    /// Calls draw(renderer, framebuffer) when no other frame is drawn; false: it was given up.
+    /// Calls draw() when no other frame is drawn, and the Renderer has the model; false: it was given up.
     bool with_renderer(const Model& model, const std::function<bool()>& is_wanted, const std::function<void()>& draw);
 
+    /// Pixels of a frame before, which are there for the next again when they have been sent or given up.
+    struct Lent {
+        explicit Lent(Studio& from);
+        ~Lent();
+        Lent(const Lent&) = delete;
+        Lent& operator=(const Lent&) = delete;
+        Studio& studio;
+        std::vector<std::uint32_t> pixels = {};
+    };
+
     const ViewerOptions options_;
-    const Settings settings_;
     mutable std::mutex current_mutex_;
     Current current_;
     std::string device_;  ///< what drew last; under current_mutex_, too
     std::map<std::string, std::shared_ptr<std::atomic<std::uint64_t>>> pages_;
-    /// Of frames that were sent, for the next: new memory takes the system longer than a GPU takes for the picture.
+    /// New memory takes the system longer than a GPU takes for the picture.
     std::vector<std::vector<std::uint32_t>> spare_pixels_;
 
     std::timed_mutex drawing_;

@@ -62,7 +62,6 @@ public:
             if (!request.contains(key)) request[key] = value;
         return split_frame(post("frame", request)->body);
     }
-    void stop() { viewer_.stop(); }
 
 private:
     Viewer viewer_;

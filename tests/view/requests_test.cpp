@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
-#include <fstream>
 #include <random>
 
 #include <linux/filter.h>

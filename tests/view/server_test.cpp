@@ -313,7 +313,6 @@ TEST_CASE("view: wrong requests are refused with a sentence that names the membe
     CHECK_THAT(refused("command", right, "/view/show", "colour"), Contains("show: there is no 'colour'"));
     CHECK_THAT(refused("command", right, "/view/looks", {{{"path", 1}}}), Contains("view.looks[0].path: expected"));
     CHECK_THAT(refused("command", right, "/view", 1), Contains("view: expected an object"));
-    const auto client = page.client();
     CHECK(page.client().Post(page.root() + "api/model", "{", "application/json")->status == 400);
     CHECK(page.client().Post(page.root() + "api/model", std::string(1'100'000, ' '), "application/json")->status ==
           413);

@@ -133,11 +133,7 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
     if (arguments.settings.quartic != Quartic::bracketed)
         text.append(" --quartic ").append(name_of(quartic_names, arguments.settings.quartic));
     if (arguments.settings.contraction) text += " --contraction on";
-    if (arguments.settings.air) text += " --air";
-    if (arguments.load.strict) text += " --strict";
-    if (arguments.settings.max_instances > 0)
-        text += " --max-instances " + std::to_string(arguments.settings.max_instances);
-    if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
+    text += model_options(arguments);
     if (arguments.samples > 1) text += " --samples " + std::to_string(arguments.samples);
     for (const Plane& plane : arguments.clip) {
         vector("--clip", plane.normal);

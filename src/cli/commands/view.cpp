@@ -13,6 +13,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/text/partitions.hpp"
+#include "cli/text/scene.hpp"
 #include "view/functions.hpp"
 
 extern char** environ;
@@ -41,12 +42,8 @@ const ViewFunctions& view_functions() {
 std::string words_of(const ViewArguments& arguments) {
     std::string text = shell_word(arguments.scene == "-" ? "SCENE" : arguments.scene);
     for (const std::string& object : arguments.objects) text += " " + shell_word(object);
-    if (arguments.settings.air) text += " --air";
-    if (arguments.load.strict) text += " --strict";
-    if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
+    text += model_options(arguments);
     for (const std::string& folder : arguments.load.file_folders) text += " --allow-files " + shell_word(folder);
-    if (arguments.settings.max_instances > 0)
-        text += " --max-instances " + std::to_string(arguments.settings.max_instances);
     if (arguments.settings.tolerance_rule != Tolerance::length)
         text.append(" --tolerance ").append(name_of(tolerance_names, arguments.settings.tolerance_rule));
     else if (arguments.settings.tolerance >= 0)
