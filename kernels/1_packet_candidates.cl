@@ -22,7 +22,7 @@ static ray_packet packet_of(__global const Frame* f, __global const RayRecord* r
     p.number = first_of_packet(number_of(f, listed, id));
     first = pixel_of(p.number, f->screen);
     p.rays = rays_through(f, first);
-    p.t_min = range_in_view(f, p.rays).near;
+    p.t_min = range_in_view(f, p.rays).from;
     p.t_max = (double8)REAL_INFINITY;
     p.within = first.inside ? rays_inside(f, first) : 0;
     return p;
@@ -42,8 +42,8 @@ static packet_walk start_walk(__global const Frame* f, __global const BvhNode* n
                               ray_packet p) {
     packet_walk w;
     w.slabs = make_slab_ray(offset_from(packet_make_wide3(f->center[0], f->center[1], f->center[2]), p.rays.o),
-                            p.rays.d, f->radius, p.t_min);
-    w.range_end = end_of_range(w.slabs, f->radius, p.t_max);
+                            p.rays.d, f->radius, f->whole_lines ? (double8)(-REAL_INFINITY) : p.t_min);
+    w.range_end = end_of_range(w.slabs, f->radius, f->whole_lines ? (double8)(REAL_INFINITY) : p.t_max);
     w.nodes = nodes;
     w.next = lists ? list_of(f, lists, p.number) : 0;
     w.active_mask = bits_of(w.slabs.hits_sphere) & p.within;

@@ -9,6 +9,7 @@
 // to cover. A launch passes a limited number of ends, so that it is short, and the next goes on.
 #include "traversal/camera.h"
 #include "boolean/status_tree.h"
+#include "geometry/beyond.h"
 
 #define FIELD_IN_END 0u
 #define FIELD_NEXT 2u
@@ -109,7 +110,7 @@ __kernel void merge_deep_runs(__global const DeepRay* deep, u32 count, u32 block
     }
 }
 
-// Status trees of rays, each three times, where no solid covers: functions of clusters, then the set of regions.
+// Status trees of rays, each SIDES times, where no solid covers: functions of clusters, then the set of regions.
 __kernel void clear_status(__global const u32* outside, u32 cluster_words, u32 words, u32 count, __global u32* status) {
     const u32 id = (u32)get_global_id(0);
     if (id < count) status[id] = id % words < cluster_words ? outside[id % words] : 0;
@@ -123,40 +124,39 @@ typedef struct {
     u32 cluster_words, regions;
 } status_tree;
 
-// Opens or closes a segment: its solid begins or ends to cover, if it is the only open one.
-static void change_cover(status_tree tree, u32 solid, u32 opens, __global u32* covers, __global u32* status) {
-    const u32 count = *covers;
+// Opens or closes a segment: its solid begins or ends to cover, if it is the only open one. Returns whether it does.
+static u32 change_cover(status_tree tree, u32 solid, u32 opens, __global u32* covers, __global u32* status) {
+    const u32 count = *covers, changes = count == !opens;
     *covers = opens ? count + 1 : count - 1;
-    if (count == !opens) {
+    if (changes) {
         u32 leaf;
         for (leaf = tree.first_leaves[solid]; leaf < tree.first_leaves[solid + 1]; ++leaf) {
             const u32 region = change_leaf(status, tree.links, tree.leaves[leaf] >> 2, tree.leaves[leaf] & 3u);
             if (region != NONE) toggle(status + tree.cluster_words, tree.regions, region);
         }
     }
+    return changes;
 }
 
-// As evaluate: PartitionNode.owner of what is open.
-static u32 deep_owner(status_tree tree, __global const u32* ranks, __global const u32* status, u32 words, u32 sides) {
-    u32 side, least = NONE, touched = NONE, overlap = 0;
-    for (side = 0; side < sides; ++side) {
+// As find_claim_beside: PartitionNode.owner of what is open. `first`, `end`: of the sides.
+static u32 deep_owner(status_tree tree, __global const u32* ranks, __global const u32* status, u32 words, u32 first,
+                      u32 end, u32 beyond) {
+    u32 side, owner = NONE, is_overlap = 0;
+    for (side = first; side < end; ++side) {
         __global const u32* const set = status + side * words + tree.cluster_words;
-        const u32 first = member_from(set, tree.regions, 0);
-        if (side == 0) touched = first;
-        if (sides == 1 || side > 0) {
-            if (first < least) least = first;
-            if (first != NONE && !overlap) {
-                const u32 other = member_from(set, tree.regions, first + 1);
-                if (other != NONE && same_rank(ranks, first, other)) overlap = OVERLAP;
-            }
-        }
+        const u32 least = member_from(set, tree.regions, 0);
+        const u32 other = least != NONE ? member_from(set, tree.regions, least + 1) : NONE;
+        const u32 overlaps = other != NONE && same_rank(ranks, least, other);
+        if (least > owner || (missed_on(side) & beyond)) continue;
+        is_overlap = overlaps || (is_overlap && least == owner);
+        owner = least;
     }
-    return (least != NONE ? least : touched) | overlap;
+    return owner | (is_overlap ? OVERLAP : 0u);
 }
 
 // Before the first event: no segment is open.
-static u32 start_deep_ray(__global const End* ends, u32 count, __global DeepSegment* of_segment) {
-    u32 i, first = 0, solid = NONE, marked = 0;
+static u32 start_deep_ray(__global const End* ends, u32 count, u32 beyond, __global DeepSegment* of_segment) {
+    u32 i, side, first = 0, solid = NONE, marked = 0;
     for (i = 0; i < count; ++i) {
         const End end = ends[2 * i];
         DeepSegment s;
@@ -166,10 +166,11 @@ static u32 start_deep_ray(__global const End* ends, u32 count, __global DeepSegm
         }
         marked |= end.surface & MISSED;
         s.first = first;
-        s.is_open = s.covers[0] = s.covers[1] = s.covers[2] = 0;
+        s.is_open = 0;
+        for (side = 0; side < SIDES; ++side) s.covers[side] = 0;
         of_segment[i] = s;
     }
-    return marked ? 3 : 1;
+    return marked || beyond ? SIDES : 1u;
 }
 
 // Passes over the ends of the next event, from swept.at on: its segments will change sides at once.
@@ -196,8 +197,8 @@ static void find_event(DeepRay* swept, u32 end_count, real tolerance, __global E
 }
 
 // One work-item a deep ray from `first_ray` on. `limit`: how many ends a launch takes at most, each of which may change
-// all of the status tree that stands above it. `status`: of clear_status, for the ray as it is and moved above and
-// below the faces that it runs in; when a ray is through, it is as it was, for the next ray.
+// all of the status tree that stands above it. `status`: of clear_status, for each side of the ray; when a ray is
+// through, it is as it was, for the next ray.
 __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRecord* rays, __global const u32* listed,
                               __global DeepRay* deep, u32 first_ray, u32 first_segment, u32 count,
                               __global const RayCount* offsets, __global End* all_ends,
@@ -206,7 +207,7 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
                               __global const u32* first_leaves, __global const u32* leaves, u32 limit,
                               __global RayTally* tallies) {
     const u32 id = (u32)get_global_id(0), words = cluster_words + words_of_set(regions);
-    u32 end_count, stop;
+    u32 end_count, stop, beyond;
     DeepRay swept;
     RayCount offset;
     status_tree tree;
@@ -223,16 +224,17 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
     end_count = 2 * (offsets[swept.ray + 1].segments - offset.segments);
     if (swept.changed == end_count || !ray_of(frame, rays, number_of(frame, listed, swept.ray), &r, &wanted)) return;
     tolerance = tolerance_along(frame, r);
+    beyond = sides_beyond(frame, r);
     ends = all_ends + 2 * (size_t)offset.segments;
     list = all_nodes + 2 * (size_t)offset.segments;
     of_segment = all_segments + (swept.segment - first_segment);
-    status = all_status + 3 * (size_t)id * words;
+    status = all_status + SIDES * (size_t)id * words;
     tree.links = links;
     tree.first_leaves = first_leaves;
     tree.leaves = leaves;
     tree.cluster_words = cluster_words;
     tree.regions = regions;
-    if (swept.changed == 0) swept.sides = start_deep_ray(ends, end_count / 2, of_segment);
+    if (swept.changed == 0) swept.sides = start_deep_ray(ends, end_count / 2, beyond, of_segment);
     stop = end_count - swept.changed > limit ? swept.changed + limit : end_count;
     while (swept.changed < stop) {
         if (swept.changed == swept.at) find_event(&swept, end_count, tolerance, ends, list, of_segment);
@@ -244,17 +246,19 @@ __kernel void sweep_deep_rays(__global const Frame* frame, __global const RayRec
                 __global u32* const covers = of_segment[of_segment[segment].first].covers;
                 u32 side;
                 of_segment[segment].is_open = is_open == 1u ? 3u : 0u;
-                swept.open_segments = is_open == 1u ? swept.open_segments + 1 : swept.open_segments - 1;
                 for (side = 0; side < swept.sides; ++side)
-                    if (!(side == 1 ? end.surface & MISSED_ABOVE : side == 2 ? end.surface & MISSED_BELOW : 0u))
-                        change_cover(tree, end.solid, is_open == 1u, covers + side, status + side * words);
+                    if (!(end.surface & missed_on(side)) &&
+                        change_cover(tree, end.solid, is_open == 1u, covers + side, status + side * words) && side == 0)
+                        swept.open_solids = is_open == 1u ? swept.open_solids + 1 : swept.open_solids - 1;
             }
         }
         if (swept.changed < swept.at || (swept.in_end == NONE && swept.out_end == NONE)) continue;
         if (swept.open != NONE) list[swept.open].out_end = swept.out_end != NONE ? swept.out_end : swept.in_end;
-        if (swept.open_segments) {
+        if (swept.open_solids) {
+            const u32 moved = swept.sides > 1 && (swept.open_solids > 1 || beyond);
             list[swept.event].in_end = swept.in_end != NONE ? swept.in_end : swept.out_end;
-            list[swept.event].owner = deep_owner(tree, frame->rank_ends, status, words, swept.sides);
+            list[swept.event].owner =
+                deep_owner(tree, frame->rank_ends, status, words, moved, moved ? SIDES : 1u, beyond);
             if (swept.last != NONE) list[swept.last].next = swept.event;
             swept.last = swept.open = swept.event;
             ++swept.partitions;

@@ -5,10 +5,12 @@
 // plates, these before its volumes, and air comes last; regions of one rank come in the model's order. A rule that
 // looked at the partition before would depend on the ray's direction.
 #include "boolean/claim.h"
+#include "geometry/beyond.h"
+#include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"
 
-// `c` comes with the scene's tables; the rest of it is set here.
+// `c` comes with the scene's tables and the ray's `beyond`; the rest of it is set here.
 static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __global const RayCount* offsets,
                     __global const End* all_ends, __global const u32* all_bits) {
     const RayCount offset = offsets[ray];
@@ -20,8 +22,7 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.bits = all_bits + offset.words + (id - 2 * offset.segments) * words_of(c.segments);
     list_covered(c, &covered);
-    // Not along an edge of it: beside it there is nothing then, and so no overlap.
-    if (covered.count == 1 && covered.missed != MISSED) owner = c.solids[covered.solids[0]].alone;
+    if (covered.count == 1 && !c.beyond) owner = c.solids[covered.solids[0]].alone;
     if (owner == ALONE_UNKNOWN) {
         const claim found = find_claim_beside(c, c.bits, &covered, ranks, all_solids());
         owner = found.least | (found.other != NONE ? OVERLAP : 0u);
@@ -29,8 +30,9 @@ static u32 owner_of(__global const u32* ranks, cover c, u32 id, u32 ray, __globa
     return owner;
 }
 
-__kernel void evaluate(__global const Frame* frame, EVALUATION_ARGS, __global const RayCount* offsets,
-                       __global const End* all_ends, __global const u32* all_bits, __global PartitionNode* nodes) {
+__kernel void evaluate(__global const Frame* frame, EVALUATION_ARGS, __global const RayRecord* rays,
+                       __global const u32* listed, __global const RayCount* offsets, __global const End* all_ends,
+                       __global const u32* all_bits, __global PartitionNode* nodes) {
     const u32 id = (u32)get_global_id(0);
     u32 ray;
     cover c;
@@ -40,5 +42,11 @@ __kernel void evaluate(__global const Frame* frame, EVALUATION_ARGS, __global co
     c.solids = solids;
     c.starts = starts;
     c.trees = trees;
+    c.beyond = 0;
+    if (frame->clip_count) {
+        ray3 r;
+        ray_range wanted;
+        if (ray_of(frame, rays, number_of(frame, listed, ray), &r, &wanted)) c.beyond = sides_beyond(frame, r);
+    }
     nodes[id].owner = owner_of(frame->rank_ends, c, id, ray, offsets, all_ends, all_bits);
 }

@@ -27,15 +27,15 @@ __kernel void shade(__global const Frame* frame, GEOMETRY_ARGS, APPEARANCE_ARGS,
     ends += 2 * (size_t)offsets[id].segments;
     {
         // The first claimed partition of which a part is in the range.
-        const real near = parameter_at(r, visible.near), far = parameter_at(r, visible.far);
+        const real after = parameter_at(r, visible.after), before = parameter_at(r, visible.before);
         const u32 seen_end = frame->rank_ends[RANK_AIR];
         u32 next;
         for (next = first_partition(nodes, offsets[id + 1].segments - offsets[id].segments); next != NONE;
              next = nodes[next].next) {
             const u32 region = nodes[next].owner;
             tally.overlaps += (region & OVERLAP) != 0;
-            if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > near &&
-                ends[nodes[next].in_end].t < far && near < far)
+            if (seen == NONE && (region & ~OVERLAP) < seen_end && ends[nodes[next].out_end].t > after &&
+                ends[nodes[next].in_end].t < before && after < before)
                 seen = next;
         }
     }

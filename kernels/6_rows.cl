@@ -110,7 +110,7 @@ static cover cover_of(OverlapPiece piece, __global const SolidRecord* solids, RE
     c.segments = offsets[piece.ray + 1].segments - offset.segments;
     c.ends = ends + 2 * (size_t)offset.segments;
     c.bits = bits + offset.words + piece.node * words_of(c.segments);
-    c.missed = 0;
+    c.missed = c.beyond = 0;
     c.marked = 1;
     c.solids = solids;
     c.starts = starts;

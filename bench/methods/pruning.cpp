@@ -291,10 +291,12 @@ private:
             }
             if (covering.empty()) continue;
             ++memory.partitions;
-            const bool marked = std::any_of(covering.begin(), covering.end(), [](const auto& s) { return s.missed; });
-            std::uint32_t region = NONE;
-            if (marked) region = std::min(claim(MISSED_ABOVE, memory), claim(MISSED_BELOW, memory));
-            claimed[step] = region != NONE ? region : claim(0, memory);
+            const auto any = [&](const auto& is) { return std::any_of(covering.begin(), covering.end(), is); };
+            const bool moved = any([](const auto& s) { return s.missed; }) &&
+                               any([&](const auto& s) { return s.solid != covering[0].solid; });
+            claimed[step] = NONE;
+            for (std::uint32_t side = moved; side < (moved ? SIDES : 1u); ++side)
+                claimed[step] = std::min(claimed[step], claim(kernel::missed_on(side), memory));
         }
         return stretches_of(events, claimed);
     }

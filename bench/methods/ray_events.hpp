@@ -34,14 +34,6 @@ private:
     std::vector<std::uint32_t> order_, event_of_;
 };
 
-/// The rule of contact (kernels/boolean/claim.h): a ray that runs in a face is looked at as it is, and moved to either
-/// side of the face, where it misses solids. The region that comes first on either side has the step, else the one that
-/// claims it as it is. NONE: nothing does.
-inline std::uint32_t owner(std::uint32_t as_it_is, std::uint32_t above, std::uint32_t below) {
-    const std::uint32_t beside = std::min(above, below);
-    return beside != NONE ? beside : as_it_is;
-}
-
 /// Appends a stretch, or lengthens the last one if it is of the same region and touches it.
 void append(Sequence& stretches, const Stretch& next);
 /// Of each step the region that claims it, or NONE -> the ray's stretches.

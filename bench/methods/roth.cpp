@@ -253,23 +253,40 @@ private:
         RayEvents events;
         SolidLists solids;
         Combiner combiner;
-        std::vector<std::uint32_t> regions, claimed[3];
+        std::vector<std::uint32_t> regions, claimed[2], first;
+        std::vector<std::uint8_t> moved;
     };
 
     Sequence trace(const Ray& ray, Memory& memory) const {
         RayEvents& events = memory.events;
         events.find(rays_, ray);
-        auto& [as_it_is, above, below] = memory.claimed;
-        classify(0, as_it_is, memory);
+        auto& [owners, here] = memory.claimed;
+        classify(0, owners, memory);
         if (events.marked) {
-            classify(MISSED_ABOVE, above, memory);
-            classify(MISSED_BELOW, below, memory);
             // Steps that no marked segment covers are the same on all sides.
+            const auto for_touched = [&events](const auto& change) {
+                for (const RayEvents::Segment& segment : events.segments)
+                    for (std::uint32_t step = segment.in; segment.missed && step < segment.out; ++step) change(step);
+            };
+            // Where two solids are, and so two sides.
+            std::vector<std::uint32_t>& first = memory.first;
+            std::vector<std::uint8_t>& moved = memory.moved;
+            first.assign(events.steps(), NONE);
+            moved.assign(events.steps(), 0);
             for (const RayEvents::Segment& segment : events.segments)
-                for (std::uint32_t step = segment.in; segment.missed && step < segment.out; ++step)
-                    as_it_is[step] = owner(as_it_is[step], above[step], below[step]);
+                for (std::uint32_t step = segment.in; step < segment.out; ++step) {
+                    moved[step] = moved[step] || (first[step] != NONE && first[step] != segment.solid);
+                    first[step] = segment.solid;
+                }
+            for_touched([&](std::uint32_t step) { owners[step] = moved[step] ? NONE : owners[step]; });
+            for (std::uint32_t side = 1; side < SIDES; ++side) {
+                classify(kernel::missed_on(side), here, memory);
+                for_touched([&](std::uint32_t step) {
+                    if (moved[step]) owners[step] = std::min(owners[step], here[step]);
+                });
+            }
         }
-        return stretches_of(events, as_it_is);
+        return stretches_of(events, owners);
     }
 
     /// Of each step the least region that claims it.

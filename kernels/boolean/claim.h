@@ -16,14 +16,15 @@ typedef struct {
     ENDS const End* ends;
     ENDS const u32* bits;
     u32 segments;
-    u32 missed;  // MISSED_...: segments whose ends have any of these do not cover it
+    u32 missed;  // missed_on() a side: segments that miss it do not cover
     u32 marked;  // 0: no segment has MISSED_... set
+    u32 beyond;  // MISSED_...: sides that a plane of the view takes away
     GLOBAL const SolidRecord* solids;
     GLOBAL const StartRecord* starts;
     GLOBAL const u32* trees;
 } cover;
 
-FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.ends[2 * segment].surface & c.missed); }
+FN u32 is_missed(cover c, u32 segment) { return c.missed && c.missed && (c.ends[2 * segment].surface & c.missed); }
 FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
 // The solids that cover a partition: a list if they are few, and a filter (as Bloom's) that most others do not pass.
@@ -319,39 +320,38 @@ FN claim find_claim(cover c, ENDS const u32* starting, const covered_solids* lis
     return found;
 }
 
+// Is it one solid, with one segment or several?
+FN u32 is_one_solid(const covered_solids* list) {
+    u32 i;
+    for (i = 1; i < list->count && i < FEW && list->solids[i] == list->solids[0]; ++i) {
+    }
+    return i == list->count;
+}
+
 // As find_claim, also for a ray that runs in a face of a covering solid. `list`: the solids that c.bits cover,
 // overwritten here.
 //
-// Such a ray is looked at three times: as it is, and moved to either side of the face's plane. Beside the plane it is
-// within one of the solids that meet there. So parts that touch do not overlap, and at a contact the first region has
-// the partition. Regions overlap if they do so on one side. A ray along an edge of a solid may miss it on both sides:
-// then what it touches claims. The two sides are those of one direction (faces_above), so they are the same for all
-// faces that meet in an edge.
+// Such a ray is moved to each of four sides, which are the same for all solids: above, below, left and right. There it
+// is within one of the solids that meet in a face, so parts that touch do not overlap, and what both have in common is
+// empty. The first region of any side has the partition, and an overlap is that of its side. Around an edge there are
+// as many wedges as faces meet there; solids that fill less than a quarter of the turn may be on none of the sides. But
+// a solid that is touched alone has the ray in any case.
 FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
                            SolidFilter changed) {
-    const u32 marked = list->missed;
-    claim touched, found;
-    u32 step = 0;
-    c.missed = 0;
-    found.least = found.other = touched.least = touched.other = NONE;
-    do {
-        claim side;
-        if (step > 0) {
-            c.missed = step == 1 ? MISSED_ABOVE : MISSED_BELOW;
-            list_covered(c, list);
-        }
-        side = find_claim(c, starting, list, ranks, changed);
-        if (step == 0) {
-            touched = side;
-        } else {
-            found.other = side.other != NONE ? side.other : found.other;
-            found.least = side.least < found.least ? side.least : found.least;
-        }
-        ++step;
-    } while (marked && step < 3);
-    if (marked) touched.other = found.other;
-    if (found.least != NONE) touched.least = found.least;
-    return touched;
+    const u32 moved = c.beyond || (list->missed && !is_one_solid(list)) ? 1u : 0u, beyond = c.beyond;
+    claim found;
+    u32 side;
+    found.least = found.other = NONE;
+    for (side = moved; side < (moved ? SIDES : 1u); ++side) {
+        claim here;
+        c.missed = missed_on(side);
+        if (moved) list_covered(c, list);
+        here = find_claim(c, starting, list, ranks, changed);
+        if ((here.least < found.least || (here.least == found.least && here.other < found.other)) &&
+            !(c.missed & beyond))
+            found = here;
+    }
+    return found;
 }
 
 #endif

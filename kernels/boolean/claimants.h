@@ -28,20 +28,25 @@ FN u32 list_claims(cover c, GLOBAL u32* found) {
     return count;
 }
 
-// Two for a ray that runs in a face of a covering solid; else both sides are one.
-FN u32 contact_sides(cover c) {
+// The first of the sides that are to be looked at, and the end of them: the ray as it is, or the sides that it has.
+typedef struct {
+    u32 first, end;
+} side_range;
+FN side_range sides_of(cover c) {
     covered_solids covered;
+    side_range sides;
     c.missed = 0;
     list_covered(c, &covered);
-    return covered.missed ? 2u : 1u;
+    sides.first = covered.missed && !is_one_solid(&covered) ? 1u : 0u;
+    sides.end = sides.first ? SIDES : 1u;
+    return sides;
 }
-FN u32 missed_on(u32 side) { return side == 0 ? MISSED_ABOVE : MISSED_BELOW; }
 
 // At most so many numbers all_claimants() stores on the way.
 FN u32 claims_at_most(cover c) {
-    const u32 sides = contact_sides(c);
+    const side_range sides = sides_of(c);
     u32 side, count = 0;
-    for (side = 0; side < sides; ++side) {
+    for (side = sides.first; side < sides.end; ++side) {
         c.missed = missed_on(side);
         count += list_claims(c, 0);
     }
@@ -73,19 +78,22 @@ FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
     return kept;
 }
 
-// The claimants of the first one's rank, ascending, on one side at least of a contact; a region that is alone on its
-// side is none of them. Returns how many; `found` has room for claims_at_most().
+// The claimants of the first one's rank, ascending, on the side that find_claim_beside() takes. Returns how many;
+// `found` has room for claims_at_most().
 FN u32 all_claimants(cover c, GLOBAL const u32* ranks, GLOBAL u32* found) {
-    const u32 sides = contact_sides(c);
-    u32 side, kept = 0;
-    for (side = 0; side < sides; ++side) {
+    const side_range sides = sides_of(c);
+    u32 side, kept = 0, i;
+    for (side = sides.first; side < sides.end; ++side) {
+        GLOBAL u32* const here = found + kept;
         u32 count, of_rank = 0;
         c.missed = missed_on(side);
-        count = sort_numbers(found + kept, list_claims(c, found + kept));
-        while (of_rank < count && same_rank(ranks, found[kept], found[kept + of_rank])) ++of_rank;
-        if (of_rank > 1) kept += of_rank;
+        count = sort_numbers(here, list_claims(c, here));
+        while (of_rank < count && same_rank(ranks, here[0], here[of_rank])) ++of_rank;
+        if (of_rank < 2 || (kept > 0 && !(here[0] < found[0] || (here[0] == found[0] && here[1] < found[1])))) continue;
+        for (i = 0; i < of_rank; ++i) found[i] = here[i];
+        kept = of_rank;
     }
-    return sort_numbers(found, kept);
+    return kept;
 }
 
 #endif

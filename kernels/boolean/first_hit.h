@@ -35,6 +35,7 @@ typedef struct {
     u32 from_within;               // it begins where a solid ends
     u32 goes_on;                   // the same region claims what is before it
     u32 marked;                    // has any segment so far MISSED_... set?
+    u32 beyond;                    // see cover
 } sweep;
 
 typedef struct {
@@ -50,7 +51,7 @@ typedef struct {
 FN void start_sweep(sweep* w) {
     u32 i;
     for (i = 0; i < SLOT_WORDS; ++i) w->used[i] = w->open[i] = w->starts[i] = w->entry[i] = w->exit[i] = 0;
-    w->from_within = w->goes_on = w->marked = 0;
+    w->from_within = w->goes_on = w->marked = w->beyond = 0;
     w->region = NONE;
     w->next_event = REAL_INFINITY;
 }
@@ -102,7 +103,7 @@ FN int take_solid(sweep* w, Geometry g, u32 index, ray3 r, real t_min) {
 
 // The claim where one segment alone covers; ALONE_UNKNOWN: several do, or the solid's terms have to be looked at.
 FN u32 claim_of_one(const sweep* w, scene_tables s) {
-    u32 i, several = 0, slot = NONE;
+    u32 i, several = w->beyond, slot = NONE;
     for (i = 0; i < SLOT_WORDS; ++i) {
         const u32 bits = w->open[i];
         several |= bits & (bits - 1u);
@@ -127,6 +128,7 @@ FN u32 first_claim(const sweep* w, scene_tables s, SolidFilter changed) {
         c.segments = SWEEP_SEGMENTS;
         c.missed = 0;
         c.marked = w->marked;
+        c.beyond = w->beyond;
         c.solids = s.g.solids;
         c.starts = s.starts;
         c.trees = s.trees;
@@ -191,14 +193,14 @@ FN int is_complete(const sweep* w, real tolerance, real horizon) {
 }
 
 // Passes all events that are complete. 1: the first partition to be seen is known.
-FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizon) {
+FN int advance(sweep* w, scene_tables s, real tolerance, real after, real horizon) {
     int found = 0, going = is_complete(w, tolerance, horizon);
     while (going) {
         const real t = w->next_event;
         event e = pass_event(w, tolerance);
         const int matters = w->region == NONE ? e.begins != 0 : e.in.solid != NONE || e.out.solid != NONE;
-        // What ends before t_min is not seen.
-        found = matters && w->region != NONE && t > t_min;
+        // What ends there or before is not seen.
+        found = matters && w->region != NONE && t > after;
         if (matters && !found) {
             const u32 before = w->region;
             if (w->region != NONE) e.changed = all_solids();
@@ -207,7 +209,7 @@ FN int advance(sweep* w, scene_tables s, real tolerance, real t_min, real horizo
             w->from_within = e.in.solid == NONE;
             w->seen = w->from_within ? e.out : e.in;
             w->seen.t = t;
-            found = w->region != NONE && t > t_min;
+            found = w->region != NONE && t > after;
         }
         going = !found && is_complete(w, tolerance, horizon);
     }
@@ -225,14 +227,17 @@ FN float event_distance(const sweep* w, real tolerance, wide offset) {
     return w->next_event < REAL_INFINITY ? (float)((wide)(w->next_event + tolerance) - offset) : BOX_MISSED;
 }
 
-// `next`: the nodes of the ray's tile. What ends before `near` is not seen.
-FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real near, sweep* w) {
+// `next`: the nodes of the ray's tile. What ends before `from` is not wanted, and what ends at `after` or before not
+// seen. `beyond`: see cover.
+FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* next, ray3 r, real from, real after,
+                 u32 beyond, sweep* w) {
     const real tolerance = tolerance_along(f, r);
-    const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), near);
+    const slab_ray slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), from);
     const wide offset = offset_along(f, r);
     bvh_cursor cursor = bvh_over(0);
     u32 solid = 0, end = f->unbounded_count, leaf, result = RAY_GOES_ON;
     start_sweep(w);
+    w->beyond = beyond;
     // All rays of a tile come to its next node together, so that the work-items of a warp test the same solids. Loops
     // have one way out, here and in the functions that they call: work-items that leave a loop in several ways stay
     // divergent.
@@ -240,7 +245,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         TileNode e;
         do {
             for (; solid < end && result == RAY_GOES_ON; ++solid)
-                if (!take_solid(w, s.g, solid, r, near)) result = RAY_OVERFLOWS;
+                if (!take_solid(w, s.g, solid, r, from)) result = RAY_OVERFLOWS;
             leaf = next_leaf(slabs, s.nodes, &cursor);
             solid = leaf >> BVH_LEAF_SHIFT;
             end = solid + (leaf & BVH_LEAF_MASK);
@@ -249,7 +254,7 @@ FN u32 first_hit(GLOBAL const Frame* f, scene_tables s, GLOBAL const TileNode* n
         if (e.node != NONE) ++next;
         if (result == RAY_GOES_ON && (e.entry > event_distance(w, tolerance, offset) || e.node == NONE)) {
             const real horizon = e.node == NONE ? REAL_INFINITY : REAL((wide)e.entry + offset);
-            if (advance(w, s, tolerance, near, horizon)) {
+            if (advance(w, s, tolerance, after, horizon)) {
                 result = RAY_HITS;
             } else if (e.node == NONE) {
                 result = RAY_MISSES;

@@ -7,10 +7,13 @@
 //               \ 1  |    /                kept. A step between these goes to one side of every face.
 //          4     \   |   /     3
 //       ----------\--0--/-----------       Where the ray runs in several faces, the solid may lie between them, on the
-//                 /     \                  ray's left and right alone: steps 3 and 4. There it only touches.
+//                 /     \                  ray's left and right alone: steps 3 and 4.
 //                /   2   \                 (drawn: the steps and the two outermost faces)
 //
-// A normal n is known by n . above and n . side, where side is across the ray and `above`: n . d is 0.
+// Four sides are asked for in the end: above, below, left and right. Each step stands for the sides between the same
+// faces; left and right may lie above all faces, or below.
+//
+// A normal n is known by n . above and n . left (touch.h): n . d is 0.
 #ifndef CSGRT_GEOMETRY_BESIDE_H
 #define CSGRT_GEOMETRY_BESIDE_H
 
@@ -26,7 +29,7 @@
 typedef struct {
     u32 step;        // 0: the ray is where it is; else 1 to 4
     u32 found;       // it runs in some face
-    real low, high;  // n . side / n . above of the outermost
+    real low, high;  // n . left / n . above of the outermost
 } beside;
 
 FN beside not_beside(void) {
@@ -36,17 +39,10 @@ FN beside not_beside(void) {
     return b;
 }
 
-FN vec3 cross3(vec3 a, vec3 b) {
-    return make_vec3(difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
-                     difference_of_products(a.x, b.y, a.y, b.x));
-}
-FN vec3 above_faces(void) { return make_vec3(REAL(1), REAL(ABOVE_Y), REAL(ABOVE_Z)); }
-FN vec3 beside_ray(ray3 r) { return cross3(scale(r.d, REAL(1) / real_sqrt(dot3(r.d, r.d))), above_faces()); }
-
-// A face of which the normal has these products with `above` and `side`.
-FN beside add_face(beside b, real n_above, real n_side) {
-    real slope = n_side / n_above;
-    if (!(real_abs(slope) < STEEPEST)) slope = n_side < 0 ? -STEEPEST : STEEPEST;
+// A face of which the normal has these products with `above` and `left`.
+FN beside add_face(beside b, real n_above, real n_left) {
+    real slope = n_left / n_above;
+    if (!(real_abs(slope) < STEEPEST)) slope = n_left < 0 ? -STEEPEST : STEEPEST;
     b.low = b.found && b.low < slope ? b.low : slope;
     b.high = b.found && b.high > slope ? b.high : slope;
     b.found = 1;
@@ -56,18 +52,18 @@ FN beside add_face(beside b, real n_above, real n_side) {
 // A face in a plane of the world, and one across n in the solid's own space.
 RARE_FN beside add_plane(beside b, PlaneRecord plane, ray3 r) {
     const vec3 n = narrow(plane_normal(plane));
-    return add_face(b, dot3(n, above_faces()), dot3(n, beside_ray(r)));
+    return add_face(b, dot3(n, above_faces()), dot3(n, left_of_ray(r)));
 }
 RARE_FN beside add_local_face(beside b, vec3 n, GLOBAL const real* p, ray3 r) {
-    return add_face(b, dot3(n, affine_linear(p, above_faces())), dot3(n, affine_linear(p, beside_ray(r))));
+    return add_face(b, dot3(n, affine_linear(p, above_faces())), dot3(n, affine_linear(p, left_of_ray(r))));
 }
 
 // In the solid's own space, the normal of a face from these products.
-RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_side) {
+RARE_FN vec3 local_normal(GLOBAL const real* p, ray3 r, real n_above, real n_left) {
     const vec3 d = affine_linear(p, r.d), above = affine_linear(p, above_faces()),
-               side = affine_linear(p, beside_ray(r));
-    const vec3 n = add_scaled(scale(cross3(side, d), n_above), n_side, cross3(d, above));
-    return normalize3(dot3(d, cross3(above, side)) < 0 ? scale(n, REAL(-1)) : n);
+               left = affine_linear(p, left_of_ray(r));
+    const vec3 n = add_scaled(scale(cross3(left, d), n_above), n_left, cross3(d, above));
+    return normalize3(dot3(d, cross3(above, left)) < 0 ? scale(n, REAL(-1)) : n);
 }
 
 // By how much the local ray is moved.
@@ -83,7 +79,7 @@ RARE_FN vec3 aside(beside b, GLOBAL const real* p, ray3 r) {
 // Does it go out of a face of the solid that lies in this plane?
 RARE_FN int goes_out(beside b, GLOBAL const real* p, ray3 r, PlaneRecord plane, u32 flipped) {
     const vec3 n = narrow(plane_normal(plane));
-    const vec3 out = local_normal(p, r, dot3(n, above_faces()), dot3(n, beside_ray(r)));
+    const vec3 out = local_normal(p, r, dot3(n, above_faces()), dot3(n, left_of_ray(r)));
     return (dot3(out, aside(b, p, r)) > 0) == !flipped;
 }
 
@@ -92,10 +88,16 @@ FN local_ray moved_aside(local_ray l, beside b, GLOBAL const real* p, ray3 r) {
     return l;
 }
 
-// What the ends are marked with.
-FN u32 missed_beside(beside b) {
-    return b.step == 0 ? 0 : b.step == 1 ? MISSED_BELOW : b.step == 2 ? MISSED_ABOVE : MISSED;
+// The sides for which the step stands, if any.
+FN u32 sides_of_step(beside b) {
+    const u32 left_is_above = b.low >= 0, left_is_below = b.high < 0, is_between = !left_is_above && !left_is_below;
+    if (b.step == 1) return MISSED_ABOVE | (left_is_above ? MISSED_LEFT : left_is_below ? MISSED_RIGHT : 0u);
+    if (b.step == 2) return MISSED_BELOW | (left_is_above ? MISSED_RIGHT : left_is_below ? MISSED_LEFT : 0u);
+    return !is_between ? 0u : b.step == 3 ? MISSED_LEFT : MISSED_RIGHT;
 }
+
+// What the ends are marked with: all other sides.
+FN u32 missed_beside(beside b) { return b.step == 0 ? 0 : MISSED & ~sides_of_step(b); }
 
 // 0: there are no more steps to take.
 FN u32 next_step(beside* b) {

@@ -25,9 +25,8 @@
 // Nothing that is met at a smaller cosine has a thickness that makes sense.
 #define PLATE_FLATTEST BY_PRECISION(1e-5, 1e-9, 1e-9)
 
-// Where a plate begins and ends that is met at w.t; empty: nowhere. A ray that grazes a plate stays in it for long, and
-// far beyond the solid's box, as in BRL-CAD. Only the triangle itself is sure to lie in the box, so one before t_min is
-// not wanted, whatever its plate.
+// Where a plate begins and ends that is met at w.t; empty: nowhere, or before t_min. A ray that grazes a plate stays in
+// it for long, and far beyond the solid's box, as in BRL-CAD (Frame.whole_lines).
 FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* extents, real skin, real t_min) {
     real before = extents[2 * (size_t)w.triangle], behind = extents[2 * (size_t)w.triangle + 1];
     real speed = real_sqrt(dot3(w.ray.ray.d, w.ray.ray.d));
@@ -35,9 +34,9 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     span s;
     s.low = s.high = w.t;
     s.low_surface = s.high_surface = w.triangle;
-    if (!(w.t >= t_min)) return s;
     if (before == 0 && behind == 0) {
         s.high = w.t + skin;
+        if (!(s.high >= t_min)) s.high = s.low;
         return s;
     }
     if (!words[PLATE_ALONG_RAY]) {
@@ -47,6 +46,7 @@ FN span plate_span(mesh_walk w, GLOBAL const u32* words, GLOBAL const real* exte
     if (!(rate > PLATE_FLATTEST * speed)) return s;
     s.low = w.t - before / rate;
     s.high = w.t + behind / rate;
+    if (!(s.high >= t_min)) s.high = s.low;
     return s;
 }
 

@@ -1,5 +1,5 @@
 // A ray that touches a solid all along a segment, as far as rounding lets one say: it runs in a face or along a wall,
-// or comes no deeper than rounding. Both ends of the segment are marked with the side to which the ray would miss the
+// or comes no deeper than rounding. Both ends of the segment are marked with the sides to which the ray would miss the
 // solid (MISSED_...). Here and not in each solid, which asks for it seldom: what is rare costs a GPU's registers and a
 // processor's vectors wherever it stands.
 #ifndef CSGRT_GEOMETRY_TOUCH_H
@@ -24,8 +24,31 @@ FN real local_rounding(GLOBAL const parameter* p, ray3 r) {
     return real_max(e.x, real_max(e.y, e.z));
 }
 
-// On which side a ray misses what it touches where the outward normal is n.
-FN u32 missed_side(vec3 n) { return n.x + n.y * ABOVE_Y + n.z * ABOVE_Z >= 0 ? MISSED_ABOVE : MISSED_BELOW; }
+FN vec3 cross3(vec3 a, vec3 b) {
+    return make_vec3(difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+                     difference_of_products(a.x, b.y, a.y, b.x));
+}
+
+// The directions in which a ray in a face is moved: above, and left. Left is the same for the ray from the other end.
+FN vec3 above_faces(void) { return make_vec3(REAL(1), REAL(ABOVE_Y), REAL(ABOVE_Z)); }
+FN vec3 left_of_ray(ray3 r) {
+    const vec3 d = scale(r.d, REAL(1) / real_sqrt(dot3(r.d, r.d)));
+    return cross3(dot3(d, above_faces()) < 0 ? scale(d, REAL(-1)) : d, above_faces());
+}
+
+// On which sides a ray misses what it touches where the outward normal is n. The two faces of a plane have opposite
+// sides, also where the plane holds one of the directions.
+FN u32 missed_sides(vec3 n, ray3 r) {
+    const real above = dot3(n, above_faces()), left = dot3(n, left_of_ray(r));
+    if (above >= 0) return MISSED_ABOVE | (left >= 0 ? MISSED_LEFT : MISSED_RIGHT);
+    return MISSED_BELOW | (left <= 0 ? MISSED_RIGHT : MISSED_LEFT);
+}
+
+// The sides that lie beyond a plane in which the ray runs.
+FN u32 missed_of_plane(PlaneRecord plane, u32 flipped, ray3 r) {
+    const u32 missed = missed_sides(narrow(plane_normal(plane)), r);
+    return flipped ? MISSED & ~missed : missed;
+}
 
 // Of planes of a solid that the ray runs in.
 FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
@@ -33,7 +56,7 @@ FN u32 missed_of_planes(Geometry g, u32 first, u32 count, ray3 r) {
     for (i = first; i < first + count; ++i) {
         const PlaneRef ref = g.words[i];
         const PlaneRecord plane = g.planes[ref >> 1];
-        if (runs_in(plane, r)) missed |= faces_above(plane) == !(ref & 1u) ? MISSED_ABOVE : MISSED_BELOW;
+        if (runs_in(plane, r)) missed |= missed_of_plane(plane, ref & 1u, r);
     }
     return missed;
 }
@@ -48,7 +71,7 @@ FN segments mark(segments h, u32 missed) {
 
 FN segments mark_ell(GLOBAL const real* p, ray3 r, segments h) {
     const vec3 q = local_point(to_local(p, r), REAL(0.5) * (h.in0 + h.out0));
-    return REAL(1) - real_sqrt(dot3(q, q)) <= local_rounding(p, r) ? mark(h, missed_side(affine_normal(p, q))) : h;
+    return REAL(1) - real_sqrt(dot3(q, q)) <= local_rounding(p, r) ? mark(h, missed_sides(affine_normal(p, q), r)) : h;
 }
 
 // How far a point is within the side of a round cone; negative: outside.
@@ -66,7 +89,7 @@ FN segments mark_side(GLOBAL const real* p, ray3 r, span ends, segments h) {
     if (along) h = append(no_segments(), ends.low, ends.low_surface, ends.high, ends.high_surface);
     at = local_point(l, REAL(0.5) * (h.in0 + h.out0));
     if (h.count != 1 || depth_in_side(p, at) > most) return h;
-    return mark(h, missed_side(affine_normal(p, make_vec3(at.x, at.y, -real_fma(p[13], at.z, p[12]) * p[13]))));
+    return mark(h, missed_sides(affine_normal(p, make_vec3(at.x, at.y, -real_fma(p[13], at.z, p[12]) * p[13])), r));
 }
 
 // Of a torus, between `in` and `out`.
@@ -74,7 +97,7 @@ FN u32 missed_of_tor(GLOBAL const real* p, ray3 r, real in, real out) {
     const vec3 at = local_point(to_local(p, r), REAL(0.5) * (in + out));
     const real rho = real_sqrt(real_fma(at.x, at.x, at.y * at.y)), radial = rho - REAL(1);
     if (p[12] - real_sqrt(real_fma(radial, radial, at.z * at.z)) > local_rounding(p, r)) return 0;
-    return missed_side(affine_normal(p, make_vec3(at.x * radial / rho, at.y * radial / rho, at.z)));
+    return missed_sides(affine_normal(p, make_vec3(at.x * radial / rho, at.y * radial / rho, at.z)), r);
 }
 
 // What is met of a solid that the ray may touch only, marked if it does.

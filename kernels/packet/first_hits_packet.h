@@ -3,6 +3,7 @@
 #define CSGRT_PACKET_FIRST_HITS_PACKET_H
 
 #include "pixels.h"
+#include "../geometry/beyond.h"
 
 #define RAYS_AN_ITEM PACKET
 #define FIRST_OF_ITEM(id) first_of_packet(id)
@@ -11,10 +12,10 @@
 FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
     const packet_world_ray from_eye = rays_through(f, first);
     sweep_reach reach;
-    real near[PACKET];
+    real after[PACKET];
     u32 k;
     p->range = range_in_view(f, from_eye);
-    vstore8(p->range.near, 0, near);
+    vstore8(p->range.after, 0, after);
     reach.tolerance = f->tolerance;
     reach.unit = reach.per_unit = 1;
     reach.offset = distance_of_center(f);
@@ -22,22 +23,27 @@ FN void start_packet(packet* p, __global const Frame* f, pixel_position first) {
         start_sweep(p->sweeps + k);
         p->next_events[k] = BOX_MISSED;
         p->reach[k] = reach;
-        p->reach[k].from = near[k];
+        p->reach[k].after = after[k];
     }
     p->rays.o = from_eye.o;
     p->rays.d = from_eye.d;
     p->lanes = lanes_of(p->rays);
-    p->t_min = p->range.near;
+    p->t_min = p->range.from;
     p->slabs = slabs_of(f, from_eye, p->t_min);
+    if (f->clip_count && any(p->range.in_plane)) {
+        const u32 in_plane = bits_of(p->range.in_plane);
+        for (k = 0; k < PACKET; ++k)
+            if (in_plane >> k & 1u) p->sweeps[k].beyond = sides_beyond(f, lane(&p->lanes, k));
+    }
 }
 
 // Of the rays of the hit mask those that hit before their ranges end.
 FN u32 hits_before(const packet* p, u32 hit_mask) {
-    real far[PACKET];
+    real before[PACKET];
     u32 k;
-    vstore8(p->range.far, 0, far);
+    vstore8(p->range.before, 0, before);
     for (k = 0; k < PACKET; ++k)
-        if ((hit_mask >> k & 1u) && !(p->sweeps[k].seen.t < far[k])) hit_mask ^= 1u << k;
+        if ((hit_mask >> k & 1u) && !(p->sweeps[k].seen.t < before[k])) hit_mask ^= 1u << k;
     return hit_mask;
 }
 
@@ -49,7 +55,7 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     u32 overflow_mask, sees;
     packet p;
     start_packet(&p, f, first);
-    sees = f->clip_count ? bits_of(p.range.near < p.range.far) & within : within;
+    sees = f->clip_count ? bits_of(p.range.after < p.range.before) & within : within;
     *hit_mask = first_hits_of(&p, f, s, a.materials, list, sees, &overflow_mask);
     if (f->clip_count) *hit_mask = hits_before(&p, *hit_mask);
     put_pixels(&p, f, s.g, a, picture, within & ~overflow_mask, *hit_mask);

@@ -42,7 +42,7 @@ FN u32 first_hits_of(packet* p, __global const Frame* f, scene_tables s, __globa
             sweep* w = p->sweeps + lowest(going);
             const sweep_reach r = p->reach[lowest(going)];
             const real horizon = e.node == NONE ? REAL_INFINITY : ((wide)e.entry + r.offset) * r.per_unit;
-            if (advance(w, s, r.tolerance, r.from, horizon)) {
+            if (advance(w, s, r.tolerance, r.after, horizon)) {
                 hit_mask |= going & (0u - going);
                 prefetch_line(materials + w->region);
             }

@@ -129,9 +129,9 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
         at = is_cut ? p->range.near : at;
         for (k = 0; k < f->clip_count; ++k) {
             const long8 is_plane = is_cut && p->range.plane == k;
-            n.x = is_plane ? (double8)f->clip[k][0] : n.x;
-            n.y = is_plane ? (double8)f->clip[k][1] : n.y;
-            n.z = is_plane ? (double8)f->clip[k][2] : n.z;
+            n.x = is_plane ? (double8)f->clip[k].nx : n.x;
+            n.y = is_plane ? (double8)f->clip[k].ny : n.y;
+            n.z = is_plane ? (double8)f->clip[k].nz : n.z;
         }
         for (k = 0; k < PACKET; ++k) view.solid[k] = cut_mask >> k & 1u ? 0 : view.solid[k];
     }

@@ -9,10 +9,10 @@
 #include "../boolean/first_hit.h"
 #include "packet.h"
 
-// How a ray's parameter is to be read: what is claimed up to `from` is not seen, ends within the tolerance are one, and
-// t is at unit x t - offset in the list of nodes.
+// How a ray's parameter is to be read: what is claimed up to `after` is not seen, ends within the tolerance are one,
+// and t is at unit x t - offset in the list of nodes.
 typedef struct {
-    real from, tolerance;
+    real after, tolerance;
     wide unit, per_unit, offset;  // per_unit: 1 / unit
 } sweep_reach;
 

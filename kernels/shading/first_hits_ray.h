@@ -3,6 +3,7 @@
 #define CSGRT_SHADING_FIRST_HITS_RAY_H
 
 #include "../boolean/first_hit.h"
+#include "../geometry/beyond.h"
 #include "pixel.h"
 
 #define RAYS_AN_ITEM 1u
@@ -17,9 +18,10 @@ FN u32 draw(__global const Frame* f, scene_tables s, appearance_tables a, __glob
     const view_range visible = range_in_view(f, from_eye);
     const ray3 r = geometry_ray(f, from_eye);
     sweep w;
-    u32 found = first_hit(f, s, list, r, parameter_at(r, visible.near), &w);
+    const u32 beyond = visible.in_plane ? sides_beyond(f, r) : 0;
+    u32 found = first_hit(f, s, list, r, parameter_at(r, visible.from), parameter_at(r, visible.after), beyond, &w);
     Pixel pixel;
-    if (found == RAY_HITS && !(w.seen.t < parameter_at(r, visible.far) && visible.near < visible.far))
+    if (found == RAY_HITS && !(w.seen.t < parameter_at(r, visible.before) && visible.after < visible.before))
         found = RAY_MISSES;
     *hit_mask = found == RAY_HITS;
     if (found == RAY_OVERFLOWS) return 1;

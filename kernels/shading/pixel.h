@@ -52,10 +52,6 @@ FN Pixel hit_pixel(sight s, ray3 r) {
     return p;
 }
 
-FN vec3 clip_normal(GLOBAL const Frame* f, u32 plane) {
-    return make_vec3(REAL(f->clip[plane][0]), REAL(f->clip[plane][1]), REAL(f->clip[plane][2]));
-}
-
 // Region `region` where the ray comes upon it at the end `seen`. If the region begins where another solid ends
 // (`from_within`), that solid's surface is seen from within: the normal is flipped. Only here is a normal computed:
 // one a ray. If a plane of the frame cuts the region open, the plane is what is seen, and no solid's surface.
@@ -66,7 +62,7 @@ FN Pixel seen_pixel(GLOBAL const Frame* f, GLOBAL const LightRecord* lights, Mat
     vec3 n;
     Pixel p;
     if (is_cut) {
-        n = clip_normal(f, visible.plane);
+        n = narrow(plane_normal(f->clip[visible.plane]));
         seen.t = near;
     } else {
         n = normal_at(g, g.solids[seen.solid], r, seen.t, seen.surface);

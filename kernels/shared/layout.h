@@ -70,7 +70,6 @@ typedef struct {
 // touches several surfaces is moved to the same side of all.
 #define ABOVE_Y 0.6180339887498949
 #define ABOVE_Z 0.3472963553338607
-FN int faces_above(PlaneRecord p) { return p.nx + p.ny * ABOVE_Y + p.nz * ABOVE_Z >= 0; }  // its normal
 
 // A reference to a plane: index << 1 | flip. Flipped, inside is n . p >= d and the outward normal -n.
 typedef u32 PlaneRef;
@@ -163,27 +162,6 @@ typedef struct {
 #define RAKE_XOR 5u
 #define REGION_LINK 7u
 
-// A deep ray (capacity.h), and how far it is swept: places among its sorted ends.
-typedef struct {
-    u32 ray;
-    u32 block, segment;   // blocks of ends to sort, and segments, of those before it
-    u32 event, at;        // the event that is passed, and the one behind it
-    u32 changed;          // before this, segments have been opened and closed
-    u32 in_end, out_end;  // of the event: see weave
-    u32 open, last;       // nodes: see weave
-    u32 open_segments;
-    u32 partitions;  // woven
-    u32 sides;       // 3: some segment has MISSED_... set; else 1
-} DeepRay;
-#define DEEP_BLOCK 32u  // ends that a work-item sorts, or merges
-
-// A segment of a deep ray.
-typedef struct {
-    u32 first;      // the first segment of its solid
-    u32 is_open;    // bit 0: now; bit 1: before the event
-    u32 covers[3];  // of a solid's first segment: how many of the solid's are open, as met, and above and below
-} DeepSegment;
-
 typedef struct {
     float r, g, b;
     float specular, diffuse, ambient;
@@ -246,7 +224,7 @@ typedef struct {
     wide w[3];        // perspective: from the eye to the picture plane's centre. Orthographic: unit direction of view
     wide center[3];   // of the sphere around all bounded solids; the hierarchy's boxes are relative to it
     wide first_x, first_y;  // of the first pixel's middle, in pixels to the right of the camera's middle and up from it
-    wide clip[MOST_CLIPS][4];  // a picture's planes: unit normal, distance; what is beyond any of them is gone
+    PlaneRecord clip[MOST_CLIPS];  // the view's planes: what is beyond any of them is gone
     wide radius;
     wide t_min;      // segments that end before this distance are not wanted
     wide tolerance;  // ends closer than this along the ray are one
@@ -265,6 +243,7 @@ typedef struct {
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
     u32 answer;                                               // to a list: ANSWER_x bits
+    u32 whole_lines;  // 1: a solid's segments may lie outside its box, so a ray's range says nothing of boxes
     u32 clip_count;
 } Frame;
 
@@ -353,12 +332,40 @@ typedef struct {
 } End;
 
 // Set in End.surface of both ends of a segment along which the ray touches the solid, as far as rounding lets one
-// say, because it runs in a face of it or along its wall: moved a little above that surface, or below it, the ray
-// misses the solid. boolean/claim.h tells what for.
+// say, because it runs in a face of it or along its wall: moved a little to that side, the ray misses the solid. Above
+// and below are where ABOVE_Y and ABOVE_Z point, and against them; left and right are across both this and the ray
+// (geometry/touch.h). boolean/claim.h tells what for.
 #define MISSED_ABOVE 0x40000000u
 #define MISSED_BELOW 0x20000000u
-#define MISSED (MISSED_ABOVE | MISSED_BELOW)
-#define SURFACE_MASK 0x1fffffffu  // the rest of End.surface; LEAVES (geometry/crossings.h) is the highest bit
+#define MISSED_LEFT 0x10000000u
+#define MISSED_RIGHT 0x08000000u
+#define MISSED (MISSED_ABOVE | MISSED_BELOW | MISSED_LEFT | MISSED_RIGHT)
+#define SURFACE_MASK 0x07ffffffu  // the rest of End.surface; LEAVES (geometry/crossings.h) is the highest bit
+// A ray in a face is looked at as it is, side 0, and on the four sides to which it is moved.
+#define SIDES 5u
+FN u32 missed_on(u32 side) { return side == 0 ? 0 : MISSED_ABOVE >> (side - 1u); }
+
+// ---- Deep rays (capacity.h) ----
+// A deep ray, and how far it is swept: places among its sorted ends.
+typedef struct {
+    u32 ray;
+    u32 block, segment;   // blocks of ends to sort, and segments, of those before it
+    u32 event, at;        // the event that is passed, and the one behind it
+    u32 changed;          // before this, segments have been opened and closed
+    u32 in_end, out_end;  // of the event: see weave
+    u32 open, last;       // nodes: see weave
+    u32 open_solids;
+    u32 partitions;  // woven
+    u32 sides;       // SIDES: some segment has MISSED_... set; else 1
+} DeepRay;
+#define DEEP_BLOCK 32u  // ends that a work-item sorts, or merges
+
+// A segment of a deep ray.
+typedef struct {
+    u32 first;          // the first segment of its solid
+    u32 is_open;        // bit 0: now; bit 1: before the event
+    u32 covers[SIDES];  // of a solid's first segment: how many of the solid's are open on each side
+} DeepSegment;
 
 // 3 weave -> evaluate: linked lists by index into the ray's own 2 * segments nodes.
 typedef struct {

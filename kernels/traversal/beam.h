@@ -37,7 +37,8 @@ FN beam make_beam(GLOBAL const Frame* f, u32 tile) {
     if (f->perspective) across = across * (b.to_center + f->radius) / wide_sqrt(wide_dot(w, w));
     spread = REAL(across) * REAL(1.001);
     reach = REAL(f->radius) + spread;
-    b.slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, reach, t_min_along(f, r));
+    b.slabs = make_slab_ray(offset_from(frame_center(f), r.o), r.d, reach,
+                            f->whole_lines ? -REAL_INFINITY : t_min_along(f, r));
     b.pad = (float)(spread + reach * REAL(0x1p-19));
     b.start = (wide)distance_along(r, 0);
     return b;

@@ -88,6 +88,14 @@ typedef struct {
     real t_min, t_max;
 } ray_range;
 
+// A box that lies outside this range has no segment that is wanted. A ray that grazes a plate is in it far before and
+// behind its box.
+FN ray_range range_of_boxes(GLOBAL const Frame* f, ray_range wanted) {
+    wanted.t_min = f->whole_lines ? -REAL_INFINITY : wanted.t_min;
+    wanted.t_max = f->whole_lines ? REAL_INFINITY : wanted.t_max;
+    return wanted;
+}
+
 FN wide largest_of(wide3 d) { return wide_max(wide_abs(d.x), wide_max(wide_abs(d.y), wide_abs(d.z))); }
 
 FN world_ray listed_ray(RayRecord record) {
@@ -144,7 +152,7 @@ FN int ray_of(GLOBAL const Frame* f, GLOBAL const RayRecord* rays, u32 number, r
         pixel_position at = pixel_of(number, f->screen);
         const world_ray w = camera_ray(f, at);
         *r = geometry_ray(f, w);
-        wanted->t_min = parameter_at(*r, range_in_view(f, w).near);
+        wanted->t_min = parameter_at(*r, range_in_view(f, w).from);
         wanted->t_max = REAL_INFINITY;
         return at.inside;
     }

@@ -22,8 +22,9 @@ FN u32 next_leaf_before(slab_ray s, single end, GLOBAL const BvhNode* nodes, bvh
 // the ray's tile meets, as they stand in the hierarchy; 0: there is no such list.
 FN u32 walk(GLOBAL const Frame* f, GLOBAL const BvhNode* nodes, GLOBAL const TileNode* next, ray3 r, ray_range wanted,
             u32 ray, GLOBAL Candidate* candidates) {
-    const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), wanted.t_min);
-    const single range_end = end_of_range(s, REAL(f->radius), wanted.t_max);
+    const ray_range within = range_of_boxes(f, wanted);
+    const slab_ray s = make_slab_ray(offset_from(frame_center(f), r.o), r.d, REAL(f->radius), within.t_min);
+    const single range_end = end_of_range(s, REAL(f->radius), within.t_max);
     bvh_cursor cursor = bvh_over(s.hits_sphere && !next ? f->node_count : 0);
     u32 count = 0, solid = 0, end = f->unbounded_count;
     for (;;) {

@@ -24,30 +24,47 @@ FN world_ray view_ray(GLOBAL const Frame* f, wide column, wide row) {
     return r;
 }
 
-// Which part of a picture's ray is seen, by distance: from `near` to `far`, if that is more. `plane`: which of the
-// frame's planes cuts it where it begins, or NO_PLANE.
+// Which part of a picture's ray is seen, by distance. A plane of the view is an end as those of solids are: what is
+// nearer to it than the tolerance is at the plane.
 typedef struct {
-    wide near, far;
-    tag plane;
+    wide from;           // segments that end before this are not wanted
+    wide near;           // where the ray begins to be seen
+    wide after;          // partitions that end there or before are not seen,
+    wide before;         // nor those that begin there or behind
+    tag plane;           // which of the frame's planes cuts the ray at `near`, or NO_PLANE
+    lane_mask in_plane;  // the ray runs in some plane (geometry/beyond.h)
 } view_range;
 #define NO_PLANE MOST_CLIPS
 
+FN wide sum_of_wide_sizes(wide3 v) { return wide_abs(v.x) + wide_abs(v.y) + wide_abs(v.z); }
+
+// Planes cut as half-spaces do (clip() of geometry/plane.h), at the same distances.
 FN view_range range_in_view(GLOBAL const Frame* f, world_ray r) {
     view_range visible;
+    wide far = (wide)REAL_INFINITY, slack;
     u32 k;
     visible.near = (wide)f->t_min;
-    visible.far = (wide)REAL_INFINITY;
     visible.plane = TAG(NO_PLANE);
+    visible.in_plane = 0;
     for (k = 0; k < f->clip_count; ++k) {
-        const wide3 n = make_wide3((wide)f->clip[k][0], (wide)f->clip[k][1], (wide)f->clip[k][2]);
-        const wide beyond = wide_dot(n, r.o) - (wide)f->clip[k][3], along = wide_dot(n, r.d), t = -beyond / along;
-        const lane_mask comes = along < 0 && t > visible.near, goes = along > 0 && t < visible.far,
-                        is_gone = along == 0 && beyond > 0;
+        const PlaneRecord plane = f->clip[k];
+        const wide3 n = make_wide3((wide)plane.nx, (wide)plane.ny, (wide)plane.nz);
+        const wide beyond = wide_dot(n, r.o) - (wide)plane.d, along = wide_dot(n, r.d), t = -beyond / along;
+        const lane_mask parallel = wide_abs(along) <= (wide)ROUNDING * sum_of_wide_sizes(r.d);
+        const lane_mask within =
+            parallel && wide_abs(beyond) <= (wide)ROUNDING * (sum_of_wide_sizes(r.o) + wide_abs((wide)plane.d));
+        const lane_mask comes = !parallel && along < 0 && t > visible.near, goes = !parallel && along > 0 && t < far,
+                        is_gone = parallel && !within && beyond > 0;
         visible.near = comes ? t : visible.near;
         visible.plane = comes ? TAG(k) : visible.plane;
-        visible.far = goes ? t : visible.far;
-        visible.far = is_gone ? (wide)-REAL_INFINITY : visible.far;
+        far = goes ? t : far;
+        far = is_gone ? (wide)-REAL_INFINITY : far;
+        visible.in_plane = visible.in_plane || within;
     }
+    slack = visible.plane == TAG(NO_PLANE) ? (wide)0 : (wide)f->tolerance;
+    visible.from = visible.near - slack;
+    visible.after = visible.near + slack;
+    visible.before = far - (wide)f->tolerance;
     return visible;
 }
 

@@ -10,6 +10,7 @@
 
 #include "compile/looks.hpp"
 #include "compile/screen_bounds.hpp"
+#include "compile/solids/planes.hpp"
 #include "scene/range.hpp"
 
 namespace csgrt {
@@ -160,19 +161,20 @@ void fill_scene(const CompiledScene& scene, double tolerance, kernel::Frame& fra
     frame.unbounded_count = scene.unbounded_count;
     frame.node_count = static_cast<std::uint32_t>(scene.nodes.size());
     frame.every_partition = 1;
+    frame.whole_lines = (scene.solid_types >> SOLID_PLATE & 1u) != 0;
     std::copy(std::begin(scene.rank_ends), std::end(scene.rank_ends), std::begin(frame.rank_ends));
     frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
 }
 
-void put_clip(const std::vector<Plane>& planes, kernel::Frame& frame) {
+void put_clip(const CompiledScene& scene, const std::vector<Plane>& planes, kernel::Frame& frame) {
     if (planes.size() > MOST_CLIPS) refuse("a view has at most " + std::to_string(MOST_CLIPS) + " planes");
     frame.clip_count = static_cast<std::uint32_t>(planes.size());
     for (std::size_t i = 0; i < planes.size(); ++i) {
         double size = 0;
         const dvec3 normal = direction_of(in_range(planes[i].normal, "the normal of a plane of the view"), size);
         if (!(size > 0)) refuse("the normal of a plane of the view has no length");
-        for (int k = 0; k < 3; ++k) frame.clip[i][k] = normal[k];
-        frame.clip[i][3] = in_range(planes[i].distance / size, -Limits::ray_origin, "the distance of a plane");
+        const double distance = in_range(planes[i].distance / size, -Limits::ray_origin, "the distance of a plane");
+        frame.clip[i] = shared_plane(scene, {from_glm(normal), distance});
     }
 }
 
@@ -233,7 +235,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     put(step * (pixel * axes.up), frame.v);
     frame.first_x = (0.5 - 0.5 * view.width + part.left + sampling.column + sampling.right) / step;
     frame.first_y = (0.5 * view.height - 0.5 - part.top - sampling.line - sampling.down) / step;
-    put_clip(view.clip, frame);
+    put_clip(scene, view.clip, frame);
     put(perspective ? center - eye : -axes.back, frame.w);
     frame.t_min = 0;
     if (!view.transparent) {
@@ -245,7 +247,7 @@ PreparedFrame prepare_frame(const CompiledScene& scene, const View& view, double
     frame.height = static_cast<std::uint32_t>((part.height - sampling.line + sampling.step - 1) / sampling.step);
     frame.perspective = perspective;
     // First hits are looked for in the order of the solids' boxes; a plate that a ray grazes begins far before its box.
-    frame.every_partition = view.every_partition || (scene.solid_types >> SOLID_PLATE & 1u);
+    frame.every_partition = view.every_partition || frame.whole_lines;
     if (!frame.every_partition) frame.starting_node = scene.starting_node;
     const std::uint32_t counts = view.every_partition ? channel::counts : 0;
     frame.channels = view.channels & ((channel::all & ~channel::counts) | counts | channel::display);

@@ -33,6 +33,6 @@ static_assert(sizeof(RayRecord) == 64);
 static_assert(sizeof(RowEnds) == 12 && sizeof(OverlapPiece) == 24);
 static_assert(sizeof(TileNode) == 8);
 static_assert(sizeof(DeepRay) == 52);
-static_assert(sizeof(DeepSegment) == 20);
+static_assert(sizeof(DeepSegment) == 28);
 
 }  // namespace csgrt::kernel

@@ -105,6 +105,12 @@ bool Reference::in_contact(const WovenPartition& partition, const std::vector<ke
                        [&](std::uint32_t segment) { return (ends[2 * segment].surface & MISSED) != 0; });
 }
 
+bool Reference::is_one_solid(const WovenPartition& partition, const std::vector<kernel::End>& ends) {
+    const auto solid = [&](std::uint32_t segment) { return ends[2 * segment].solid; };
+    return std::ranges::all_of(partition.segments,
+                               [&](std::uint32_t segment) { return solid(segment) == solid(partition.segments[0]); });
+}
+
 void Reference::find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
                                std::vector<std::uint32_t>& claimants) const {
     auto &solids = claims.solids, &table = claims.table;
@@ -128,6 +134,21 @@ void Reference::find_claimants(const WovenPartition& partition, std::uint32_t mi
     std::erase_if(claimants, [&](std::uint32_t region) { return rank_of(scene_.region_info[region]) != rank; });
 }
 
+// The side whose regions come first has the partition, and its overlap.
+void Reference::find_beside(const WovenPartition& partition, std::uint32_t beyond, Claims& claims) const {
+    auto &claimants = claims.claimants, &here = claims.beside;
+    claimants.clear();
+    const auto second = [](const std::vector<std::uint32_t>& of) { return of.size() > 1 ? of[1] : NONE; };
+    for (const std::uint32_t side : {MISSED_ABOVE, MISSED_BELOW, MISSED_LEFT, MISSED_RIGHT}) {
+        if (side & beyond) continue;
+        find_claimants(partition, side, claims, here);
+        if (here.empty()) continue;
+        if (claimants.empty() || here.front() < claimants.front() ||
+            (here.front() == claimants.front() && second(here) < second(claimants)))
+            claimants.swap(here);
+    }
+}
+
 void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const {
     claims.partitions.clear();
     claims.woven = claims.overlaps = 0;
@@ -136,34 +157,19 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
     if (claims.ends.empty()) return;
     claims.woven = woven.size();
     const bool is_picture = frame.work != WORK_RAYS;
-    ReferenceKernels::Seen seen{0, std::numeric_limits<double>::infinity()};
-    if (is_picture) seen = kernels_.seen(frame, {{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}});
+    ReferenceKernels::Seen seen{0, std::numeric_limits<double>::infinity(), 0};
+    if (is_picture || frame.clip_count)
+        seen = kernels_.seen(frame, {{ray.ox, ray.oy, ray.oz}, {ray.dx, ray.dy, ray.dz}});
 
-    auto &claimants = claims.claimants, &beside = claims.beside;
+    const std::vector<std::uint32_t>& claimants = claims.claimants;
     for (const WovenPartition& partition : woven) {
-        std::uint32_t region;
-        if (in_contact(partition, claims.ends)) {
-            // The region that comes first on either side has it; those that share a side overlap.
-            region = NONE;
-            claimants.clear();
-            for (const std::uint32_t missed : {MISSED_ABOVE, MISSED_BELOW}) {
-                find_claimants(partition, missed, claims, beside);
-                if (!beside.empty()) region = std::min(region, beside.front());
-                if (beside.size() > 1) claimants.insert(claimants.end(), beside.begin(), beside.end());
-            }
-            std::sort(claimants.begin(), claimants.end());
-            claimants.erase(std::unique(claimants.begin(), claimants.end()), claimants.end());
-            if (region == NONE) {
-                find_claimants(partition, 0, claims, beside);
-                if (!beside.empty()) region = beside.front();
-            }
+        if (seen.beyond || (in_contact(partition, claims.ends) && !is_one_solid(partition, claims.ends))) {
+            find_beside(partition, seen.beyond, claims);
         } else {
-            find_claimants(partition, 0, claims, claimants);
-            region = claimants.empty() ? NONE : claimants.front();
+            find_claimants(partition, 0, claims, claims.claimants);
         }
-
         if (claimants.size() > 1) ++claims.overlaps;
-        if (region == NONE) continue;
+        if (claimants.empty()) continue;
 
         ClaimedPartition claim;
         claim.in = claims.ends[partition.in_end];
@@ -172,11 +178,11 @@ void Reference::evaluate(const kernel::Frame& frame, const kernel::RayRecord& ra
         claim.out.t = partition.out;
         claim.in_leaves = partition.in_end % 2 == 1;
         claim.out_enters = partition.out_end % 2 == 0;
-        claim.region = region;
+        claim.region = claimants.front();
         if (claimants.size() > 1) claim.claimants = claimants;
+        const bool is_in_range = partition.out > seen.after && partition.in < seen.before && seen.after < seen.before;
+        const bool is_seen = is_in_range && rank_of(scene_.region_info[claim.region]) != RANK_HIDDEN;
         claims.partitions.push_back(std::move(claim));
-        const bool is_in_range = partition.out > seen.near && partition.in < seen.far && seen.near < seen.far;
-        const bool is_seen = is_in_range && rank_of(scene_.region_info[region]) != RANK_HIDDEN;
         if (claims.first_seen == SIZE_MAX && is_seen) {
             claims.first_seen = claims.partitions.size() - 1;
             if (!frame.every_partition) return;

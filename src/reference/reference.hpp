@@ -32,12 +32,16 @@ public:
 
 private:
     struct Claims;
-    /// Does the ray run in a face of one of its solids? Then two sides are to be looked at.
+    /// Does the ray run in a face of one of its solids?
     static bool in_contact(const WovenPartition& partition, const std::vector<kernel::End>& ends);
+    static bool is_one_solid(const WovenPartition& partition, const std::vector<kernel::End>& ends);
     /// The regions of the first rank that claim a partition, ascending, by its solids but those whose ends have any of
     /// `missed`.
     void find_claimants(const WovenPartition& partition, std::uint32_t missed, Claims& claims,
                         std::vector<std::uint32_t>& claimants) const;
+    /// The claimants of a partition in which the ray runs in a face, by the rule of contact (kernels/boolean/claim.h).
+    /// `beyond`: sides that are not asked for.
+    void find_beside(const WovenPartition& partition, std::uint32_t beyond, Claims& claims) const;
     void evaluate(const kernel::Frame& frame, const kernel::RayRecord& ray, Claims& claims) const;
     /// Adds a listed ray's rows, and rows of overlaps.
     void append_rows(const kernel::Frame& frame, const kernel::RayRecord& record, std::uint32_t ray, Fields fields,

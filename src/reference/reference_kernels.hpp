@@ -28,9 +28,11 @@ public:
     virtual void append_rows(const kernel::Frame& frame, const kernel::RayRecord& ray,
                              const std::vector<kernel::End>& ends, const std::vector<kernel::PartitionNode>& nodes,
                              Fields fields, RowMemory& rows, std::vector<kernel::OverlapPiece>& pieces) const = 0;
-    /// Which part of a picture's ray is seen, as it is compared with ends (kernels/traversal/view.h).
+    /// Which part of a picture's ray is seen, as it is compared with ends (kernels/traversal/view.h), and the sides
+    /// that planes of the view take away (MISSED_...).
     struct Seen {
-        double near, far;
+        double after, before;
+        std::uint32_t beyond;
     };
     virtual Seen seen(const kernel::Frame& frame, const Ray& ray) const = 0;
     /// A pixel that shows a region's surface at an end; `leaves`: from within.

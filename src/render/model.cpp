@@ -126,6 +126,7 @@ void CallerTracer::trace(const RayList& list, RowTaker& taker) const {
     kernel::Frame frame = prepare_rays(scene_, static_cast<std::uint32_t>(list.size()), tolerance_).frame;
     frame.answer = taker.answer();
     if (list.is_grid()) list.put_camera(frame);
+    list.put_planes(frame);
     if (const NativeTracer* const tracer = native()) {
         PipelineCounts counts;
         tracer->trace(frame, list, 0, list.size(), nullptr, taker, counts);
@@ -150,7 +151,7 @@ Pick Model::pick(const View& view, int column, int row) const {
     const kernel::view_range range = kernel::range_in_view(&frame, {{o.x, o.y, o.z}, {d.x, d.y, d.z}});
     const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
     impl_->call([&](const TraceList& trace) {
-        const RayList list(pick.ray);
+        RayList list(pick.ray);
         const auto along = [&](Claims claims) {
             Partitions all;
             RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, 1, 0);
@@ -158,17 +159,18 @@ Pick Model::pick(const View& view, int column, int row) const {
             return std::move(along_rays(all).front());
         };
         pick.along = along(Claims::all);
-        const RayPartitions shown = impl_->some_shown ? along(Claims::shown) : pick.along;
+        if (range.in_plane) list.cut_by({frame.clip, frame.clip_count});
+        const RayPartitions shown = impl_->some_shown || range.in_plane ? along(Claims::shown) : pick.along;
         for (const Partition& p : shown.partitions) {
-            if (p.region >= seen_end || !(p.out > range.near)) continue;
-            if (!(p.in < range.far && range.near < range.far)) break;
+            if (p.region >= seen_end || !(p.out > range.after)) continue;
+            if (!(p.in < range.before && range.after < range.before)) break;
             const bool is_cut = range.plane != NO_PLANE && p.in < range.near;
-            const double* const plane = frame.clip[is_cut ? range.plane : 0];
+            const kernel::PlaneRecord& plane = frame.clip[is_cut ? range.plane : 0];
             pick.region = static_cast<std::int32_t>(p.region);
             pick.solid = is_cut ? -1 : static_cast<std::int32_t>(p.in_solid);
             pick.t = is_cut ? range.near : p.in;
             pick.point = pick.ray.origin + pick.t * pick.ray.direction;
-            pick.normal = is_cut ? Vec3{plane[0], plane[1], plane[2]} : p.in_normal;
+            pick.normal = is_cut ? Vec3{plane.nx, plane.ny, plane.nz} : p.in_normal;
             break;
         }
     });

@@ -117,7 +117,7 @@ inline void sweep_rays(const CompiledScene& scene, const kernel::Frame& frame, c
     const csgrt::StatusTree tree = make_status_tree(scene);
     const auto regions = static_cast<u32>(scene.regions.size()), cluster_words = static_cast<u32>(tree.outside.size()),
                words = cluster_words + words_of_set(regions);
-    std::vector<u32> status(3 * std::size_t{words}, 0xdeadbeefu);
+    std::vector<u32> status(SIDES * std::size_t{words}, 0xdeadbeefu);
     for (global_id = 0; global_id < status.size(); ++global_id)
         clear_status(tree.outside.data(), cluster_words, words, static_cast<u32>(status.size()), status.data());
     const std::vector<u32> clear = status;
@@ -217,8 +217,8 @@ inline HostRun run_kernels(const CompiledScene& scene, const PreparedFrame& prep
                       run.bits.data(), run.tallies.data());
     });
     each_of(run.ends.size(), [&] {
-        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.trees.data(), run.offsets.data(),
-                 run.ends.data(), run.bits.data(), run.nodes.data());
+        evaluate(&frame, scene.solids.data(), scene.starts.data(), scene.trees.data(), rays.data(), listed,
+                 run.offsets.data(), run.ends.data(), run.bits.data(), run.nodes.data());
     });
     std::vector<u32> deep;
     for (u32 ray = 0; ray < count; ++ray)

@@ -47,20 +47,24 @@ CompiledScene solids_alone(std::uint32_t count) {
 /// Who claims a partition in such a scene, as PartitionNode.owner.
 std::uint32_t owner_among(const std::vector<kernel::End>& ends, const std::vector<std::uint32_t>& segments,
                           std::uint32_t half) {
-    const auto side = [&](std::uint32_t missed) {
-        std::set<std::uint32_t> regions;
-        for (const std::uint32_t segment : segments)
-            if (!(ends[2 * segment].surface & missed)) regions.insert(ends[2 * segment].solid);
-        return regions;
-    };
-    const std::set<std::uint32_t> touched = side(0), above = side(MISSED_ABOVE), below = side(MISSED_BELOW);
-    std::uint32_t least = NONE, overlap = 0;
-    for (const auto& regions : {above, below}) {
-        if (regions.empty()) continue;
-        least = std::min(least, *regions.begin());
-        if (regions.size() > 1 && (*regions.begin() < half) == (*std::next(regions.begin()) < half)) overlap = OVERLAP;
+    std::set<std::uint32_t> sides[4], all;
+    for (const std::uint32_t segment : segments) all.insert(ends[2 * segment].solid);
+    if (all.size() == 1) return *all.begin();
+    for (const std::uint32_t segment : segments) {
+        const std::uint32_t marks = ends[2 * segment].surface & MISSED, solid = ends[2 * segment].solid;
+        const std::uint32_t bits[] = {MISSED_ABOVE, MISSED_BELOW, MISSED_LEFT, MISSED_RIGHT};
+        for (int side = 0; side < 4; ++side)
+            if (!(marks & bits[side])) sides[side].insert(solid);
     }
-    return (least == NONE ? *touched.begin() : least) | overlap;
+    std::uint32_t least = NONE;
+    bool overlaps = false;
+    for (const auto& regions : sides) {
+        if (regions.empty() || *regions.begin() > least) continue;
+        const bool two = regions.size() > 1 && (*regions.begin() < half) == (*std::next(regions.begin()) < half);
+        overlaps = two || (overlaps && *regions.begin() == least);
+        least = *regions.begin();
+    }
+    return least | (overlaps ? OVERLAP : 0u);
 }
 
 /// The list that weaving left, from front to back. `covers(node, segment, partition)`: is it one of its segments?
@@ -207,7 +211,7 @@ TEST_CASE("kernel 3 weaves as the reference does, and so does the sweep of deep 
             double out = in + some() + 1e-9;
             if (random() % 40 == 0) in = -infinity;
             if (random() % 40 == 0) out = infinity;
-            const std::uint32_t surface = random() % 5 == 0 ? random() % 2 ? MISSED_ABOVE : MISSED_BELOW : 0u;
+            const std::uint32_t surface = random() % 5 == 0 ? static_cast<std::uint32_t>(random()) & MISSED : 0u;
             ends.push_back({in, static_cast<std::uint32_t>(s), marked ? surface : 0u});
             ends.push_back({out, static_cast<std::uint32_t>(s), marked ? surface : 0u});
         }

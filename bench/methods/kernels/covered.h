@@ -36,7 +36,7 @@ static u32 next_segment(const coverage* c, u32* at) {
         }
         segment = *at + lowest(word);
         *at = segment + 1;
-        if (segment < c->segments && !(c->missed && (c->ends[2 * segment].surface & c->missed))) return segment;
+        if (segment < c->segments && !(c->ends[2 * segment].surface & c->missed)) return segment;
     }
     return NONE;
 }
@@ -61,6 +61,13 @@ static u32 next_solid(const coverage* c, u32* at) {
     if (c->count <= LISTED_SOLIDS) return *at < c->count ? c->solids[(*at)++] : NONE;
     segment = next_segment(c, at);
     return segment == NONE ? NONE : c->ends[2 * segment].solid;
+}
+
+static u32 is_one_solid(const coverage* c) {
+    u32 i;
+    for (i = 1; i < c->count && i < LISTED_SOLIDS && c->solids[i] == c->solids[0]; ++i) {
+    }
+    return i == c->count;
 }
 
 static u32 solid_covers(const coverage* c, u32 solid) {

@@ -12,7 +12,7 @@ __kernel void KERNEL(__global const Frame* frame, __global const RayCount* offse
     const u32 id = (u32)get_global_id(0);
     coverage c;
     RayCount offset;
-    u32 ray, owner = NONE, above;
+    u32 ray, owner = NONE, side, here, moved;
     (void)memory;
     if (id >= 2 * segments_of(frame, offsets) || nodes[id].in_end == NONE) return;
     ray = nodes[id].owner;
@@ -21,16 +21,11 @@ __kernel void KERNEL(__global const Frame* frame, __global const RayCount* offse
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.bits = all_bits + offset.words + (id - 2 * offset.segments) * words_of(c.segments);
     list_coverage(&c, 0);
-    if (c.marked) {  // either side of the face that the ray runs in, then the ray as it is
-        list_coverage(&c, MISSED_ABOVE);
-        FIRST_CLAIM(above)
-        list_coverage(&c, MISSED_BELOW);
-        FIRST_CLAIM(owner)
-        if (above < owner) owner = above;
-        if (owner == NONE) list_coverage(&c, 0);
-    }
-    if (owner == NONE) {
-        FIRST_CLAIM(owner)
+    moved = c.marked && !is_one_solid(&c);  // to each side of the face that the ray runs in
+    for (side = moved; side < (moved ? SIDES : 1u); ++side) {
+        if (moved) list_coverage(&c, missed_on(side));
+        FIRST_CLAIM(here)
+        if (here < owner) owner = here;
     }
     nodes[id].owner = owner;
 }

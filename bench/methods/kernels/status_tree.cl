@@ -130,18 +130,20 @@ __kernel void evaluate_status_tree(__global const Frame* frame, __global const R
         change(&s, c.ends, c.segments, before, 0, c.bits, 0);
         before = c.bits;
         list_coverage(&c, 0);
-        if (c.marked) {  // to one side of the face that the ray runs in, to the other, and back
-            u32 above;
-            change(&s, c.ends, c.segments, c.bits, 0, c.bits, MISSED_ABOVE);
-            list_coverage(&c, MISSED_ABOVE);
-            above = least_status(&s, &c);
-            change(&s, c.ends, c.segments, c.bits, MISSED_ABOVE, c.bits, MISSED_BELOW);
-            list_coverage(&c, MISSED_BELOW);
+        if (c.marked && !is_one_solid(&c)) {  // to each side of the face that the ray runs in, and back
+            u32 side, missed = 0;
+            for (side = 1; side < SIDES; ++side) {
+                u32 here;
+                change(&s, c.ends, c.segments, c.bits, missed, c.bits, missed_on(side));
+                missed = missed_on(side);
+                list_coverage(&c, missed);
+                here = least_status(&s, &c);
+                if (here < owner) owner = here;
+            }
+            change(&s, c.ends, c.segments, c.bits, missed, c.bits, 0);
+        } else {
             owner = least_status(&s, &c);
-            if (above < owner) owner = above;
-            change(&s, c.ends, c.segments, c.bits, MISSED_BELOW, c.bits, 0);
-            list_coverage(&c, 0);
         }
-        nodes[k].owner = owner != NONE ? owner : least_status(&s, &c);
+        nodes[k].owner = owner;
     }
 }

@@ -20,7 +20,7 @@ std::span<const std::uint32_t> claimants_of(const CompiledScene& scene, const ke
     for (std::uint32_t segment = 0; segment < segments; ++segment)
         if (ends[2 * segment].t <= in && in < ends[2 * segment + 1].t) bits[segment / 32] |= 1u << segment % 32;
     const kernel::cover cover{
-        ends, bits.data(), segments, 0, 1, scene.solids.data(), scene.starts.data(), scene.trees.data()};
+        ends, bits.data(), segments, 0, 1, 0, scene.solids.data(), scene.starts.data(), scene.trees.data()};
     found.resize(kernel::claims_at_most(cover));
     return {found.data(), kernel::all_claimants(cover, scene.rank_ends, found.data())};
 }

@@ -1,6 +1,7 @@
 // A list of rays as a call brings it -> the kernels' records.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -43,6 +44,12 @@ public:
     bool is_grid() const { return is_grid_ && numbers_.empty() && ranges_.each.empty(); }
     /// As kernels make them; see put_grid.
     void put_camera(kernel::Frame& frame) const;
+    /// A ray that runs in one of these planes is evaluated on the sides that they keep; nothing else is cut.
+    void cut_by(std::span<const kernel::PlaneRecord> planes) { planes_ = planes; }
+    void put_planes(kernel::Frame& frame) const {
+        std::ranges::copy(planes_, frame.clip);
+        frame.clip_count = static_cast<std::uint32_t>(planes_.size());
+    }
     RayRange range() const { return {scaled(ranges_.all.t_near), scaled(ranges_.all.t_far)}; }
     /// Of the list's first ray, among the grid's.
     std::uint64_t first() const { return first_; }
@@ -59,6 +66,7 @@ private:
     std::span<const Vec3> points_;
     RayRanges ranges_;
     std::span<const std::uint32_t> numbers_;  ///< empty: all rays
+    std::span<const kernel::PlaneRecord> planes_;
     std::uint64_t first_ = 0, size_ = 0;
     bool is_grid_ = false, is_any_scaled_ = false;
     kernel::Frame camera_{};  ///< of a grid

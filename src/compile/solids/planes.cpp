@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "compile/linear.hpp"
+#include "scene/vector.hpp"
 
 namespace csgrt {
 
@@ -178,6 +179,40 @@ kernel::PlaneRef PlaneTable::add_keyed(const Key& key, const Box& box) {
     entries_.push_back({key.one.normal, key.one.distance, key.flipped, box});
     links_.push_back({key.offset, cells_.exchange(key.cell, record), key.axis});
     return record << 1;
+}
+
+kernel::PlaneRecord shared_plane(const CompiledScene& scene, const Plane& plane) {
+    const double reach = scene.radius > 0 ? scene.radius : 1;
+    const Vec3 to_corner{reach, reach, reach};
+    const Box box{scene.center - to_corner, scene.center + to_corner};
+    const double farthest = std::max(PlaneTable::gap * diagonal(box), coordinate_rounding * largest_coordinate(box));
+    const auto is_near = [&](const kernel::PlaneRecord& p) {
+        const double side = p.nx * plane.normal.x + p.ny * plane.normal.y + p.nz * plane.normal.z < 0 ? -1 : 1;
+        const Vec3 off = side * Vec3{p.nx, p.ny, p.nz} - plane.normal;
+        return std::max({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)}) <= PlaneTable::tilt &&
+               separation(wide(off), static_cast<long double>(side * p.d) - plane.distance, box) <= farthest;
+    };
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < scene.planes.size(); ++i)
+        if (is_near(scene.planes[i])) near.push_back(i);
+    PlaneTable table(scene.center, scene.radius);
+    if (!near.empty()) {
+        for (std::size_t solid = 0; solid < scene.solids.size(); ++solid) {
+            const kernel::SolidRecord& record = scene.solids[solid];
+            const Box& own = scene.solid_boxes[solid];
+            for (std::uint32_t i = 0; i < record.plane_count; ++i) {
+                const std::uint32_t ref = scene.words[record.first_plane + i] >> 1;
+                if (!std::binary_search(near.begin(), near.end(), ref)) continue;
+                const kernel::PlaneRecord& p = scene.planes[ref];
+                table.add({{p.nx, p.ny, p.nz}, p.d}, is_finite(own) ? own : box);
+            }
+        }
+    }
+    const std::size_t known = table.size();
+    const kernel::PlaneRef found = table.add(plane, box);
+    if (found >> 1 >= known) return {plane.normal.x, plane.normal.y, plane.normal.z, plane.distance};
+    const kernel::PlaneRecord p = table.records()[found >> 1];
+    return found & 1u ? kernel::PlaneRecord{-p.nx, -p.ny, -p.nz, -p.d} : p;
 }
 
 }  // namespace csgrt

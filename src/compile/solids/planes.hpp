@@ -103,4 +103,8 @@ private:
     CellTable cells_;          ///< the last record of each
 };
 
+/// A plane of a view, by the numbers of the model's own plane where a half-space in the model would share its record:
+/// then a ray meets both at the very same distance.
+kernel::PlaneRecord shared_plane(const CompiledScene& scene, const Plane& plane);
+
 }  // namespace csgrt

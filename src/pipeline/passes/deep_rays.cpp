@@ -12,7 +12,6 @@ namespace kernel {
 
 namespace {
 constexpr cl_uint field_in_end = 0, field_next = 2;  // of kernel::PartitionNode
-constexpr std::uint64_t copies = 3;  // of a ray's status: as it is, and moved above and below the faces it runs in
 }  // namespace
 
 DeepRayPass::Tree::Tree(Device& device, const StatusTree& tree, std::uint32_t regions)
@@ -71,7 +70,7 @@ bool DeepRayPass::prepare(const std::vector<kernel::RayCount>& offsets, std::uin
     const std::uint64_t available = device_.available() + rays_.size();
     if (list_bytes + spoken_for > available) return false;
     const std::uint64_t room = available - list_bytes - spoken_for;
-    const std::uint64_t status_bytes = copies * tree_->words * sizeof(std::uint32_t);
+    const std::uint64_t status_bytes = std::uint64_t{SIDES} * tree_->words * sizeof(std::uint32_t);
     std::uint64_t most_segment_bytes = 0;
     std::uint32_t most_rays = 0;
     for (std::uint32_t first = 0; first + 1 < listed_.size();) {

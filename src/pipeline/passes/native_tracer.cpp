@@ -166,8 +166,8 @@ bool NativeTracer::trace(const kernel::Frame& list, std::span<const kernel::RayR
     run(order_ends_, end_count, &frame, offsets, ends, bits, partitions);
     run(weave_, n, &frame, rays.data(), none, offsets, ends, partitions, bits, tallies);
     run.lap(&PipelineCounts::weave);
-    run(evaluate_, end_count, &frame, scene_.solids.data(), scene_.starts.data(), scene_.trees.data(), offsets, ends,
-        bits, partitions);
+    run(evaluate_, end_count, &frame, scene_.solids.data(), scene_.starts.data(), scene_.trees.data(), rays.data(),
+        none, offsets, ends, bits, partitions);
     trace_deep_rays(run);
     run.lap(&PipelineCounts::evaluate);
     write_rows(run, fields, rows);
@@ -195,8 +195,8 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
         rays.fill(first, records);
         // First hits come in the order of the solids' boxes, before which a plate that a ray grazes may begin. Points
         // have nothing in common that a packet could use.
-        const bool by_hits = (frame.answer & ANSWER_FIRST) && !(scene_.solid_types >> SOLID_PLATE & 1u) &&
-                             records.size() > 1 && records[0].t_near < records[0].t_far;
+        const bool by_hits = (frame.answer & ANSWER_FIRST) && !frame.whole_lines && records.size() > 1 &&
+                             records[0].t_near < records[0].t_far;
         if (!(by_hits && hit(frame, records, sink.fields(), stop, rows, counts)) &&
             !trace(frame, records, sink.fields(), stop, rows, counts)) {
             if (records.size() == 1) throw_too_long_ray(budget_);
@@ -253,7 +253,7 @@ void NativeTracer::trace_deep_rays(Run& run) const {
         if (segments <= DEEP_SEGMENTS) continue;
         const StatusTree& tree = LateStatusTree::of(scene_);
         const auto cluster_words = static_cast<std::uint32_t>(tree.outside.size()),
-                   words = cluster_words + kernel::words_of_set(regions), all = 3 * words;  // as it is, above, below
+                   words = cluster_words + kernel::words_of_set(regions), all = SIDES * words;
         std::uint32_t* const status = room_for(s.status, all);
         kernel::DeepSegment* const of_segments = room_for(s.deep_segments, segments);
         kernel::DeepRay deep{};

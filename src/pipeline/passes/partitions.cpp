@@ -228,9 +228,10 @@ void PartitionPass::make_partitions(const Input& input, std::uint32_t candidates
         weave_.launch(input.rays, work_group, batch.frame, batch.rays, numbers, memory_.offsets(), memory_.ends(),
                       memory_.partitions(), memory_.bits(), memory_.ray_tallies()));
     add(&PipelineCounts::evaluate,
-        other_evaluation_ ? other_evaluation_->launch(evaluate_, input, memory_, segments)
-                          : evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), memory_.offsets(),
-                                             memory_.ends(), memory_.bits(), memory_.partitions()));
+        other_evaluation_
+            ? other_evaluation_->launch(evaluate_, input, memory_, segments)
+            : evaluate_.launch(ends, work_group, batch.frame, input.scene.evaluation(), batch.rays, numbers,
+                               memory_.offsets(), memory_.ends(), memory_.bits(), memory_.partitions()));
 }
 
 bool PartitionPass::write_rows(const Input& input, std::uint64_t first, Fields fields, TimedKernels& timed) {

@@ -25,6 +25,7 @@ using namespace kernel;  // records, and functions so small that they become par
 
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
+#include "../kernels/geometry/beyond.h"
 #include "../kernels/shading/pixel.h"
 #include "../kernels/boolean/rows.h"
 

@@ -22,6 +22,7 @@ inline const real REAL_INFINITY = static_cast<real>(std::numeric_limits<double>:
 
 #include "../kernels/traversal/camera.h"
 #include "../kernels/geometry/collect.h"
+#include "../kernels/geometry/beyond.h"
 #include "../kernels/shading/pixel.h"
 #include "../kernels/boolean/rows.h"
 

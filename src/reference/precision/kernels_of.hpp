@@ -249,7 +249,7 @@ public:
         const k::ray3 r = k::geometry_ray(&frame, k::listed_ray(record));
         const real t_min = frame.work == WORK_RAYS
                                ? k::range_of(&frame, record, r).t_min
-                               : k::parameter_at(r, k::range_in_view(&frame, k::listed_ray(record)).near);
+                               : k::parameter_at(r, k::range_in_view(&frame, k::listed_ray(record)).from);
         std::vector<k::End> own = again(std::move(ends), static_cast<k::End*>(nullptr));
         const auto meet = [&](std::uint32_t solid) {
             const k::u32 segments = k::collect(g_, solids_[solid], solid, r, t_min, nullptr);
@@ -275,8 +275,8 @@ public:
         const k::world_ray w = convert_ray(ray);
         const k::ray3 r = k::geometry_ray(&frame, w);
         const k::view_range range = k::range_in_view(&frame, w);
-        return {static_cast<double>(k::parameter_at(r, range.near)),
-                static_cast<double>(k::parameter_at(r, range.far))};
+        return {static_cast<double>(k::parameter_at(r, range.after)),
+                static_cast<double>(k::parameter_at(r, range.before)), k::sides_beyond(&frame, r)};
     }
     kernel::Pixel hit_pixel(const kernel::Frame& f, const std::vector<kernel::LightRecord>& lights,
                             std::uint32_t region, const kernel::MaterialRecord& material, const Ray& ray,
@@ -300,8 +300,8 @@ private:
     template <class Meet>
     void meet_boxes(const k::Frame& frame, const k::ray3& r, real t_min, const Meet& meet) const {
         for (std::uint32_t solid = 0; solid < frame.unbounded_count; ++solid) meet(solid);
-        const k::slab_ray slab =
-            k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius), t_min);
+        const k::slab_ray slab = k::make_slab_ray(k::offset_from(k::frame_center(&frame), r.o), r.d, real(frame.radius),
+                                                  frame.whole_lines ? -k::REAL_INFINITY : t_min);
         if (!slab.hits_sphere) return;
         for (std::size_t i = 0; i < nodes_.size();) {
             const k::BvhNode& node = nodes_[i];
