@@ -4,12 +4,13 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
+#include <thread>
 
 #ifdef __linux__
 #include <unistd.h>
 #endif
 
-#include "base/process.hpp"
+#include <csgrt/error.hpp>
 
 namespace csgrt {
 
@@ -25,11 +26,19 @@ public:
     }
 
     void enter() {
+        constexpr std::chrono::seconds longest(3);
         std::unique_lock lock(mutex_);
         // Who is inside may wait for who comes.
-        changed_.wait(lock, [this] { return !is_closed_ || inside_ > 0; });
-        ++inside_;
-        ++own_calls;
+        const auto lets_in = [this] { return !is_closed_ || inside_ > 0; };
+        const bool is_exit = is_closed_ && closer_ == std::this_thread::get_id();
+        if (!(is_exit ? lets_in() : changed_.wait_for(lock, longest, lets_in)))
+            throw Error(Status::usage, "the process ends: after exit() no OpenCL device draws");
+        go_in();
+    }
+    bool enter_if_open() {
+        const std::lock_guard lock(mutex_);
+        if (!is_closed_) go_in();
+        return !is_closed_;
     }
     void leave() {
         const std::lock_guard lock(mutex_);
@@ -43,13 +52,20 @@ public:
         if (process_ != process_number()) return;  // a child has none of the threads
         std::unique_lock lock(mutex_);
         is_closed_ = true;
+        closer_ = std::this_thread::get_id();
         changed_.wait_for(lock, longest, [this] { return inside_ == own_calls; });
     }
 
 private:
+    void go_in() {
+        ++inside_;
+        ++own_calls;
+    }
+
     const unsigned process_ = process_number();
     std::mutex mutex_;
     std::condition_variable changed_;
+    std::thread::id closer_;
     int inside_ = 0;
     bool is_closed_ = false;
 };
@@ -77,6 +93,10 @@ DriverCall::DriverCall(bool used) : used_(used) {
     if (!used_) return;
     close_first();
     Gate::of_process().enter();
+}
+
+DriverCall::DriverCall(bool used, int) noexcept : used_(used) {
+    if (used_) used_ = has_begun_ = Gate::of_process().enter_if_open();
 }
 
 void wait_for_driver_calls_at_exit() {

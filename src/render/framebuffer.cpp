@@ -1,17 +1,24 @@
 // The memory of pictures, and what of it is background already.
 #include <algorithm>
 #include <bit>
+#include <new>
 #include <utility>
 
 #include <csgrt/renderer.hpp>
 
+#include "device/driver_call.hpp"
 #include "kernel_host/kernels.hpp"
 #include "pipeline/readback/registered_memory.hpp"
 
 namespace csgrt {
 
 Framebuffer::Framebuffer() = default;
-Framebuffer::~Framebuffer() = default;
+
+Framebuffer::~Framebuffer() {
+    // Memory that a GPU's driver knows, and that it cannot be told of after exit(), stays.
+    if (!DriverCall::of_destructor(registered_ != nullptr).has_begun())
+        static_cast<void>(new (std::nothrow) Image(std::move(image_)));
+}
 
 Framebuffer::Framebuffer(Framebuffer&& other) noexcept = default;
 

@@ -165,10 +165,7 @@ void Renderer::Impl::end_call(Clock::time_point start) {
     statistics.ms.frame = milliseconds_since(start) - backend->build_ms_in_call();
 }
 
-void Renderer::Delete::operator()(Impl* impl) const {
-    const DriverCall driver_call(impl->process == process_number() && impl->uses_drivers);
-    DeleteOwn{impl->process}(impl);
-}
+void Renderer::Delete::operator()(Impl* impl) const { DeleteInCall{{impl->process}, impl->uses_drivers}(impl); }
 
 Renderer::Impl& Renderer::impl() const {
     if (!impl_) throw Error(Status::usage, "this Renderer was moved from");

@@ -1,11 +1,15 @@
 // What else a host notices of csgrt: its threads, signals, locale, and how a process ends.
 #include <algorithm>
+#include <atomic>
 #include <clocale>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <locale>
 #include <optional>
 #include <thread>
 
+#include <dlfcn.h>
 #include <pthread.h>
 
 #include "cli/command.hpp"
@@ -82,6 +86,47 @@ void require_same_texts(const std::string& folder, const std::string& usual) {
     INFO("here: " << std::string(a, std::min(a + 200, mine.end())));
     REQUIRE(mine == usual);
 }
+
+/// Destroyed after all that main() begins.
+std::optional<Renderer> kept;
+std::optional<Framebuffer> kept_picture;
+
+Renderer drawn_by_pocl() {
+    Renderer renderer = renderer_on(small_scene(), on("pocl"));
+    renderer.render(small_view());
+    return renderer;
+}
+
+/// Ends while its thread draws.
+struct Worker {
+    std::atomic<bool> stop{false};
+    std::string why = {};
+    std::thread thread{[this] {
+        try {
+            while (!stop) kept->render(small_view());
+        } catch (const Error& error) {
+            why = error.what();
+        }
+    }};
+    ~Worker() {
+        usleep(300'000);
+        stop = true;
+        thread.join();
+        if (!command_test::contains(why, "after exit()")) _exit(1);
+    }
+};
+
+/// Draws when the process ends.
+struct Late {
+    ~Late() {
+        try {
+            kept->render(small_view());
+            _exit(1);
+        } catch (const Error& error) {
+            if (!command_test::contains(error.what(), "after exit()")) _exit(1);
+        }
+    }
+};
 
 /// Ends the process as a program that returns 7 from main() while `work` goes on in another thread.
 template <class Work>
@@ -253,4 +298,77 @@ TEST_CASE("a process ends with its own status while another thread computes", "[
                     usleep(static_cast<useconds_t>(2000 * i));
                     std::exit(7);
                 }) == 7);
+}
+
+TEST_CASE("a process ends with its own status where what draws with PoCL is destroyed by exit() or unloaded") {
+    const auto on_thread = [](const auto& work) { std::async(std::launch::async, work).get(); };
+    const auto keep = [] { kept.emplace(drawn_by_pocl()); };
+    const auto unload = [] {
+        const char* const name = std::getenv("CSGRT_HOST_PLUGIN");
+        if (name == nullptr) throw Skip();
+        void* const library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+        REQUIRE(library != nullptr);
+        const auto draw = reinterpret_cast<int (*)(const char*)>(dlsym(library, "draw"));
+        const int status = draw((test::folder("CSGRT_SCENES") + "/operators.json").c_str());
+        if (status == static_cast<int>(Status::no_device)) throw Skip();
+        REQUIRE(status == 0);
+        REQUIRE(dlclose(library) == 0);
+    };
+    const std::pair<const char*, std::function<void()>> hosts[] = {
+        {"global", keep},
+        {"static", [] { static Renderer renderer = drawn_by_pocl(); }},
+        {"global, of another thread", [&] { on_thread(keep); }},
+        {"static, of another thread",
+         [&] {
+             on_thread([] {
+                 static Renderer renderer = drawn_by_pocl();
+                 renderer.render({.width = 16, .height = 16, .every_partition = false, .channels = channel::ids});
+             });
+         }},
+        {"exit() in another thread",
+         [&] {
+             keep();
+             on_thread([] { std::exit(7); });
+         }},
+        {"a GPU whose kernels are compiled",
+         [] {
+             const PretendedGpu gpu(pocl);
+             static Renderer renderer(small_scene());
+             static_cast<void>(renderer.render(small_view()));
+         }},
+        {"a picture that a GPU copies into",
+         [] {
+             const PretendedGpu gpu(pocl);
+             kept.emplace(small_scene(), std::vector<std::string>{}, on("pocl"));
+             kept_picture.emplace();
+             for (int i = 0; i < 3; ++i) kept->render(small_view(), *kept_picture);
+         }},
+        {"a thread that draws, and that a destructor waits for",
+         [&] {
+             keep();
+             static Worker worker;
+         }},
+        {"a destructor that draws",
+         [&] {
+             keep();
+             static Late late;
+         }},
+        {"a library that is unloaded", unload},
+        {"a library that is unloaded, by another thread, twice",
+         [&] {
+             on_thread(unload);
+             on_thread(unload);
+         }},
+    };
+    for (const auto& [name, work] : hosts) {
+        INFO(name);
+        const int status = status_of([&, &work = work] {
+            work();
+            std::exit(7);
+        });
+        if (status == skipped)
+            WARN(name << ": PoCL is not there");
+        else
+            CHECK(status == 7);
+    }
 }

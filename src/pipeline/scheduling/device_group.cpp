@@ -8,7 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
-#include "base/process.hpp"
+#include "device/driver_call.hpp"
 
 namespace csgrt {
 namespace {
@@ -122,7 +122,7 @@ std::shared_ptr<RegisteredMemory> DeviceGroup::register_memory(std::span<const C
     const std::size_t bytes = channels.size() * pixels * sizeof(float);
     if (bytes == 0) return nullptr;
     const std::shared_ptr<RegisteredMemory> registered(new RegisteredMemory(channels.front().pixels, bytes),
-                                                       DeleteOwn());
+                                                       DeleteInCall());
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         Device& device = *devices_[i];
         if (!pipelines_[i]->is_asynchronous() || bytes > std::min(device.available() / 2, device.max_buffer()))
