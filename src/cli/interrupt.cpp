@@ -25,11 +25,12 @@ void on_signal(int) {
 }
 
 void on_alarm(int) {
-    const std::string_view text = stop ? "csgrt: error: interrupted\n"
-                                       : "csgrt: error: the libraries for pictures never come back from their start: "
-                                         "are there threads to be had?\n";
+    const std::string_view text =
+        stop ? "csgrt: error: interrupted\n"
+             : "csgrt: warning: the libraries for pictures have not come back from their start "
+               "for 30 s: is the machine busy, or are there no threads to be had?\n";
     static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
-    _exit(static_cast<int>(stop ? Status::interrupted : Status::file));
+    if (stop) _exit(static_cast<int>(Status::interrupted));
 }
 
 }  // namespace
@@ -45,6 +46,7 @@ void catch_interrupts() {
         if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as in a script's background, or nohup
     }
     action.sa_handler = on_alarm;
+    action.sa_flags = SA_RESTART;  // a library goes on to load
     sigaction(SIGALRM, &action, nullptr);
     try {  // a thread that a signal always reaches: others block them while a driver is loaded
         std::thread([] {
@@ -56,8 +58,8 @@ void catch_interrupts() {
 
 bool interrupted() noexcept { return stop; }
 
-LoadingLimit::LoadingLimit() noexcept { alarm(stop ? grace : 30); }
-LoadingLimit::~LoadingLimit() { alarm(stop ? grace : 0); }
+LoadingNotice::LoadingNotice() noexcept { alarm(stop ? grace : 30); }
+LoadingNotice::~LoadingNotice() { alarm(stop ? grace : 0); }
 
 void check_interrupt() {
     if (stop) throw Error(Status::interrupted, "interrupted");

@@ -9,14 +9,15 @@ void catch_interrupts();
 
 bool interrupted() noexcept;
 
-/// While it lives, the libraries for pictures are waited for, 30 s at most: a cold disk takes a few, and one of 260 may
-/// wait for ever, such as liblog4cplus for a thread that it does not get. Then the command ends with status 6.
-class LoadingLimit {
+/// While it lives, the libraries for pictures are waited for, and after 30 s the user is told: a cold disk takes a few
+/// seconds, a busy machine any time, and one of 260 libraries may wait for ever, such as liblog4cplus for a thread that
+/// it does not get.
+class LoadingNotice {
 public:
-    LoadingLimit() noexcept;
-    ~LoadingLimit();
-    LoadingLimit(const LoadingLimit&) = delete;
-    LoadingLimit& operator=(const LoadingLimit&) = delete;
+    LoadingNotice() noexcept;
+    ~LoadingNotice();
+    LoadingNotice(const LoadingNotice&) = delete;
+    LoadingNotice& operator=(const LoadingNotice&) = delete;
 };
 
 /// Throws Error (interrupted) if the user asked to stop.

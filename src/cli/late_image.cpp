@@ -9,8 +9,6 @@
 
 #include <dlfcn.h>
 
-#include <cerrno>
-#include <cstring>
 #include <exception>
 #include <sstream>
 #include <stop_token>
@@ -19,6 +17,7 @@
 
 #include <csgrt/image.hpp>
 
+#include "base/load_fault.hpp"
 #include "image/functions.hpp"
 #include "component.hpp"
 #include "fatal_end.hpp"
@@ -40,7 +39,7 @@ void load_one_by_one(const std::stop_token& stop) {
 
 const ImageFunctions& functions() {
     static const ImageFunctions* found = [] {
-        const cli::LoadingLimit limit;
+        const cli::LoadingNotice notice;
         cli::expect_picture_libraries();
         if (loading.joinable()) loading.join();
         if (!has_begun) load_one_by_one({});
@@ -49,9 +48,7 @@ const ImageFunctions& functions() {
         if (!symbol) {
             const std::string why = dlerror();
             const std::string what = "cannot load the library for pictures: ";
-            if (why.find(std::strerror(ENOMEM)) != why.npos ||
-                why.ends_with("failed to map segment from shared object"))
-                throw Error(Status::out_of_memory, what + "not enough memory: " + why);
+            if (lacked_memory(why)) throw Error(Status::out_of_memory, what + "not enough memory: " + why);
             throw Error(Status::file, what + why);
         }
         return static_cast<const ImageFunctions*>(symbol);
@@ -91,7 +88,7 @@ ImageLoading::ImageLoading(const Command& command) {
 }
 
 ImageLoading::~ImageLoading() {
-    const LoadingLimit limit;
+    const LoadingNotice notice;
     loading = {};
 }
 

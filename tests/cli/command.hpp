@@ -64,6 +64,7 @@ struct How {
     std::vector<std::pair<std::string, std::string>> environment =
         {};                   ///< variables that are set, in place of this process's
     std::string errors = {};  ///< file to be standard error; empty: kept in Result::err
+    unsigned patience = 0;    ///< seconds after which it gets ALRM, as after 30 s of loading, and TERM; 0: never
 };
 
 /// Starts the command in a child; the caller waits for it.
@@ -108,8 +109,19 @@ inline Result run(const std::vector<std::string>& arguments, const How& how = {}
                       err = how.errors.empty() ? folder / "err" : how.errors;
     const std::string input = how.input.empty() ? "/dev/null" : how.input;
     Result result;
-    result.status =
-        wait_for(start(arguments, input, out, err, how.address_space, how.closed, how.file_size, how.environment));
+    const pid_t child =
+        start(arguments, input, out, err, how.address_space, how.closed, how.file_size, how.environment);
+    siginfo_t ended{};
+    for (unsigned i = 0; i < 100 * how.patience && ended.si_pid == 0; ++i) {
+        usleep(10'000);
+        waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    if (how.patience > 0 && ended.si_pid == 0) {
+        kill(child, SIGALRM);
+        usleep(200'000);
+        kill(child, SIGTERM);
+    }
+    result.status = wait_for(child);
     if (how.output.empty()) result.out = read_file(out);
     if (how.errors.empty()) result.err = read_file(err);
     return result;

@@ -11,7 +11,8 @@
 namespace command_test {
 
 /// Every `step`-th of what tests/faults/ counts under the variable `kind`, alone and with all that follow, in commands
-/// that read or write pictures, or in others. One that does not give its answer ends with one of `refusals`.
+/// that read or write pictures, or in others. One that does not give its answer ends with one of `refusals`; with 130
+/// among these, one that waits for libraries and says so is interrupted.
 inline void fail_each(const std::string& kind, unsigned long step, bool pictures, const std::set<int>& refusals) {
     const char* library = std::getenv("CSGRT_FAIL_LIBRARY");
     if (library == nullptr) {
@@ -61,6 +62,7 @@ inline void fail_each(const std::string& kind, unsigned long step, bool pictures
                 How how;
                 how.environment = {{"LD_PRELOAD", library}, {kind, std::to_string(number)}, {kind + "_TOLD", told}};
                 if (on) how.environment.push_back({kind + "_ON", "1"});
+                if (refusals.contains(130)) how.patience = 10;
                 const Result result = answer(how);
                 if (!fs::exists(told)) break;
                 INFO(line << kind << " " << number << (on ? " on: " : ": ") << result.status << " " << result.err);
@@ -72,6 +74,7 @@ inline void fail_each(const std::string& kind, unsigned long step, bool pictures
                     ++refused;
                     CHECK(refusals.contains(result.status));
                     CHECK(contains(result.err, "csgrt: error: "));
+                    if (result.status == 130) CHECK(contains(result.err, "have not come back from their start"));
                     if (!target.empty()) CHECK(result.out == "old");
                 }
                 for (const std::string& file : folder.files()) CHECK(!file.ends_with(".part"));

@@ -48,6 +48,36 @@ TEST_CASE("a library for pictures that cannot be loaded is an error where the pi
     CHECK(run({"info", scene}, how).status == 0);
 }
 
+TEST_CASE("a library for pictures that takes long is waited for, and the wait can be interrupted") {
+    NEEDS_COMMAND();
+    const char* const library = std::getenv("CSGRT_FAIL_LIBRARY");
+    if (library == nullptr) return;
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls), picture = folder.write("x.png", "old"),
+                      held = folder / "held", errors = folder / "err";
+    for (const bool interrupts : {true, false}) {
+        fs::remove(held);
+        const pid_t child = start(drawing(scene, picture), "/dev/null", "/dev/null", errors, 0, {}, 0,
+                                  {{"LD_PRELOAD", library}, {"CSGRT_SLOW_LOAD", held}});
+        const auto await = [](const auto& there) {
+            for (int i = 0; i < 6000 && !there(); ++i) usleep(10'000);
+            CHECK(there());
+        };
+        await([&] { return fs::exists(held); });
+        REQUIRE(kill(child, SIGALRM) == 0);  // as if 30 s were over
+        await([&] { return contains(read_file(errors), "have not come back from their start for 30 s"); });
+        CHECK(read_file(picture) == "old");
+        if (interrupts) {
+            REQUIRE(kill(child, SIGINT) == 0);
+            usleep(100'000);
+            kill(child, SIGINT);
+        }
+        if (!interrupts) fs::remove(held);
+        CHECK(wait_for(child) == (interrupts ? 130 : 0));
+    }
+    CHECK(read_file(picture) != "old");
+}
+
 TEST_CASE("the libraries that the one for pictures needs are loaded one by one") {
     NEEDS_COMMAND();
     const Folder folder;
