@@ -1,6 +1,7 @@
 #include <csgrt/model.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -15,9 +16,18 @@
 #include "device/host_memory.hpp"
 #include "kernel_host/geometry.hpp"
 #include "render/model_impl.hpp"
+#include "scene/range.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {
+
+void check_numbers(const Settings& settings) {
+    for (const auto& [name, number] :
+         {std::pair("tolerance", settings.tolerance), std::pair("device_timeout", settings.device_timeout)})
+        if (!std::isfinite(number))
+            throw Error(Status::usage, std::string("the setting ") + name + " is " + number_text(number) +
+                                           ", and must be a finite number; -1 is the default");
+}
 
 double tolerance_of(const CompiledScene& scene, const Settings& settings) {
     if (settings.tolerance_rule == Tolerance::none) return 0;
@@ -35,6 +45,7 @@ namespace {
 
 CompiledScene compiled(const ModelSource& source) {
     const Settings& settings = source.settings;
+    check_numbers(settings);
     if (settings.max_instances > Limits::most_instances)
         throw Error(Status::usage, "max_instances is more than " + std::to_string(Limits::most_instances));
     return compile(*source.scene, source.objects,

@@ -92,6 +92,8 @@ private:
     std::optional<CallerTracer> all_, shown_;
 };
 
+/// Throws Error (usage) for a setting that is no finite number.
+void check_numbers(const Settings& settings);
 /// The tolerance that the settings ask for, in millimetres.
 double tolerance_of(const CompiledScene& scene, const Settings& settings);
 

@@ -16,6 +16,7 @@ namespace {
 
 /// Throws Error (usage) for settings that exclude each other.
 const Settings& checked(const Settings& settings) {
+    check_numbers(settings);
     if (settings.precision == Precision::quad && !settings.reference)
         throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
     if (settings.contraction && settings.reference)

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <limits>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "c/call.hpp"
 #include "c/owned.hpp"
@@ -25,6 +27,28 @@ struct Wheels {
 };
 
 csgrt_member number(const char* name, const double& value) { return {name, &value, 1, 0, nullptr}; }
+
+constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+
+/// Each number of `numbers`, which are doubles or structs of nothing else, in turn is none, or has no end: then call()
+/// must refuse it.
+template <class Call, class... Numbers>
+void check_no_end(const char* what, const Call& call, Numbers&... numbers) {
+    std::vector<double*> all;
+    const auto add = [&](double* first, std::size_t bytes) {
+        for (std::size_t i = 0; i < bytes / sizeof(double); ++i) all.push_back(first + i);
+    };
+    (add(reinterpret_cast<double*>(&numbers), sizeof numbers), ...);
+    REQUIRE_OK(call());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const double bad : {none, infinite, -infinite}) {
+            INFO(what << ", number " << i << " is " << bad);
+            const double good = std::exchange(*all[i], bad);
+            const int status = call();
+            CHECK((status == CSGRT_ERROR_USAGE || status == CSGRT_ERROR_SCENE));
+            *all[i] = good;
+        }
+}
 
 }  // namespace
 
@@ -196,6 +220,141 @@ TEST_CASE("what C passes on is refused with its index, its value or its place") 
     std::thread([&] { elsewhere = csgrt_last_error(); }).join();
     CHECK(elsewhere.empty());
     CHECK(csgrt_last_error() == first);
+}
+
+TEST_CASE("no number that C sets is taken if it is none, or has no end") {
+    const Wheels w;
+    OwnedModel model;
+    OwnedRenderer renderer;
+    OwnedVerifier verifier;
+    OwnedImage image;
+    OwnedPartitions partitions;
+    REQUIRE_OK(csgrt_image_create(&image));
+    REQUIRE_OK(csgrt_partitions_create(&partitions));
+
+    csgrt_settings settings = CSGRT_SETTINGS;
+    const auto makes_model = [&] { return csgrt_model_create(w.scene, nullptr, 0, &settings, &model); };
+    const auto makes_renderer = [&] { return csgrt_renderer_create(w.model, &settings, &renderer); };
+    const auto makes_verifier = [&] { return csgrt_verifier_create(w.scene, nullptr, 0, &settings, &verifier); };
+    check_no_end("a model's settings", makes_model, settings.tolerance, settings.device_timeout);
+    check_no_end("a renderer's settings", makes_renderer, settings.tolerance, settings.device_timeout);
+    check_no_end("a verifier's settings", makes_verifier, settings.tolerance, settings.device_timeout);
+    settings.tolerance = infinite;
+    CHECK_REFUSED(makes_renderer(), CSGRT_ERROR_USAGE, "the setting tolerance is inf, and must be a finite number");
+
+    csgrt_ray ray = {{-30, 0.5, 0.25}, {2, 0, 0}};
+    csgrt_range range = {0, 1e3};
+    csgrt_ray_grid grid{};
+    csgrt_rays rays = CSGRT_RAYS;
+    const auto shoots = [&] { return csgrt_renderer_partitions(w.renderer, &rays, partitions); };
+    const auto finds = [&] { return csgrt_model_partitions(w.model, &rays, partitions); };
+    rays.list = &ray;
+    rays.count = 1;
+    check_no_end("a renderer's ray", shoots, ray);
+    check_no_end("a model's ray", finds, ray);
+    for (double* const end : {&rays.range.t_near, &rays.range.t_far}) {  // a line has no ends
+        const double good = std::exchange(*end, none);
+        CHECK((shoots() == CSGRT_ERROR_USAGE && finds() == CSGRT_ERROR_USAGE));
+        *end = good;
+    }
+    rays.ranges = &range;
+    rays.range_count = 1;
+    range.t_far = none;
+    CHECK((shoots() == CSGRT_ERROR_USAGE && finds() == CSGRT_ERROR_USAGE));
+    rays.ranges = nullptr;
+    rays.range_count = 0;
+
+    csgrt_box box = {{-30, -30, -30}, {60, 60, 60}};
+    csgrt_vec3 center = {0, 0, 0}, eye = {500, 20, 30}, up = {0, 0, 1}, normal = {1, 2, 3}, point = {1, 1, 1};
+    double angle = 30, offset = 3;
+    const auto parallel = [&] { return csgrt_rays_parallel(&box, 0, 3, 2, &grid); };
+    check_no_end("the box of parallel rays", parallel, box);
+    const auto pinhole = [&] { return csgrt_rays_pinhole(angle, &center, &eye, &up, 3, 2, &grid); };
+    check_no_end("an eye", pinhole, angle, center, eye, up);
+    rays.grid = &grid;
+    rays.list = nullptr;
+    rays.count = 0;
+    check_no_end("a renderer's grid", shoots, grid.origin, grid.direction, grid.right, grid.up);
+    check_no_end("a model's grid", finds, grid.origin, grid.direction, grid.right, grid.up);
+    csgrt_slice slice{};
+    const auto slices = [&] { return csgrt_slice_of(&box, &normal, offset, 3, 3, &slice); };
+    check_no_end("a plane", slices, box, normal, offset);
+    std::int32_t ids[9];
+    const auto looks = [&] { return csgrt_renderer_slice(w.renderer, &slice, ids, 9); };
+    check_no_end("a slice", looks, slice.center, slice.right, slice.up);
+    const auto asks = [&] { return csgrt_model_region_at(w.model, &point, ids, 1); };
+    check_no_end("a point", asks, point);
+
+    csgrt_camera camera = CSGRT_CAMERA;
+    csgrt_plane plane = {{1, 0, 0}, 20};
+    csgrt_view view = CSGRT_VIEW;
+    view.width = view.height = 4;
+    view.camera = &camera;
+    view.clip = &plane;
+    view.clip_count = 1;
+    const auto draws = [&] { return csgrt_renderer_render(w.renderer, &view, image); };
+    camera.view_size = 100;
+    camera.center = &center;
+    check_no_end("a view", draws, camera.azimuth, camera.elevation, camera.perspective, camera.view_size, center,
+                 plane);
+    camera.view_size = 0;
+    camera.center = nullptr;
+    camera.eye = &eye;
+    camera.look_at = &point;
+    camera.up = &up;
+    check_no_end("a view from an eye", draws, eye, point, up);
+    const auto samples = [&] {
+        csgrt_ray some[50];
+        return csgrt_verifier_sample(verifier, &camera, 1, some, 50);
+    };
+    settings.tolerance = -1;
+    REQUIRE_OK(makes_verifier());
+    check_no_end("a sample from an eye", samples, eye, point, up);
+
+    csgrt_scene_info info = CSGRT_SCENE_INFO;
+    csgrt_light light = CSGRT_LIGHT;
+    csgrt_finish finish = CSGRT_FINISH;
+    csgrt_vec3 red = {1, 0, 0};
+    finish.shines = 1;
+    finish.target = &point;
+    finish.direction = &up;
+    double matrix[16] = {1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1};
+    csgrt_vec3 vertices[] = {{20, 0, 0}, {30, 0, 0}, {20, 10, 0}, {20, 0, 10}};
+    const std::uint32_t faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    const auto builds = [&] {
+        OwnedScene scene;
+        const csgrt_tree_node node = CSGRT_PLACED("mesh", matrix);
+        csgrt_combination part = CSGRT_COMBINATION;
+        part.name = "part";
+        part.nodes = &node;
+        part.node_count = part.region = 1;
+        part.color = &red;
+        part.finish = &finish;
+        if (csgrt_scene_create(&scene) != CSGRT_OK ||
+            csgrt_scene_add_mesh(scene, "mesh", vertices, 4, faces, 4) != CSGRT_OK ||
+            csgrt_scene_add_combination(scene, &part) != CSGRT_OK || csgrt_scene_set_info(scene, &info) != CSGRT_OK ||
+            csgrt_scene_set_camera(scene, &camera) != CSGRT_OK || csgrt_scene_set_lights(scene, &light, 1) != CSGRT_OK)
+            return CSGRT_ERROR_USAGE;
+        return csgrt_model_create(scene, nullptr, 0, nullptr, &model);
+    };
+    check_no_end("a scene", builds, info.unit_length, info.ambient, info.background, info.tolerance, camera.azimuth,
+                 camera.elevation, camera.perspective, eye, point, up, light.position, light.color, light.intensity,
+                 light.angle, light.direction, finish.specular, finish.diffuse, finish.ambient, finish.transmit,
+                 finish.reflect, finish.intensity, finish.fraction, finish.angle, red, matrix, vertices);
+    const auto edits = [&] {
+        OwnedEdit edit;
+        if (csgrt_edit_create(w.model, &edit) != CSGRT_OK || csgrt_edit_set_color(edit, "all", &red) != CSGRT_OK ||
+            csgrt_edit_set_finish(edit, "all", &finish) != CSGRT_OK ||
+            csgrt_edit_set_lights(edit, &light, 1) != CSGRT_OK ||
+            csgrt_edit_set_ambient(edit, info.ambient) != CSGRT_OK ||
+            csgrt_edit_set_background(edit, &info.background) != CSGRT_OK ||
+            csgrt_edit_set_matrix(edit, "all/wheel", matrix, 0) != CSGRT_OK)
+            return CSGRT_ERROR_USAGE;
+        return csgrt_edit_commit(edit, &model);
+    };
+    check_no_end("an edit", edits, red, finish.specular, finish.diffuse, finish.ambient, finish.transmit,
+                 finish.reflect, finish.intensity, finish.fraction, finish.angle, point, up, light.position,
+                 light.color, light.intensity, light.angle, light.direction, info.ambient, info.background, matrix);
 }
 
 TEST_CASE("scenes are built in C of solids by the names of their members, meshes and trees") {

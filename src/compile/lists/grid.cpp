@@ -25,7 +25,7 @@ void check_counts(int columns, int rows, const char* what) {
 }
 
 const Box& filled(const Box& box) {
-    if (is_empty(box)) refuse("the box is empty: give one that has a size");
+    if (is_empty(box) || !is_finite(box)) refuse("the box is empty, or not finite: give one that has a size");
     return box;
 }
 
