@@ -78,10 +78,10 @@ DevicePlan plan_default(const Settings& settings) {
 }
 
 /// The error with what is known of drivers that cannot be used: one of theirs may be what was meant.
-[[noreturn]] void refuse_with(const std::vector<std::string>& notes, const Error& error) {
+[[noreturn]] void refuse_with(const Discovery& found, const Error& error) {
     std::vector<Diagnostic> findings = error.diagnostics();
-    for (const std::string& note : notes) findings.back().suggestion += "\n" + note;
-    throw Error(error.status(), std::move(findings));
+    for (const std::string& note : found.notes) findings.back().suggestion += "\n" + note;
+    throw Error(found.lacked_memory ? Status::out_of_memory : error.status(), std::move(findings));
 }
 
 DevicePlan plan_chosen(const Settings& settings) {
@@ -94,7 +94,7 @@ DevicePlan plan_chosen(const Settings& settings) {
         plan.first =
             pick(found.devices, choose_devices(infos_of(found.devices), settings.device, kernels_for(settings)));
     } catch (const Error& error) {
-        refuse_with(found.notes, error);
+        refuse_with(found, error);
     }
     std::vector<FoundDevice> native = native_by_default(settings);
     const bool are_processors = std::all_of(plan.first.begin(), plan.first.end(), is_processor);

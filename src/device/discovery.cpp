@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "base/load_fault.hpp"
 #include "base/process.hpp"
 #include "base/thread.hpp"
 #include "native/driver.hpp"
@@ -107,6 +108,7 @@ void add_devices(const OpenCl& cl, Discovery& found) {
         check(code, "clGetPlatformIDs");
         check(cl.GetPlatformIDs(count, platforms.data(), nullptr), "clGetPlatformIDs");
     } catch (const Error& error) {
+        found.lacked_memory |= error.status() == Status::out_of_memory;
         found.notes.push_back("OpenCL cannot be used: " + std::string(error.what()));
         return;
     }
@@ -116,6 +118,7 @@ void add_devices(const OpenCl& cl, Discovery& found) {
             name = platform_text(cl, platform);
             for (FoundDevice& device : devices_of(cl, platform)) found.devices.push_back(std::move(device));
         } catch (const Error& error) {
+            found.lacked_memory |= error.status() == Status::out_of_memory;
             found.notes.push_back("the OpenCL driver \"" + name + "\" cannot be used: " + error.what());
         }
     }
@@ -163,9 +166,15 @@ Discovery find_devices() {
         const BlockedSignals blocked;
         const OpenClLoader& loader = opencl_loader();
         if (loader.functions) {
+            static bool lacked = false;  // ocl-icd loads drivers once, and says no word of those that it cannot load
+            static_cast<void>(last_load_fault());
             add_devices(*loader.functions, found);
+            lacked |= lacked_memory(last_load_fault());
+            if (lacked) found.notes.push_back("a driver of OpenCL cannot be used: there was not enough memory");
+            found.lacked_memory |= lacked;
             wait_for_driver_calls_at_exit();
         }
+        found.lacked_memory |= lacked_memory(loader.fault);
         if (!loader.fault.empty()) found.notes.push_back("the OpenCL loader cannot be opened: " + loader.fault);
     } else {
         found.notes.push_back(

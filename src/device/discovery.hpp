@@ -19,6 +19,7 @@ struct FoundDevice {
 struct Discovery {
     std::vector<FoundDevice> devices;  ///< in the order of their numbers
     std::vector<std::string> notes;    ///< on drivers that cannot be used, a sentence each
+    bool lacked_memory = false;        ///< it kept one from being used
 };
 
 /// Whether OpenCL's drivers are this process's to use: they serve the process that uses them first, and no child that

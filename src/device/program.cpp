@@ -1,5 +1,6 @@
 #include "device/program.hpp"
 
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -68,6 +69,19 @@ Program::Program(const Device& device, const std::string& source, const std::vec
     if (cache) cache->keep(key, binary());
 }
 
+/// An exception leaves PoCL's compiler where memory ends, and leaves PoCL locked: nothing is released then, which would
+/// wait for ever.
+cl_int Program::build(const std::string& options) const {
+    const Driver& cl = device_->cl();
+    const cl_device_id id = device_->id();
+    try {
+        return cl.BuildProgram(program_.get(), 1, &id, options.c_str(), nullptr, nullptr);
+    } catch (const std::bad_alloc&) {
+        cl.is_lost = true;
+        throw;
+    }
+}
+
 void Program::compile(const std::string& source, const std::string& options) {
     // PoCL reads a megabyte of declarations, all functions of OpenCL C for all types, before it looks for what it has
     // compiled: 45 of 60 ms of each start. Without them it takes those that are used from builtins.h. Other releases
@@ -82,13 +96,11 @@ void Program::compile(const std::string& source, const std::string& options) {
     program_ = Handle<cl_program, &OpenCl::ReleaseProgram>(
         cl, cl.CreateProgramWithSource(device_->context(), 1, &text, &size, &code));
     check(code, "clCreateProgramWithSource");
-    const cl_device_id id = device_->id();
-    const auto build = [&](const std::string& more) {
-        code = cl.BuildProgram(program_.get(), 1, &id, (options + more).c_str(), nullptr, nullptr);
-        return code == CL_SUCCESS;
-    };
-    if (has_own_declarations_) has_own_declarations_ = build(" -D_OPENCL_H_ -DCSGRT_BUILTINS");
-    if (!has_own_declarations_) build("");
+    if (has_own_declarations_) {
+        code = build(options + " -D_OPENCL_H_ -DCSGRT_BUILTINS");
+        has_own_declarations_ = code == CL_SUCCESS;
+    }
+    if (!has_own_declarations_) code = build(options);
     build_log_ = log_of(*device_, program_.get());
     if (code == CL_BUILD_PROGRAM_FAILURE) {
         throw Error(Status::device_fault,
@@ -107,7 +119,7 @@ bool Program::load(const std::string& binary) {
     program_ = Handle<cl_program, &OpenCl::ReleaseProgram>(
         cl, cl.CreateProgramWithBinary(device_->context(), 1, &id, &size, &bytes, &status, &code));
     if (code != CL_SUCCESS || status != CL_SUCCESS) return false;
-    return cl.BuildProgram(program_.get(), 1, &id, "", nullptr, nullptr) == CL_SUCCESS;
+    return build("") == CL_SUCCESS;
 }
 
 /// What the driver made of the source; empty if it does not give it.

@@ -86,6 +86,7 @@ public:
     bool has_own_declarations() const noexcept { return has_own_declarations_; }
 
 private:
+    cl_int build(const std::string& options) const;
     void compile(const std::string& source, const std::string& options);
     bool load(const std::string& binary);
     std::string binary() const;

@@ -13,6 +13,45 @@ TEST_CASE("each allocation that fails ends the command with status 5 or changes 
     fail_each("CSGRT_FAIL_NEW", 1, false, {5});
 }
 
+TEST_CASE("memory that ends in PoCL ends the command with status 5 or 7, or changes nothing") {
+    NEEDS_COMMAND();
+    const char* const library = std::getenv("CSGRT_FAIL_LIBRARY");
+    if (library == nullptr || !contains(run({"devices"}).out, "Portable Computing Language")) {
+        WARN("no library or no PoCL: skipped");
+        return;
+    }
+    const Folder folder;
+    const std::string scene = folder.write("balls.asc", two_balls), told = folder / "told",
+                      rays = folder.write("rays", "-100 0.1 0.2 1 0 0\n");
+    const std::vector<std::string> words = {"shoot", scene, "--rays", rays, "--device", "pocl"};
+    const std::string expected = run(words).out;  // compiles
+    int refused = 0;
+    for (int number = 1;; ++number) {
+        How how;
+        how.environment = {{"LD_PRELOAD", library},
+                           {"CSGRT_FAIL_NEW", std::to_string(number)},
+                           {"CSGRT_FAIL_NEW_LEAST", "32768"},
+                           {"CSGRT_FAIL_NEW_TOLD", told}};
+        how.patience = 30;  // PoCL's lock
+        fs::remove(told);
+        const Result result = run(words, how);
+        if (!fs::exists(told)) break;
+        INFO(number << ": " << result.status << " " << result.err);
+        CHECK((result.status == 5 || result.status == 7 || (result.status == 0 && result.out == expected)));
+        refused += result.status == 5;
+    }
+    CHECK(refused > 0);
+#ifndef CSGRT_SANITIZED  // they need the address space themselves
+    for (const rlim_t megabytes : {100, 200, 300}) {
+        How how;
+        how.address_space = megabytes << 20;
+        const Result result = run(words, how);
+        INFO(megabytes << " MB: " << result.status << " " << result.err);
+        CHECK(result.status == 5);
+    }
+#endif
+}
+
 #ifdef CSGRT_HAVE_IMAGE
 // 6: what OpenImageIO says of it need not be that.
 TEST_CASE("an allocation that fails where pictures are read or written is an error or changes nothing") {

@@ -18,6 +18,7 @@ Library of_process() { return nullptr; }
 Library open_library(const char* name) { return LoadLibraryA(name); }
 void* symbol_of(Library library, const char* name) { return reinterpret_cast<void*>(GetProcAddress(library, name)); }
 // Windows says no more than a number.
+std::string last_words() { return {}; }
 std::string fault_of_opening(const char*) { return {}; }
 #else
 using Library = void*;
@@ -30,10 +31,13 @@ constexpr const char* library_names[] = {"libOpenCL.so.1", "libOpenCL.so"};
 Library of_process() { return dlopen(nullptr, RTLD_NOW); }
 Library open_library(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
 void* symbol_of(Library library, const char* name) { return dlsym(library, name); }
+std::string last_words() {
+    const char* const words = dlerror();
+    return words ? words : "";
+}
 /// Empty if the library itself is not there; what it lacks, say a library of its own, is a fault.
 std::string fault_of_opening(const char* name) {
-    const char* words = dlerror();
-    const std::string fault = words ? words : "";
+    const std::string fault = last_words();
     return fault.starts_with(std::string(name) + ": cannot open shared object file") ? "" : fault;
 }
 #endif
@@ -76,5 +80,7 @@ const OpenClLoader& opencl_loader() {
     static const auto& loader = *new const OpenClLoader(open_loader());  // for threads that see exit(), too
     return loader;
 }
+
+std::string last_load_fault() { return last_words(); }
 
 }  // namespace csgrt

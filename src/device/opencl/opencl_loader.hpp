@@ -16,4 +16,7 @@ struct OpenClLoader {
 /// Once in a process; any thread.
 const OpenClLoader& opencl_loader();
 
+/// What the system said of the last library that this thread could not load; empty: nothing since the last question.
+std::string last_load_fault();
+
 }  // namespace csgrt
