@@ -12,7 +12,7 @@ from . import _core
 from ._image import Image
 from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
-from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean
+from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked
 
 _COLOR, _DISTANCE, _NORMAL, _IDS, _COUNTS, _DISPLAY, _GHOSTS = (1 << bit for bit in range(7))
 
@@ -49,7 +49,7 @@ def _doubles(values, last: int, what: str) -> np.ndarray:
     """The values as they are, if they are float64 in C order; else a copy."""
     if isinstance(values, np.ndarray) and values.dtype.kind == "c":
         raise TypeError(f"{what} are real, not {values.dtype}")
-    array = np.ascontiguousarray(values, np.float64)
+    array = np.ascontiguousarray(unmasked(values, what), np.float64)
     if array.shape[-1] != last:
         raise ValueError(f"{what} have the shape (..., {last}), not {array.shape}")
     return array
@@ -61,6 +61,7 @@ def _range(rays: np.ndarray, tnear, tfar):
         return float(tnear), float(tfar), None
     ranges = np.empty(rays.shape[:-1] + (2,))
     for i, (name, end) in enumerate((("tnear", tnear), ("tfar", tfar))):
+        end = unmasked(end, f"elements of {name}")
         try:
             ranges[..., i] = end
         except ValueError:
@@ -113,7 +114,7 @@ class Subtree:
 
 
 def _matrix(matrix) -> np.ndarray:
-    return np.ascontiguousarray(matrix, np.float64)
+    return np.ascontiguousarray(unmasked(matrix, "a matrix's elements"), np.float64)
 
 
 class Scene(_core.Scene):
@@ -172,7 +173,8 @@ class Scene(_core.Scene):
         shape (...): where rays begin and end. Returns a dict of arrays: t_hit (...) float64, infinity for a miss;
         region_ids (...) int32, indices into regions, -1 for a miss; solid_ids (...) int32, indices into solids: whose
         surface it is, -1 for a miss; normals (..., 3) float64, outward from the region.
-        Raises csgrt.Error (usage, out_of_memory, device_fault), TypeError or ValueError (arrays of wrong shapes).
+        Raises csgrt.Error (usage, out_of_memory, device_fault), TypeError or ValueError (arrays of wrong shapes, or
+        masked in part).
         """
         rays = _doubles(rays, 6, "rays")
         return self._hit_arrays(rays, *_range(rays, tnear, tfar), solids, normals)

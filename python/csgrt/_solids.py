@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from ._values import unmasked
+
 
 def translate(x: float | Sequence[float] = 0, y: float = 0, z: float = 0) -> np.ndarray:
     """The (4, 4) matrix that moves by x, y, z mm: three numbers, or one sequence of three."""
@@ -60,7 +62,7 @@ class Part:
 
     def transform(self, matrix) -> Part:
         """The part moved by a (4, 4) matrix on column vectors, in mm."""
-        return Part(self._kind, self._data, np.asarray(matrix, float) @ self._matrix)
+        return Part(self._kind, self._data, np.asarray(unmasked(matrix, "a matrix's elements"), float) @ self._matrix)
 
     def translate(self, x: float | Sequence[float] = 0, y: float = 0, z: float = 0) -> Part:
         """The part moved by x, y, z mm: three numbers, or one sequence of three."""
@@ -135,7 +137,7 @@ def box(size, center: bool = False) -> Part:
     """A box of that size, a number or (x, y, z), from the origin on, or about it."""
     if np.shape(size) not in ((), (3,)):
         raise ValueError(f"the size of a box is a number or (x, y, z), not {size!r}")
-    sides = np.broadcast_to(np.asarray(size, float), 3)
+    sides = np.broadcast_to(np.asarray(unmasked(size, "sides"), float), 3)
     low = -sides / 2 if center else np.zeros(3)
     return solid("box", low=low, high=low + sides)
 
@@ -213,7 +215,7 @@ def scene_text(parts: Mapping[str, Part]) -> str:
     for name, part in parts.items():
         writer.top(name, _part(part))
     scene = {"csgrt": 1, "solids": writer.solids, "combinations": writer.combinations, "objects": list(parts)}
-    return json.dumps(scene, default=lambda value: value.tolist())
+    return json.dumps(scene, default=lambda value: unmasked(value, "a solid's numbers").tolist())
 
 
 def shape_text(part: Part) -> str:

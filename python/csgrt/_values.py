@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 
 def _describe(kind: type, **members: str):
     """Gives the members of a NamedTuple docstrings. Those that their names describe have none."""
@@ -18,6 +20,13 @@ def did_you_mean(wrong: str, known) -> str:
 
     near = [name for name in known if name.endswith(wrong)] or get_close_matches(wrong, known)
     return f": did you mean {near[0]!r}?" if near else ""
+
+
+def unmasked(values, what: str):
+    """The values. Raises ValueError for an array of numpy.ma that masks some: numpy would hand them over unmasked."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{what} are masked in part, and csgrt knows no masks: give compressed() or filled() arrays")
+    return values
 
 
 class Place(NamedTuple):

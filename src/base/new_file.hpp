@@ -78,6 +78,7 @@ class NewFile {
 public:
     /// `on_signal` is called where a signal ends a wait, and may throw; then the wait goes on.
     explicit NewFile(const std::string& name, void (*on_signal)() = nullptr) : NewFile(on_signal, name) {
+        if (name.find('\0') != name.npos) refuse(name.c_str(), "cannot create", "the name of a file has no NUL");
         Target target = target_of(name);
         target_ = target.path.string();
         if (target.endless) fail("cannot create", ELOOP);

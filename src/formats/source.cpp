@@ -62,6 +62,7 @@ std::string read_all(std::FILE* file, const std::string& name, std::size_t expec
 
 std::string read_file(const std::string& path) {
     std::error_code ignored;
+    if (path.find('\0') != path.npos) refuse(path.c_str(), "cannot be opened: the name of a file has no NUL");
     if (std::filesystem::is_directory(path, ignored)) refuse(path, "this is a folder, not a file");
     errno = 0;
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);

@@ -25,6 +25,8 @@ std::size_t rank(const std::string& name) {
 }
 
 Image read(const std::string& path) {
+    if (path.find('\0') != path.npos)
+        throw Error(Status::file, std::string(path.c_str()) + ": cannot read: the name of a file has no NUL");
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
     if (!input) throw_from(path + ": cannot read: ", OIIO::geterror());
     if (std::string(input->format_name()) != "openexr") throw Error(Status::file, path + ": is no EXR file");

@@ -56,6 +56,16 @@ TEST_CASE("scene io: files that cannot be read") {
     CHECK(status_of([&] { load_scene(""); }) == Status::file);
 }
 
+TEST_CASE("scene io: a name with a NUL is no shorter name") {
+    using namespace std::string_literals;
+    const Folder folder;
+    const Scene scene = make_scene({ball("a", 0.1)});
+    save_scene(scene, folder / "scene.json");
+    CHECK(status_of([&] { load_scene(folder / "scene.json\0.json"s); }) == Status::file);
+    CHECK(status_of([&] { save_scene(scene, folder / "other.json\0.json"s); }) == Status::file);
+    CHECK(folder.files().size() == 1);
+}
+
 TEST_CASE("scene io: a file is replaced whole, or left alone") {
     const Folder folder;
     const std::string path = folder / "scene.json";

@@ -137,6 +137,42 @@ def test_wrong_shapes_and_rays_are_refused_with_a_sentence(operators):
     assert caught.value.status == "usage"
 
 
+def test_an_array_with_masked_elements_is_refused_wherever_one_is_given(operators):
+    rays = np.ma.array([[0.0, -9000, 0, 0, 1, 0]] * 2)
+    expected = operators.partitions(rays.data)
+    assert (operators.partitions(rays)["t_in"] == expected["t_in"]).all()  # it masks none
+    rays[1] = np.ma.masked
+    ends = np.ma.array([1.0, 2.0], mask=[False, True])
+    matrix = np.ma.array(np.eye(4), mask=np.eye(4) == 0)
+    for call, what in [
+        (lambda: operators.partitions(rays), "rays"),
+        (lambda: operators.cast_rays(rays), "rays"),
+        (lambda: operators.test_occlusions(rays.data, tfar=ends), "elements of tfar"),
+        (lambda: operators.region_at(rays[:, :3]), "points"),
+        (lambda: operators.add_leg("operators", "union", matrix=matrix), "a matrix's elements"),
+        (lambda: csgrt.sphere(1).transform(matrix), "a matrix's elements"),
+        (lambda: csgrt.box(np.ma.array([1, 2, 3], mask=[0, 1, 0])), "sides"),
+        (lambda: csgrt.Scene(csgrt.solid("sphere", center=rays[1, :3], radius=1)), "a solid's numbers"),
+    ]:
+        with pytest.raises(ValueError, match=f"^{what} are masked in part"):
+            call()
+
+
+@pytest.mark.parametrize("setting", ["tolerance", "device_timeout"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_a_setting_without_end_is_refused(scenes, setting, value):
+    with pytest.raises(csgrt.Error, match=f"the setting {setting} is .*, and must be a finite number"):
+        csgrt.load(scenes / "operators.json", **{setting: value})
+
+
+def test_a_name_of_a_file_with_a_nul_is_refused(operators, scenes, tmp_path):
+    with pytest.raises(csgrt.Error, match="the name of a file has no NUL"):
+        csgrt.load(str(scenes / "operators.json") + "\0.json")
+    with pytest.raises(csgrt.Error, match="the name of a file has no NUL"):
+        operators.save(str(tmp_path / "a.json") + "\0.json")
+    assert not list(tmp_path.iterdir())
+
+
 def test_regions_are_those_of_info(operators, scenes, command):
     listed = json.loads(command("info", "--json", scenes / "operators.json", capture_output=True).stdout)
     assert len(operators.regions) == len(listed["regions"])
