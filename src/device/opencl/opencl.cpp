@@ -97,7 +97,7 @@ void Driver::give_up() const {
     is_lost = true;
     char seconds[32];
     const std::string text(seconds, std::to_chars(seconds, std::end(seconds), patience).ptr);
-    if (patience == 0) throw Error(Status::device_fault, device + " is used no more: memory has ended in its driver");
+    if (patience == 0) throw Error(Status::device_fault, device + " is used no more: memory ended in its driver");
     throw Error(Status::device_fault,
                 {Diagnostic{.message = device + " gave no answer for " + text + " s and is used no more",
                             .suggestion = "Use another device, or give it more time (--device-timeout, "

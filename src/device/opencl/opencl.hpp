@@ -33,7 +33,7 @@ struct Driver : OpenCl {
     const OpenCl* table;                       ///< what this is a copy of
     std::string device;                        ///< its name
     double patience;                           ///< seconds that the host waits for an answer; 0: any time
-    mutable std::atomic<bool> is_lost{false};  ///< it took longer
+    mutable std::atomic<bool> is_lost{false};  ///< it took longer, or memory ended in it
 };
 
 /// Keeps for ever what a lost device may still read or write.
