@@ -14,7 +14,8 @@
 // ray is a tie: rounding of its own numbers may give either answer. Where all of 64 rays around a tie meet the same, a
 // distance `shift` away from it, the tie has to meet it, too; else it counts as decided, and wrong. Partitions, and
 // gaps between two partitions of one region, are ignored if they are no longer than the tolerance + shift / cos at each
-// of their ends (cos: of the angle between the ray and the surface's normal).
+// of their ends (cos: of the angle between the ray and the surface's normal). A partition that ends as close to the
+// ray's start is ignored, too: it is left out where rounding puts its end before the start.
 #pragma once
 
 #include <cstddef>

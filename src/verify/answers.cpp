@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace csgrt {
 namespace {
@@ -31,6 +32,10 @@ double cosine(Vec3 direction, Vec3 normal) {
 
 double Blur::of(Vec3 normal) const { return std::min(shift / cosine(direction, normal), 2 * std::sqrt(size * shift)); }
 
+bool Blur::ends_at_start(const Partition& partition) const {
+    return std::abs(partition.out) * length(direction) <= tolerance + of(partition.out_normal);
+}
+
 std::vector<Partition> that_count(const std::vector<Partition>& partitions, const Blur& blur) {
     const double speed = length(blur.direction);
     std::vector<Partition> kept;
@@ -48,11 +53,14 @@ std::vector<Partition> that_count(const std::vector<Partition>& partitions, cons
         }
         kept.push_back(p);
     }
+    std::erase_if(kept, [&](const Partition& p) { return blur.ends_at_start(p); });
     return kept;
 }
 
 Pairing pair(const std::vector<Partition>& a, const std::vector<Partition>& b, const Blur& blur) {
-    if (same_regions(a, b)) return {true, true};
+    const auto at_start = [&](const Partition& p) { return blur.ends_at_start(p); };
+    if (same_regions(a, b) && std::none_of(a.begin(), a.end(), at_start) && std::none_of(b.begin(), b.end(), at_start))
+        return {true, true};
     return {same_regions(that_count(a, blur), that_count(b, blur)), false};
 }
 
@@ -71,10 +79,12 @@ RegionDifference difference_of(const std::vector<Partition>& exact, const std::v
 
 bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartitions> neighbours, const Blur& blur) {
     std::vector<double> ends;
+    double first_that_counts = -std::numeric_limits<double>::infinity();
     const auto add_ends = [&](const std::vector<Partition>& partitions) {
         for (const Partition& p : partitions) {
             ends.push_back(p.in);
             ends.push_back(p.out);
+            if (blur.ends_at_start(p)) first_that_counts = 0;
         }
     };
     add_ends(found);
@@ -84,6 +94,7 @@ bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartit
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         if (!(ends[i + 1] - ends[i] > least) || std::isinf(ends[i + 1] - ends[i])) continue;
         const double middle = ends[i] + 0.5 * (ends[i + 1] - ends[i]);
+        if (middle < first_that_counts) continue;
         const std::uint32_t first = region_at(neighbours.front().partitions, middle);
         if (region_at(found, middle) != first &&
             std::all_of(neighbours.begin(), neighbours.end(),

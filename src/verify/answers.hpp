@@ -24,9 +24,12 @@ struct Blur {
     /// By how much an end may move along the ray when the ray moves by `shift`, in millimetres. Where the ray grazes a
     /// surface that is at most as much as between a ball of the model's size and its tangent.
     double of(Vec3 normal) const;
+    /// May the partition end before the ray's start as well as behind it? What ends before it is left out.
+    bool ends_at_start(const Partition& partition) const;
 };
 
-/// Partitions without those that are too short to count, and without such gaps between two of one region.
+/// Partitions without those that are too short to count or end at the ray's start, and without gaps between two of one
+/// region that are too short.
 std::vector<Partition> that_count(const std::vector<Partition>& partitions, const Blur& blur);
 
 /// How one answer compares with another.
@@ -41,7 +44,8 @@ RegionDifference difference_of(const std::vector<Partition>& exact, const std::v
                                const Blur& blur);
 
 /// Is there a stretch over which all neighbours meet the same region, or all meet none, and this answer does not? The
-/// stretch is longer than any end may move within the blur.
+/// stretch is longer than any end may move within the blur. Before the start it does not count if a partition ends
+/// there: some answers have it, others leave it out.
 bool stands_alone(const std::vector<Partition>& found, std::span<const RayPartitions> neighbours, const Blur& blur);
 
 }  // namespace csgrt

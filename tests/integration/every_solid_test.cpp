@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include <csgrt/verify.hpp>
+
 #include "compile/compiled_scene.hpp"
 #include "integration/every_solid.hpp"
 
@@ -115,6 +117,42 @@ TEST_CASE(
         CHECK(behind[sample.name] > 0);
     }
     CHECK(held["floor"] > 0);
+}
+
+TEST_CASE("every solid: verify finds nothing wrong where a ray starts on a surface and leaves") {
+    Scene scene = test::scene_of_samples();
+    Random random(17);
+    std::vector<Ray> rays;
+    for (const test::Sample& sample : tested) {
+        const std::string bounded = add_bounded(scene, sample.name);
+        const Vec3 at = grid(scene.top.size());
+        scene.top.push_back(std::to_string(scene.top.size()) + " " + sample.name);
+        add_combination(scene, scene.top.back(), leaf(bounded, translation(at)), true);
+        for (int i = 0; i < 60; ++i) {
+            const Vec3 d = unit({0.015 * i, -0.01 * i, 1});
+            rays.push_back({at + 1.5 * random.in_cube() - 4 * d, d});
+        }
+    }
+    const std::vector<RayPartitions> met = Renderer(scene, {}, on_reference()).shoot(rays);
+    Verifier verifier(scene, {}, on_reference());  // the device has its bits
+    std::vector<Ray> starting;
+    std::map<std::string, std::size_t> started;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        for (const Partition& p : met[i].partitions) {
+            if (++started[sample_of(verifier.renderer().regions()[p.region].path)] > 12) continue;
+            // All around it rays end before their start, if they end where it does: its own end is rounding's.
+            starting.push_back({rays[i].origin + p.out * rays[i].direction, p.out_normal});
+        }
+    verifier.shoot(starting);
+    const Verification& result = verifier.result();
+    Faults faults;
+    for (const WrongRay& wrong : result.wrong_rays) faults.add("wrong", said(wrong.ray));
+    REQUIRE_NONE(faults);
+    CHECK(result.decided > result.rays * 9 / 10);
+    for (const test::Sample& sample : tested) {
+        CAPTURE(sample.name);
+        CHECK(started[sample.name] > 0);
+    }
 }
 
 TEST_CASE("every solid: a ray has the same regions and overlaps from its other end") {

@@ -52,6 +52,25 @@ TEST_CASE("answers pair as they are, without what does not count, or not at all"
     CHECK(!pair(one, {}, blur).same_regions);
 }
 
+TEST_CASE("a partition that ends at the ray's start does not count: rounding decides whether it is left out") {
+    const Partition leaving = partition(1, -5, 0), after = partition(1, 2, 3);
+    CHECK(that_count({leaving, after}, blur).size() == 1);
+    CHECK(that_count({partition(1, -5, 0.25)}, blur).empty());
+    CHECK(that_count({partition(1, -5, 0.26)}, blur).size() == 1);
+    CHECK(that_count({partition(1, -5, -0.1), partition(1, 0.1, 5)}, blur).size() == 1);  // joined: it straddles
+    CHECK(pair({leaving}, {}, blur).same_regions);
+    CHECK(!pair({leaving}, {after}, blur).same_regions);  // not the one for the other
+    CHECK(!pair({leaving, after}, {leaving}, blur).same_regions);
+    CHECK(!pair({leaving}, {leaving}, blur).as_they_are);
+
+    const std::vector<csgrt::RayPartitions> nothing = {{}, {}};
+    const csgrt::Blur fine{along, 0, 1e-12, 100};
+    CHECK(!stands_alone({leaving}, nothing, fine));
+    CHECK(stands_alone({leaving, after}, nothing, fine));
+    CHECK(stands_alone({partition(1, -5, 1)}, nothing, fine));
+    CHECK(stands_alone({partition(1, -5, 1e-3)}, nothing, fine));
+}
+
 TEST_CASE("an answer stands alone where all neighbours meet something else, over more than rounding") {
     const auto answer = [](std::vector<Partition> partitions) {
         return csgrt::RayPartitions{std::move(partitions), {}};

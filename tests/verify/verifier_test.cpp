@@ -42,6 +42,17 @@ TEST_CASE("a sample is half a view and half random, and the seed decides it") {
     CHECK(verifier.sample(scene.camera, 1).size() == 1);
 }
 
+TEST_CASE("what ends where the ray starts may be there or not") {
+    Scene scene;
+    scene.objects.push_back(test::ball("ball.s", {0, 0, 0}, 0.5));
+    Verifier verifier(scene, {}, on_reference());
+    const Ray leaving{{0.5, 0, 0}, {1, 0, 0}};
+    REQUIRE(Renderer(scene, {}, on_reference()).shoot({leaving})[0].partitions.size() == 1);
+    verifier.shoot({leaving, {{0.3, 0.4, 0}, {3, 4, 0}}, {{0.5, 0, 0}, {-1, 0, 0}}});
+    CHECK(verifier.result().decided == 3);
+    CHECK(verifier.result().passed());
+}
+
 TEST_CASE("what is shot in parts adds up") {
     const Scene scene = ball({7e7 + 0.3, -7e7 - 0.7, 1e7});
     Settings settings = on_reference();
