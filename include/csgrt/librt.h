@@ -1,10 +1,11 @@
 // librt's shape: programs that shoot rays by BRL-CAD's names (rt_dirbuild, rt_gettrees, rt_prep_parallel, rt_shootray)
 // compile with this header in place of raytrace.h, and csgrt answers. The definitions are csgrt's own, as far as gqa,
-// rtcheck, rtweight, rtxray, rtshot and rtexample use librt; docs/librt.md says what is where. C++ alone.
+// rtcheck, rtweight, rtxray, rtshot, rtexample and MOOSE use librt; docs/librt.md says what is where. C++ alone.
+// What csgrt does not have is not declared: the compiler names it.
 //
 // Distances are in lengths of r_dir. The partitions are those of Renderer::shoot(), to the last bit: neighbours of one
-// region are one partition, and what ends behind the ray's start is left out. A model is prepared by one thread; then
-// any number of threads shoot, and callbacks may shoot.
+// region are one partition, and what ends behind the ray's start is left out. Any number
+// of threads may shoot, and callbacks may shoot.
 #pragma once
 
 #ifndef __cplusplus
@@ -12,14 +13,19 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdarg>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,14 +40,6 @@ using fastf_t = double;
 using point_t = fastf_t[3];
 using vect_t = fastf_t[3];
 
-/// A type that cannot be used: csgrt has no such member. The compiler's message names it.
-struct csgrt_does_not_have {
-    template <class T>
-    operator T() const = delete;
-    template <class T>
-    csgrt_does_not_have& operator=(const T&) = delete;
-};
-
 /// A ray. r_min and r_max are not used: a ray begins at r_pt.
 struct xray {
     point_t r_pt = {}, r_dir = {};
@@ -53,7 +51,6 @@ struct hit {
     fastf_t hit_dist = 0;
     point_t hit_point = {};
     vect_t hit_normal = {};  ///< a unit vector, outward from the region; zeros where an overlap was cut
-    csgrt_does_not_have hit_surfno = {}, hit_vpriv = {};
     const xray* hit_rayp = nullptr;
 };
 
@@ -70,7 +67,7 @@ struct soltab {
 
 struct seg {
     hit seg_in = {}, seg_out = {};
-    const soltab* seg_stp = nullptr;
+    soltab* seg_stp = nullptr;
 };
 
 struct mater_info {
@@ -78,8 +75,18 @@ struct mater_info {
     int ma_color_valid = 1;
 };
 
+/// A link of a ring; what it links begins with one.
+struct bu_list {
+    bu_list *forw = nullptr, *back = nullptr;
+};
+#define BU_LIST_FOR(p, structure, head)                           \
+    (p) = reinterpret_cast<struct structure*>((head)->forw);      \
+    reinterpret_cast<bu_list*>(p) != static_cast<bu_list*>(head); \
+    (p) = reinterpret_cast<struct structure*>(reinterpret_cast<bu_list*>(p)->forw)
+
 /// A region of the prepared model.
 struct region {
+    bu_list l = {};             ///< in rt_i::HeadRegion
     const char* reg_name = "";  ///< its path, which no other region has
     long reg_bit = 0;           ///< index into Model::regions() and rt_i::Regions
     int reg_regionid = 0, reg_aircode = 0, reg_gmater = 0, reg_los = 0;
@@ -101,22 +108,47 @@ struct resource {
     int re_cpu = 0;
 };
 inline resource rt_uniresource;
+#define RESOURCE_NULL (static_cast<struct resource*>(nullptr))
+#define MAX_PSW 1024
 
-struct bu_ptbl;  // of a_logoverlap's parameter
+/// The regions that claim a part of a ray; a handler takes those out that do not get it.
+struct bu_ptbl {
+    region** buffer = nullptr;
+    size_t end = 0;  ///< how many they are
+};
+#define BU_PTBL_LEN(table) ((table)->end)
+#define BU_PTBL_GET(table, i) ((table)->buffer[i])
+#define BU_PTBL_SET(table, i, value) ((table)->buffer[i] = (value))
+#define BU_PTBL_FOR(p, cast, table)            \
+    (p) = cast(table)->buffer;                 \
+    (p) != cast(table)->buffer + (table)->end; \
+    ++(p)
+inline void bu_ptbl_reset(bu_ptbl* table) { table->end = 0; }
 
-/// A model: made by rt_dirbuild(), prepared by rt_prep_parallel().
+/// What rt_dirbuild() read.
+struct db_i {
+    const char* dbi_title = "";
+    double dbi_local2base = 1, dbi_base2local = 1;  ///< millimetres in one of the file's units, and the inverse
+};
+
+/// A model: made by rt_dirbuild(), prepared by rt_prep_parallel(), or by the first ray.
 struct rt_i {
     point_t mdl_min = {}, mdl_max = {};  ///< the model's box, millimetres
     int useair = 0;                      ///< other than 0: regions of air are part of the model; before rt_prep
-    size_t nregions = 0, nsolids = 0;
-    region** Regions = nullptr;  ///< (nregions), in place of librt's list HeadRegion
+    std::atomic<int> needprep = 1;
+    size_t nregions = 0, nsolids = 0;                 ///< before rt_prep nsolids tells how many objects were added
+    region** Regions = nullptr;                       ///< (nregions)
+    bu_list HeadRegion = {&HeadRegion, &HeadRegion};  ///< the same regions
+    db_i* rti_dbip = &database;
 
     // csgrt's own.
     csgrt::Scene scene;
+    db_i database;
+    bool asked = false;  ///< rt_gettree() was called
     std::vector<std::string> objects;
-    std::optional<csgrt::Model> model;
+    std::optional<csgrt::Model> model;        ///< none: there is nothing to hit
     std::optional<csgrt::Renderer> renderer;  ///< of shoot_many()
-    std::mutex renderer_mutex;
+    std::mutex mutex;                         ///< of preparing and of `renderer`
     std::vector<region> regions;
     std::vector<region*> region_pointers;
     std::vector<soltab> solids;
@@ -133,17 +165,22 @@ struct application {
     /// For two regions that claim a part of the ray: 0: neither gets it, 1: the first, 2: the second. Of three and more
     /// the one that is left is asked about with the next. Null: the first gets it.
     int (*a_overlap)(application*, partition*, region*, region*, partition* head) = nullptr;
-    void (*a_logoverlap)(application*, const partition*, const bu_ptbl*, const partition*) = nullptr;  ///< not called
+    /// In place of a_overlap: takes regions out of the table, or sets them null. The first that is left gets the part.
+    void (*a_multioverlap)(application*, partition*, bu_ptbl* regions, partition* head) = nullptr;
+    /// Told of each overlap before the others are asked. Null: nobody is told.
+    void (*a_logoverlap)(application*, const partition*, const bu_ptbl* regions, const partition* head) = nullptr;
     /// 0: all partitions. n: those of the first n ends; -n: of the first n ends of regions that are no air.
     int a_onehit = 0;
     rt_i* a_rt_i = nullptr;
     resource* a_resource = nullptr;
     const char* a_purpose = "";
     void* a_uptr = nullptr;
-    int a_user = 0, a_level = 0, a_x = 0, a_y = 0;
-    int a_return = 0;  ///< what a_hit or a_miss returned
+    int a_user = 0, a_level = 0, a_x = 0, a_y = 0, a_flag = 0;
+    fastf_t a_dist = 0, a_color[3] = {};  ///< the caller's
+    int a_return = 0;                     ///< what a_hit or a_miss returned
 };
-#define RT_APPLICATION_INIT(ap) (*(ap) = application())
+inline void rt_silent_logoverlap(application*, const partition*, const bu_ptbl*, const partition*) {}
+#define RT_APPLICATION_INIT(ap) csgrt::librt::initialize(*(ap))
 #define RT_APPLICATION_NULL (static_cast<struct application*>(nullptr))
 
 #define RT_HIT_NORMAL(normal, hitp, stp, rayp, flip) \
@@ -163,37 +200,96 @@ struct application {
 #define PT_NULL (static_cast<struct partition*>(nullptr))
 #define REGION_NULL (static_cast<struct region*>(nullptr))
 
+// Of libbu, what the callbacks use.
+#ifndef UNUSED
+#define UNUSED(parameter) UNUSED_##parameter [[maybe_unused]]
+#endif
+/// Prints to standard error.
+[[gnu::format(printf, 1, 2)]] inline void bu_log(const char* format, ...) {
+    va_list values;
+    va_start(values, format);
+    std::vfprintf(stderr, format, values);
+    va_end(values);
+}
+/// Prints, unless `format` is null, and ends the process.
+[[noreturn, gnu::format(printf, 2, 3)]] inline void bu_exit(int status, const char* format, ...) {
+    if (format) {
+        va_list values;
+        va_start(values, format);
+        std::vfprintf(stderr, format, values);
+        va_end(values);
+    }
+    std::exit(status);
+}
+[[noreturn]] inline void bu_bomb(const char* text) { bu_exit(12, "\n%s\n", text); }
+/// Zeros; bu_free() frees them. Throws std::bad_alloc.
+inline void* bu_calloc(size_t count, size_t size, const char*) {
+    void* const memory = std::calloc(count, size);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+inline void* bu_malloc(size_t size, const char* of) { return bu_calloc(1, size, of); }
+inline void bu_free(void* memory, const char*) { std::free(memory); }
+#define BU_ALLOC(pointer, type) ((pointer) = static_cast<type*>(bu_calloc(1, sizeof(type), #type)))
+
+#define BU_SEM_SYSCALL 0
+/// `semaphore`: 0 to 31; std::out_of_range beyond.
+inline std::mutex& csgrt_semaphore(int semaphore) {
+    static std::array<std::mutex, 32> all;
+    return all.at(static_cast<size_t>(semaphore));
+}
+inline void bu_semaphore_acquire(int semaphore) { csgrt_semaphore(semaphore).lock(); }
+inline void bu_semaphore_release(int semaphore) { csgrt_semaphore(semaphore).unlock(); }
+
 // Of vmath.h, what programs that shoot rays use; its own definitions count where it is included before.
 #ifndef VSET
 #define VSET(a, x, y, z) ((a)[0] = (x), (a)[1] = (y), (a)[2] = (z))
-#define VMOVE(a, b) csgrt::librt::copy((a), (b))
+#define VSETALL(a, s) VSET(a, s, s, s)
+#define VMOVE(a, b) VSET(a, (b)[0], (b)[1], (b)[2])
+#define VREVERSE(a, b) VSCALE(a, b, -1.0)
+#define VSCALE(a, b, s) ((a)[0] = (b)[0] * (s), (a)[1] = (b)[1] * (s), (a)[2] = (b)[2] * (s))
 #define VJOIN1(a, b, c, d) \
     ((a)[0] = (b)[0] + (c) * (d)[0], (a)[1] = (b)[1] + (c) * (d)[1], (a)[2] = (b)[2] + (c) * (d)[2])
+#define VBLEND2(a, b, c, d, e) \
+    ((a)[0] = (b) * (c)[0] + (d) * (e)[0], (a)[1] = (b) * (c)[1] + (d) * (e)[1], (a)[2] = (b) * (c)[2] + (d) * (e)[2])
 #define VADD2(a, b, c) VJOIN1(a, b, 1.0, c)
 #define VSUB2(a, b, c) VJOIN1(a, b, -1.0, c)
+#define VCROSS(a, b, c)                                                                      \
+    ((a)[0] = (b)[1] * (c)[2] - (b)[2] * (c)[1], (a)[1] = (b)[2] * (c)[0] - (b)[0] * (c)[2], \
+     (a)[2] = (b)[0] * (c)[1] - (b)[1] * (c)[0])
 #define VDOT(a, b) ((a)[0] * (b)[0] + (a)[1] * (b)[1] + (a)[2] * (b)[2])
-#define MAGNITUDE(a) std::sqrt(VDOT(a, a))
+#define MAGSQ(a) VDOT(a, a)
+#define MAGNITUDE(a) std::sqrt(MAGSQ(a))
+#define VUNITIZE(a) csgrt::librt::unitize(a)  ///< zeros stay zeros
+#define V3ARGS(a) (a)[0], (a)[1], (a)[2]
+#define VPRINT(text, a) bu_log("%s (%g, %g, %g)\n", text, V3ARGS(a))
 enum { X, Y, Z };
 #endif
 
-// What csgrt does not have. A use does not compile, and the compiler names it.
-struct curvature;  // never defined
-struct uvcoord;    // never defined
-template <class... T>
-void csgrt_has_no_curvature(T&&...) = delete;
-template <class... T>
-void csgrt_has_no_uv_coordinates(T&&...) = delete;
-#define RT_CURVATURE(...) csgrt_has_no_curvature(__VA_ARGS__)
-#define RT_HIT_UV(...) csgrt_has_no_uv_coordinates(__VA_ARGS__)
-#define RT_HIT_UVCOORD(...) csgrt_has_no_uv_coordinates(__VA_ARGS__)
+/// Prints a hit to standard error.
+inline void rt_pr_hit(const char* text, const hit* hitp) {
+    bu_log("HIT %s dist=%g\n", text, hitp->hit_dist);
+    VPRINT("HIT Point", hitp->hit_point);
+    VPRINT("HIT Normal", hitp->hit_normal);
+}
 
 namespace csgrt::librt {
 
-inline void copy(fastf_t* to, const fastf_t* from) { std::copy_n(from, 3, to); }
+inline void initialize(application& ap) { ap = {}; }
+inline void copy(fastf_t* to, const fastf_t* from) { VMOVE(to, from); }
 inline void copy(fastf_t* to, const Vec3& from) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
+template <class Vector>
+void unitize(Vector& v) {
+    const auto length = MAGNITUDE(v);
+    if (length > 0) VSET(v, v[0] / length, v[1] / length, v[2] / length);
+}
 inline Ray ray_of(const xray& x) { return {{x.r_pt[0], x.r_pt[1], x.r_pt[2]}, {x.r_dir[0], x.r_dir[1], x.r_dir[2]}}; }
 
-/// Overlaps only for those who are asked about them.
+/// Is the application asked or told about overlaps?
+inline bool wants_overlaps(const application& ap) {
+    return ap.a_overlap || ap.a_multioverlap || (ap.a_logoverlap && ap.a_logoverlap != rt_silent_logoverlap);
+}
+/// Overlaps only for those who are.
 inline Fields fields(bool overlaps) { return {.solids = true, .normals = true, .overlaps = overlaps}; }
 inline constexpr RayRanges whole_line{.all = {-std::numeric_limits<double>::infinity()}};
 
@@ -212,6 +308,7 @@ struct Answer {
     std::vector<partition> ring;  // the head, then one a piece
     partition overlap;
     seg overlap_segs[2];
+    std::vector<region*> claimants;  // of the overlap
 
     void start(const Partitions& all, std::int64_t first, std::int64_t last) {
         pieces.clear();
@@ -225,8 +322,7 @@ struct Answer {
         }
     }
 
-    static void put(seg& at, hit& end, const rt_i& rtip, const xray& ray, double t, const Vec3& normal,
-                    std::int32_t solid) {
+    static void put(seg& at, hit& end, rt_i& rtip, const xray& ray, double t, const Vec3& normal, std::int32_t solid) {
         end.hit_dist = t;
         for (int i = 0; i < 3; ++i) end.hit_point[i] = ray.r_pt[i] + t * ray.r_dir[i];
         copy(end.hit_normal, normal);
@@ -285,27 +381,43 @@ struct Answer {
         }
     }
 
+    /// The region that gets an overlap of `claimants`, two or more; null: none.
+    region* decide(application& ap, double in, double out) {
+        rt_i& rtip = *ap.a_rt_i;
+        const auto of = [&](const region* owner) {  // the overlap's partition, in which it is the owner's
+            fill(overlap, overlap_segs, rtip, ap.a_ray,
+                 {{in, out}, static_cast<std::int32_t>(owner->reg_bit), {-1, -1}, {}});
+            return &overlap;
+        };
+        partition* const head = &make_ring(rtip, ap.a_ray);
+        bu_ptbl table{claimants.data(), claimants.size()};
+        if (ap.a_logoverlap) ap.a_logoverlap(&ap, of(claimants[0]), &table, head);
+        if (ap.a_multioverlap) {
+            ap.a_multioverlap(&ap, of(claimants[0]), &table, head);
+            region** const end = table.buffer + table.end;
+            region** const left = std::find_if(table.buffer, end, [](const region* one) { return one != nullptr; });
+            return left == end ? nullptr : *left;
+        }
+        region* left = nullptr;
+        for (region* const next : claimants) {
+            const int code = left && ap.a_overlap ? ap.a_overlap(&ap, of(left), left, next, head) : left ? 1 : 2;
+            left = code == 0 ? nullptr : code == 2 ? next : left;
+        }
+        return left;
+    }
+
     void ask_about_overlaps(application& ap, const Partitions& all, std::size_t ray) {
         for (std::int64_t k = all.overlap_splits[ray]; k < all.overlap_splits[ray + 1]; ++k) {
             const auto i = static_cast<std::size_t>(k);
             const double in = all.overlap_t_in[i], out = all.overlap_t_out[i];
             if (out < 0) continue;
-            const auto first = static_cast<std::size_t>(all.overlap_region_splits[i]);
-            const auto last = static_cast<std::size_t>(all.overlap_region_splits[i + 1]);
-            const std::int32_t owner = all.overlap_region_ids[first];
-            std::int32_t left = owner;
-            for (std::size_t j = first + 1; j < last; ++j) {
-                const std::int32_t next = all.overlap_region_ids[j];
-                if (left < 0) {
-                    left = next;
-                    continue;
-                }
-                partition& head = make_ring(*ap.a_rt_i, ap.a_ray);
-                fill(overlap, overlap_segs, *ap.a_rt_i, ap.a_ray, {{in, out}, left, {-1, -1}, {}});
-                const int code = ap.a_overlap(&ap, &overlap, ap.a_rt_i->Regions[left], ap.a_rt_i->Regions[next], &head);
-                left = code == 0 ? -1 : code == 2 ? next : left;
-            }
-            if (left != owner) give(in, out, owner, left);
+            claimants.clear();
+            for (std::int64_t j = all.overlap_region_splits[i]; j < all.overlap_region_splits[i + 1]; ++j)
+                claimants.push_back(ap.a_rt_i->Regions[all.overlap_region_ids[static_cast<std::size_t>(j)]]);
+            const auto owner = static_cast<std::int32_t>(claimants[0]->reg_bit);
+            const region* const left = decide(ap, in, out);
+            const std::int32_t next = left ? static_cast<std::int32_t>(left->reg_bit) : -1;
+            if (next != owner) give(in, out, owner, next);
         }
         std::erase_if(pieces, [](const Piece& piece) { return piece.t[1] < 0; });
     }
@@ -313,8 +425,9 @@ struct Answer {
     /// Calls the application about ray `ray` of `all`, which has overlaps or not.
     int tell(application& ap, const Partitions& all, bool has_overlaps, std::size_t ray) {
         rt_i& rtip = *ap.a_rt_i;
-        start(all, all.ray_splits[ray], all.ray_splits[ray + 1]);
-        if (has_overlaps && ap.a_overlap) ask_about_overlaps(ap, all, ray);
+        pieces.clear();
+        if (rtip.model) start(all, all.ray_splits[ray], all.ray_splits[ray + 1]);
+        if (rtip.model && has_overlaps) ask_about_overlaps(ap, all, ray);
         if (ap.a_onehit != 0) {
             int ends = std::abs(ap.a_onehit);
             const auto is_last = [&](const Piece& piece) {
@@ -355,8 +468,61 @@ private:
     Answer* answer_;
 };
 
+inline void prepare(rt_i& rtip, int threads) {
+    Settings settings;
+    settings.air = rtip.useair != 0;
+    settings.threads = threads > 0 ? static_cast<unsigned>(threads) : 0;
+    rtip.model.reset();
+    rtip.renderer.reset();
+    rtip.nregions = rtip.nsolids = 0;
+    rtip.HeadRegion = {&rtip.HeadRegion, &rtip.HeadRegion};
+    if (rtip.asked && rtip.objects.empty()) {
+        rtip.needprep = 0;
+        return;
+    }
+    rtip.model.emplace(rtip.scene, rtip.objects, settings);
+    const Model& model = *rtip.model;
+    copy(rtip.mdl_min, model.bounds().low);
+    copy(rtip.mdl_max, model.bounds().high);
+    rtip.nregions = model.regions().size();
+    rtip.nsolids = model.solids().size();
+    rtip.directories.resize(rtip.nsolids);
+    rtip.solids.resize(rtip.nsolids);
+    for (std::size_t i = 0; i < rtip.nsolids; ++i) {
+        rtip.directories[i].d_namep = model.solids()[i].name.c_str();
+        rtip.solids[i] = {rtip.directories[i].d_namep, &rtip.directories[i], static_cast<long>(i)};
+    }
+    static constexpr directory unknown{"?"};
+    rtip.unknown_solid.st_dp = &unknown;
+    rtip.regions.clear();
+    for (const RegionInfo& info : model.regions()) {
+        region one{.reg_name = info.path.c_str(),
+                   .reg_bit = static_cast<long>(rtip.regions.size()),
+                   .reg_regionid = info.region_id,
+                   .reg_aircode = info.air,
+                   .reg_gmater = info.material_id,
+                   .reg_los = info.los};
+        const double color[] = {info.color.x, info.color.y, info.color.z};
+        for (int i = 0; i < 3; ++i) one.reg_mater.ma_color[i] = static_cast<float>(color[i]);
+        rtip.regions.push_back(one);
+    }
+    rtip.region_pointers.clear();
+    for (region& one : rtip.regions) {
+        bu_list* const last = rtip.HeadRegion.back;
+        one.l = {&rtip.HeadRegion, last};
+        last->forw = rtip.HeadRegion.back = &one.l;
+        rtip.region_pointers.push_back(&one);
+    }
+    rtip.Regions = rtip.region_pointers.data();
+    rtip.needprep = 0;  // last: then other threads shoot
+}
+
 inline rt_i& prepared(rt_i* rtip) {
-    if (!rtip || !rtip->model) throw Error(Status::usage, "the model is not prepared: call rt_prep_parallel() first");
+    if (!rtip) throw Error(Status::usage, "there is no model: rt_dirbuild() returned RTI_NULL");
+    if (rtip->needprep) {
+        const std::lock_guard lock(rtip->mutex);
+        if (rtip->needprep) prepare(*rtip, 1);
+    }
     return *rtip;
 }
 
@@ -364,7 +530,7 @@ inline rt_i& prepared(rt_i* rtip) {
 /// overlaps the first region has the part. Any thread. Throws Error: usage.
 template <class Each>
 bool shoot(rt_i* rtip, const xray& ray, const Each& each) {
-    prepared(rtip);
+    if (!prepared(rtip).model) return true;
     const Borrowed answer;
     rtip->model->partitions(ray_of(ray), answer->rows, fields(false), whole_line);
     answer->start(answer->rows, 0, answer->rows.ray_splits[1]);
@@ -384,11 +550,11 @@ inline std::size_t shoot_many(application* ap, const xray* rays, std::size_t cou
     std::vector<Ray> part;
     std::size_t hits = 0;
     for (std::size_t first = 0; first < count; first += most) {
-        const bool overlaps = ap->a_overlap != nullptr;
+        const bool overlaps = wants_overlaps(*ap);
         part.clear();
         for (std::size_t i = first; i < std::min(count, first + most); ++i) part.push_back(ray_of(rays[i]));
-        {
-            const std::lock_guard lock(rtip.renderer_mutex);
+        if (rtip.model) {
+            const std::lock_guard lock(rtip.mutex);
             if (!rtip.renderer) rtip.renderer.emplace(*rtip.model);
             rtip.renderer->partitions(part, answer->rows, fields(overlaps), whole_line);
         }
@@ -415,6 +581,7 @@ inline rt_i* rt_dirbuild(const char* file, char* title, int length) {
     try {
         auto rtip = std::make_unique<rt_i>();
         rtip->scene = csgrt::load_scene(file);
+        rtip->database = {rtip->scene.title.c_str(), rtip->scene.unit_length, 1 / rtip->scene.unit_length};
         if (title && length > 0)
             std::snprintf(title, static_cast<std::size_t>(length), "%s", rtip->scene.title.c_str());
         return rtip.release();
@@ -426,9 +593,12 @@ inline rt_i* rt_dirbuild(const char* file, char* title, int length) {
 
 /// Adds an object, or a path to it, to what rt_prep_parallel() prepares. Below 0: there is none of that name.
 inline int rt_gettree(rt_i* rtip, const char* name) {
+    rtip->asked = true;
     if (!csgrt::object_at(rtip->scene, name))
         return csgrt::librt::refuse("rt_gettree", std::runtime_error(std::string("no object '") + name + "'"));
     rtip->objects.emplace_back(name);
+    rtip->nsolids = rtip->objects.size();
+    rtip->needprep = 1;
     return 0;
 }
 
@@ -437,62 +607,41 @@ inline int rt_gettrees(rt_i* rtip, int count, const char** names, int) {
     const std::size_t before = rtip->objects.size();
     for (int i = 0; i < count; ++i)
         if (rt_gettree(rtip, names[i]) < 0) {
+            rtip->nsolids = before;
             rtip->objects.resize(before);
             return -1;
         }
     return 0;
 }
 
-/// Compiles what was added; without anything the scene's top objects. `threads`: 0: one for each processor. Throws
-/// csgrt::Error (scene) where librt ends the process.
+/// Compiles what was added: nothing if rt_gettree() found nothing, and the scene's top objects if it was never called.
+/// `threads`: 0: one for each processor. Throws csgrt::Error (scene) where librt ends the process.
 inline void rt_prep_parallel(rt_i* rtip, int threads) {
-    csgrt::Settings settings;
-    settings.air = rtip->useair != 0;
-    settings.threads = threads > 0 ? static_cast<unsigned>(threads) : 0;
-    rtip->model.emplace(rtip->scene, rtip->objects, settings);
-    const csgrt::Model& model = *rtip->model;
-    csgrt::librt::copy(rtip->mdl_min, model.bounds().low);
-    csgrt::librt::copy(rtip->mdl_max, model.bounds().high);
-    rtip->nregions = model.regions().size();
-    rtip->nsolids = model.solids().size();
-    rtip->directories.resize(rtip->nsolids);
-    rtip->solids.resize(rtip->nsolids);
-    for (std::size_t i = 0; i < rtip->nsolids; ++i) {
-        rtip->directories[i].d_namep = model.solids()[i].name.c_str();
-        rtip->solids[i] = {rtip->directories[i].d_namep, &rtip->directories[i], static_cast<long>(i)};
-    }
-    static constexpr directory unknown{"?"};
-    rtip->unknown_solid.st_dp = &unknown;
-    rtip->regions.clear();
-    for (const csgrt::RegionInfo& info : model.regions()) {
-        region one{.reg_name = info.path.c_str(),
-                   .reg_bit = static_cast<long>(rtip->regions.size()),
-                   .reg_regionid = info.region_id,
-                   .reg_aircode = info.air,
-                   .reg_gmater = info.material_id,
-                   .reg_los = info.los};
-        const double color[] = {info.color.x, info.color.y, info.color.z};
-        for (int i = 0; i < 3; ++i) one.reg_mater.ma_color[i] = static_cast<float>(color[i]);
-        rtip->regions.push_back(one);
-    }
-    rtip->region_pointers.clear();
-    for (region& one : rtip->regions) rtip->region_pointers.push_back(&one);
-    rtip->Regions = rtip->region_pointers.data();
+    const std::lock_guard lock(rtip->mutex);
+    csgrt::librt::prepare(*rtip, threads);
 }
 inline void rt_prep(rt_i* rtip) { rt_prep_parallel(rtip, 1); }
-
 /// Shoots ap->a_ray through ap->a_rt_i: calls a_overlap about each overlap, then a_hit or a_miss, and returns its
-/// result. Any thread. Throws csgrt::Error (usage) for a model that is not prepared, or a ray that is none.
+/// result. It prepares what is not prepared. Any thread. Throws csgrt::Error: usage for a ray that is none, and what
+/// rt_prep_parallel() throws.
 inline int rt_shootray(application* ap) {
     rt_i& rtip = csgrt::librt::prepared(ap->a_rt_i);
     const csgrt::librt::Borrowed answer;
-    const bool overlaps = ap->a_overlap != nullptr;
-    rtip.model->partitions(csgrt::librt::ray_of(ap->a_ray), answer->rows, csgrt::librt::fields(overlaps),
-                           csgrt::librt::whole_line);
+    const bool overlaps = csgrt::librt::wants_overlaps(*ap);
+    if (rtip.model)
+        rtip.model->partitions(csgrt::librt::ray_of(ap->a_ray), answer->rows, csgrt::librt::fields(overlaps),
+                               csgrt::librt::whole_line);
     return answer->tell(*ap, answer->rows, overlaps, 0);
 }
 
 inline void rt_init_resource(resource* of, int cpu, rt_i*) { of->re_cpu = cpu; }
 inline void rt_clean_resource(rt_i*, resource*) {}
-inline void rt_silent_logoverlap(application*, const partition*, const bu_ptbl*, const partition*) {}
+inline void rt_clean_resource_complete(rt_i*, resource*) {}
+/// Nothing is prepared any more: what is to be hit is added anew.
+inline void rt_clean(rt_i* rtip) {
+    rtip->objects.clear();
+    rtip->asked = true;
+    rtip->needprep = 1;
+    csgrt::librt::prepared(rtip);
+}
 inline void rt_free_rti(rt_i* rtip) { delete rtip; }

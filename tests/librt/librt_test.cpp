@@ -268,13 +268,138 @@ TEST_CASE("what cannot be is refused") {
     CHECK(rtip->Regions[3]->reg_los == 50);
     CHECK(rtip->Regions[6]->reg_aircode == 1);  // air comes last
     CHECK(rtip->mdl_max[X] == 106);
-    const char* names[] = {"a.r", "z.r"};
-    CHECK(rt_gettrees(rtip.get(), 2, names, 1) < 0);
-    CHECK(rtip->objects.empty());
     Told told;
     application ap = asking(*rtip, told);
     VSET(ap.a_ray.r_dir, 0, 0, 0);
     CHECK_THROWS_AS(rt_shootray(&ap), Error);
+    const char* names[] = {"a.r", "z.r"};
+    CHECK(rt_gettrees(rtip.get(), 2, names, 1) < 0);
+    CHECK(rtip->objects.empty());
     ap.a_rt_i = RTI_NULL;
-    CHECK_THROWS_WITH(rt_shootray(&ap), "the model is not prepared: call rt_prep_parallel() first");
+    CHECK_THROWS_WITH(rt_shootray(&ap), "there is no model: rt_dirbuild() returned RTI_NULL");
+}
+
+TEST_CASE("of a name that is not there nothing is hit, without any name the top objects") {
+    const Opened rtip = balls();
+    Told told;
+    application ap = asking(*rtip, told);
+    const auto hits = [&] {
+        const int misses = told.misses, returned = rt_shootray(&ap);
+        CHECK(returned == (rtip->nregions == 0 ? -3 : 7));
+        CHECK(told.misses == misses + (rtip->nregions == 0));
+        std::size_t rows = 0;
+        CHECK(librt::shoot(rtip.get(), ap.a_ray, [&](const partition&) { return ++rows > 0; }));
+        CHECK((rows == 0) == (rtip->nregions == 0));
+        CHECK(librt::shoot_many(&ap, &ap.a_ray, 1) == (rows > 0));
+        return rtip->nregions;
+    };
+    CHECK(hits() == 7);
+    CHECK(rt_gettree(rtip.get(), "A.r") < 0);
+    rt_prep_parallel(rtip.get(), 1);
+    CHECK(hits() == 0);
+    CHECK(rtip->HeadRegion.forw == &rtip->HeadRegion);
+    CHECK(rt_gettree(rtip.get(), "b.r") == 0);
+    CHECK(rtip->nsolids == 1);
+    CHECK(hits() == 1);  // the first ray prepares
+    CHECK(told.text == "b.r 2 22");
+    rt_clean(rtip.get());
+    CHECK(rtip->nsolids == 0);
+    CHECK(hits() == 0);
+    CHECK(rt_gettree(rtip.get(), "d.r") == 0);
+    CHECK(hits() == 1);
+    region* one = nullptr;
+    std::string names;
+    for (BU_LIST_FOR(one, region, &rtip->HeadRegion)) names += one->reg_name;
+    CHECK(names == "/d.r");
+}
+
+TEST_CASE("a handler of several regions takes those out of the table that do not get the part") {
+    const Opened rtip = balls();
+    struct : Told {
+        std::string tables, log;
+        std::size_t kept = 0;
+    } told;
+    application ap = asking(*rtip, told);
+    ap.a_uptr = &told;
+    static decltype(told)* const all = &told;
+    ap.a_overlap = decide;
+    ap.a_multioverlap = [](application*, partition* p, bu_ptbl* table, partition*) {
+        char text[50];
+        std::snprintf(text, sizeof text, "%g %g", p->pt_inhit->hit_dist, p->pt_outhit->hit_dist);
+        all->tables += text;
+        region** each;
+        for (BU_PTBL_FOR(each, (region**), table)) all->tables += (*each)->reg_name;
+        all->tables += ", ";
+        if (all->kept == 0) return bu_ptbl_reset(table);
+        for (std::size_t i = 0; i < BU_PTBL_LEN(table); ++i)
+            if (i + 1 != all->kept) BU_PTBL_SET(table, i, REGION_NULL);
+    };
+    ap.a_logoverlap = [](application*, const partition*, const bu_ptbl* table, const partition*) {
+        all->log += std::to_string(BU_PTBL_LEN(table)) + " ";
+    };
+    const std::string asked = "22 30/a.r/b.r, 34 42/b.r/c.r, 121 122/e.r/f.r, 122 124/e.r/f.r/g.r, 124 125/f.r/g.r, ";
+    rt_shootray(&ap);
+    CHECK(told.tables == asked);
+    CHECK(told.log == "2 2 2 3 2 ");
+    CHECK(told.text == "a.r -10 2, b.r 10 14, c.r 22 34, d.r 50 60, e.r 100 101, g.r 105 106");
+    told.kept = 2;
+    rt_shootray(&ap);
+    CHECK(told.text == "a.r -10 2, b.r 2 14, c.r 14 34, d.r 50 60, e.r 100 101, f.r 101 104, g.r 104 106");
+    CHECK(told.calls == 0);  // a_overlap is not asked, too
+    ap.a_multioverlap = nullptr;
+    ap.a_overlap = nullptr;
+    rt_shootray(&ap);  // logged alone
+    CHECK(told.log == "2 2 2 3 2 2 2 2 3 2 2 2 2 3 2 ");
+    CHECK(told.text == "a.r -10 10, b.r 10 22, c.r 22 34, d.r 50 60, e.r 100 104, f.r 104 105, g.r 105 106");
+}
+
+// BRL-CAD's MOOSE shoots so: it prepares nothing itself, and computes normals in place.
+TEST_CASE("a loop over hits and overlaps, with a model that nobody prepared") {
+    struct Loop {
+        std::function<bool(const region*, const partition*)> each;
+        static int hits(application* ap, partition* head, seg* UNUSED(segs)) {
+            const auto* const loop = static_cast<const Loop*>(ap->a_uptr);
+            for (partition* p = head->pt_forw; ap->a_return == 0 && p != head; p = p->pt_forw)
+                if (!loop->each(p->pt_regionp, p)) ap->a_return = 1;
+            return ap->a_return;
+        }
+        static void overlaps(application* ap, partition* p, bu_ptbl* regions, partition* UNUSED(head)) {
+            for (std::size_t i = 0; ap->a_return == 0 && i < BU_PTBL_LEN(regions); ++i) {
+                region* const reg = reinterpret_cast<region*>(BU_PTBL_GET(regions, i));
+                if (reg == REGION_NULL) continue;
+                RT_CK_REGION(reg);
+                if (!static_cast<const Loop*>(ap->a_uptr)->each(reg, p)) ap->a_return = 1;
+            }
+            bu_ptbl_reset(regions);
+        }
+    };
+    const Opened rtip = balls();
+    rt_clean(rtip.get());
+    CHECK(rtip->nsolids < 1);
+    CHECK(rt_gettree(rtip.get(), "a.r") == 0);
+    CHECK(rt_gettree(rtip.get(), "b.r") == 0);
+    CHECK(rtip->nsolids == 2);
+    std::string text;
+    Loop loop{[&](const region* reg, const partition* p) {
+        hit* const in = p->pt_inhit;
+        RT_HIT_NORMAL(in->hit_normal, in, p->pt_inseg->seg_stp, 0, p->pt_inflip);
+        char one[50];
+        std::snprintf(one, sizeof one, "%s %g %g, ", reg->reg_name, in->hit_point[X], p->pt_outhit->hit_dist);
+        text += one;
+        return true;
+    }};
+    application ap;
+    RT_APPLICATION_INIT(&ap);
+    ap.a_hit = Loop::hits;
+    ap.a_miss = 0;
+    ap.a_overlap = 0;
+    ap.a_multioverlap = Loop::overlaps;
+    ap.a_rt_i = rtip.get();
+    ap.a_level = ap.a_onehit = ap.a_return = 0;
+    ap.a_uptr = &loop;
+    VSET(ap.a_ray.r_pt, -20, 0, 0);
+    VSET(ap.a_ray.r_dir, 4, 0, 0);
+    VUNITIZE(ap.a_ray.r_dir);
+    rt_shootray(&ap);
+    CHECK(text == "/a.r 2 30, /b.r 2 30, /a.r -10 22, /b.r 10 42, ");
 }
