@@ -80,7 +80,7 @@ typedef struct csgrt_box {
 } csgrt_box;
 typedef struct csgrt_plane {
     csgrt_vec3 normal;
-    double distance;
+    double distance;  ///< millimetres, from the origin, whatever the normal's length
 } csgrt_plane;
 
 /// Gets `user` and the done fraction, on the thread whose call it is. 0 ends the call (CSGRT_ERROR_INTERRUPTED).

@@ -13,7 +13,7 @@
 
 namespace csgrt {
 
-/// The half-space normal . p <= distance. The normal is a unit vector and points outward.
+/// The half-space normal . p <= distance. The normal counts as a unit vector, whatever its length, and points outward.
 struct Plane {
     Vec3 normal = {};
     double distance = 0;

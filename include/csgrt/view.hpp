@@ -35,9 +35,9 @@ struct View {
     /// has none of the channels of channel::counts. A scene with plates (a bot of that mode) takes as long as if true.
     bool every_partition = true;
     std::uint32_t channels = channel::all;  ///< the groups that the picture has, in the order of their bits
-    /// Up to six planes: what is beyond any of them (normal . p > distance) is gone, as if half-spaces in the model's
+    /// Up to six planes: what is beyond any of them (not in the half-space) is gone, as if half-spaces in the model's
     /// tree cut it. What they cut open has the region's colour, the plane's normal and no solid. Counts include what is
-    /// beyond the planes that the ray leaves through.
+    /// beyond the planes that the ray leaves through. A plane's normal may have any length but 0.
     std::vector<Plane> clip = {};
     std::optional<PixelRectangle> part = {};  ///< if given, the picture has these pixels alone: each as in the whole
     /// Rays a pixel, 1 to 256: the colours of more are their mean, in a pattern that does not change. The other

@@ -73,7 +73,7 @@ void bind_settings(nb::module_& module) {
                 view.clip.clear();
                 for (const auto& [normal, distance] : planes) view.clip.push_back({normal, distance});
             },
-            "Up to six planes (normal, distance): what is beyond any is gone");
+            "Up to six planes (normal, distance from the origin, mm): what is beyond any is gone");
 }
 
 }  // namespace csgrt::python

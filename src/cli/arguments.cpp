@@ -194,7 +194,7 @@ void define(Options& options, RenderArguments& arguments) {
     options.each(
         "--clip", "AXIS:OFFSET",
         "cut away what is beyond the plane across the axis x, y or z at OFFSET mm; NX,NY,NZ:OFFSET: the points "
-        "p with NX,NY,NZ . p > OFFSET; up to six times",
+        "p with n . p > OFFSET, n being the unit vector of NX,NY,NZ; up to six times",
         arguments.clip, parse_plane, "a plane such as z:2.5 or 1,0,1:2.5");
     define_looks(options, arguments.looks);
     options.count("--samples", "rays a pixel, whose mean the colours are; 1 if not given", arguments.samples, 1, 256);

@@ -173,7 +173,7 @@ void put_clip(const CompiledScene& scene, const std::vector<Plane>& planes, kern
         double size = 0;
         const dvec3 normal = direction_of(in_range(planes[i].normal, "the normal of a plane of the view"), size);
         if (!(size > 0)) refuse("the normal of a plane of the view has no length");
-        const double distance = in_range(planes[i].distance / size, -Limits::ray_origin, "the distance of a plane");
+        const double distance = in_range(planes[i].distance, -Limits::ray_origin, "the distance of a plane");
         frame.clip[i] = shared_plane(scene, {from_glm(normal), distance});
     }
 }

@@ -69,7 +69,7 @@ Kernels kernels_for(const Settings& settings) {
 }
 
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& choice, Kernels kernels) {
-    if (devices.empty()) refuse(devices, "no device was found");
+    if (devices.empty() && lower(choice) != "reference") refuse(devices, "no device was found");
 
     const auto is_too_plain = [kernels](const DeviceInfo& d) {
         return kernels == Kernels::compiled_by_device && is_native(d);
@@ -106,6 +106,8 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
     }
     if (first < devices.size()) return first;
     if (plain) refuse_native(devices);
+    if (wanted == "reference")
+        refuse(devices, "the CPU reference is no device", {}, "--reference (Settings::reference) computes with it.");
     const std::string which = choice.empty() ? ""
                               : by_type      ? " of the type " + wanted
                                              : " has \"" + choice + "\" in its name";

@@ -16,6 +16,7 @@
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
 
+#include "base/method_options.hpp"
 #include "scene/vector.hpp"
 #include "view/false_colors.hpp"
 
@@ -133,7 +134,10 @@ private:
 }  // namespace
 
 Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
-    : options_(std::move(options)), current_{.base = model, .paths = paths_of(model)}, renderer_(model, [&] {
+    : options_(std::move(options)),
+      methods_(method_options(settings)),
+      current_{.base = model, .paths = paths_of(model)},
+      renderer_(model, [&] {
           Settings own = settings;
           own.progress = [this](double) { return !wanted_ || (*wanted_)(); };
           return own;
@@ -345,8 +349,12 @@ Json Studio::pick(const Request& request) {
     return answer;
 }
 
+std::string Studio::picture_command(const Asked& asked) const {
+    return "csgrt " + options_.command + methods_ + command_options(asked);
+}
+
 Json Studio::command(const Request& request) const {
-    return {{"command", "csgrt " + options_.command + command_options(read_asked(request)) + " -o view.png"}};
+    return {{"command", picture_command(read_asked(request)) + " -o view.png"}};
 }
 
 std::string Studio::slice(const Request& request) {
@@ -368,7 +376,7 @@ std::string Studio::exr(const Request& request) {
             image = renderer_.render(asked.view);
             renderer_.name_pixels(image);
         });
-    image.attributes["csgrt:command"] = "csgrt " + options_.command + command_options(asked);
+    image.attributes["csgrt:command"] = picture_command(asked);
     const TemporaryFile file(".exr");
     options_.write_exr(image, file.name());
     std::ifstream in(file.name(), std::ios::binary);

@@ -68,6 +68,7 @@ private:
         Model model;
         std::uint64_t generation;
     };
+    std::string picture_command(const Asked& asked) const;
     Dressed model_with(const std::vector<Look>& looks);
     /// Calls draw() when no other frame is drawn, and the Renderer has the model; false: it was given up.
     bool with_renderer(const Model& model, const std::function<bool()>& is_wanted, const std::function<void()>& draw);
@@ -83,6 +84,7 @@ private:
     };
 
     const ViewerOptions options_;
+    const std::string methods_;  ///< the options of how pictures are drawn; picks are in double precision
     mutable std::mutex current_mutex_;
     Current current_;
     std::string device_;  ///< what drew last; under current_mutex_, too

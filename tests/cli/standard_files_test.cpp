@@ -1,6 +1,7 @@
 // Scenes and rays on standard input, and standard files that are closed.
 #include "cli/command.hpp"
 
+#include <csgrt/image.hpp>
 #include <csgrt/scene_io.hpp>
 
 using namespace command_test;
@@ -129,6 +130,16 @@ TEST_CASE("a scene names files below its own folder, and below those of --allow-
     CHECK(contains(shown("absent"), "No such file"));
     CHECK(contains(shown("../cells/absent", {"--allow-files", folder / "cells"}), "No such file"));
     CHECK(contains(shown("../cells/large", {"--allow-files", folder / "cells"}), "has 16 bytes, not 8"));
+#ifdef CSGRT_HAVE_IMAGE
+    {  // The header's command draws the same again.
+        folder.write("models/m.asc", model("../cells/other"));
+        const std::string exr = folder / "a.exr", allowed = folder / "cells";
+        REQUIRE(
+            run({folder / "models/m.asc", "--reference", "--size", "8", "-o", exr, "--allow-files", allowed}).status ==
+            0);
+        CHECK(contains(csgrt::read_image(exr).attributes.at("csgrt:command"), " --allow-files " + allowed));
+    }
+#endif
     // Neither convert nor --strict copies what may not be named.
     folder.write("models/m.asc", model("../cells/other"));
     CHECK(!contains(run({"convert", folder / "models/m.asc", "-"}).out, "heights"));

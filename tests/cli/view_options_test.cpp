@@ -93,6 +93,9 @@ TEST_CASE("the header's command draws the picture of any view again") {
         }
         CHECK(render(words).channels == image.channels);
     }
+    // A plane is where --plane of `csgrt sample` has it, too.
+    CHECK(render({"--clip", "0,0,2:1.5"}).channels == render({"--clip", "z:1.5"}).channels);
+    CHECK(render({"--clip", "0,0,2:1.5"}).channels != render({"--clip", "z:0.75"}).channels);
     // The saved view is azimuth 0, elevation 0, about the x axis.
     CHECK(render({"--view", view}).channels ==
           render({"--azimuth", "0", "--elevation", "0", "--center", "0,0,0", "--view-size", "40"}).channels);

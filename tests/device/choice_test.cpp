@@ -56,6 +56,10 @@ TEST_CASE("a device that is not there is refused with a list of those that are",
     CHECK(refusal(several, "otehr").find("\n  did you mean 'Other'?\n") != std::string::npos);
     CHECK(refusal(several, "cpu,real gup").find("chose") == std::string::npos);
 
+    for (const std::string& none : {refusal(several, "Reference"), refusal({}, "reference")}) {
+        CHECK(none.starts_with("the CPU reference is no device\n"));
+        CHECK(none.find("--reference (Settings::reference) computes with it") != std::string::npos);
+    }
     CHECK(refusal(several, "4").starts_with("no device has the number 4\n"));
     CHECK(refusal(several, "99999999999999999999999").starts_with("no device has the number 9999"));
     CHECK(refusal(several, "accelerator").starts_with("no device of the type accelerator was found\n"));

@@ -106,6 +106,9 @@ def test_places_have_the_bits_of_the_command(operators, scenes, command, tmp_pat
 
     cut = operators.slice(normal=(0, 0, 1), offset=50, pixels=(80, 60))
     assert cut.shape == (60, 80) and cut.dtype == np.int32
+    np.testing.assert_array_equal(cut, operators.slice(normal=(0, 0, 2), offset=50, pixels=(80, 60)))
+    np.testing.assert_array_equal(operators.render(40, 40, clip=[((0, 0, 1), 50)]).region_ids,
+                                  operators.render(40, 40, clip=[((0, 0, 2), 50)]).region_ids)
 
 
 def test_overlaps_are_listed_with_all_claimants(scenes):

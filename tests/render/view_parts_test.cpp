@@ -48,7 +48,7 @@ std::vector<Plane> random_planes(const Box& box, std::size_t count, std::mt19937
     const Vec3 middle = 0.5 * (box.low + box.high);
     std::vector<Plane> planes;
     for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 normal{any(random), any(random), any(random)};
+        const Vec3 normal = unit({any(random), any(random), any(random)});
         const double reach = std::abs(normal.x) * (box.high.x - box.low.x) +
                              std::abs(normal.y) * (box.high.y - box.low.y) +
                              std::abs(normal.z) * (box.high.z - box.low.z);
@@ -249,6 +249,10 @@ TEST_CASE("planes cut pictures open: a pixel shows the first partition of its ra
     }
     CHECK(compared > 50 * skipped);
     Renderer renderer(scenes().back());
+    const Plane plane = random_planes(renderer.bounds(), 1, random).front();
+    const Image cut = renderer.render({.width = 45, .height = 45, .clip = {plane}});
+    test::require_same(renderer.render({.width = 45, .height = 45, .clip = {{4.0 * plane.normal, plane.distance}}}),
+                       cut);  // the distance is from the origin, whatever the normal's length
     CHECK_THROWS_WITH(renderer.render({.clip = std::vector<Plane>(7, Plane{{1, 0, 0}, 0})}),
                       "a view has at most 6 planes");
     CHECK_THROWS_WITH(renderer.render({.clip = {Plane{}}}), "the normal of a plane of the view has no length");

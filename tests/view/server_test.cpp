@@ -164,7 +164,9 @@ TEST_CASE("view: a pick tells what Model::pick does, and the command that repeat
 
 TEST_CASE("view: the command draws the page's picture", "[view]") {
     const std::string scene = std::getenv("CSGRT_SCENES") + std::string("/operators.json");
-    const PageClient page(operators(), {.command = scene});
+    const Precision precision = GENERATE(Precision::double_, Precision::single);
+    const Settings settings{.reference = precision == Precision::single, .precision = precision};
+    const PageClient page(operators(), {.command = scene}, settings);
     json view = page.ask("model")["view"];
     view["camera"]["azimuth"] = 71.25;
     view["clip"] = {{{"normal", {0, 0.6, 0.8}}, {"distance", 512.5}}};
@@ -177,6 +179,8 @@ TEST_CASE("view: the command draws the page's picture", "[view]") {
     std::string line = page.ask("command", request)["command"];
     line.replace(0, 5, command_test::command());
     line.replace(line.find("view.png"), 8, folder / "view.exr");
+    CHECK((line.find(" --precision single ") != line.npos) == settings.reference);
+    if (settings.reference) line += " --reference";  // the native device draws in double precision
     REQUIRE(printed_by(line) == "");
     const auto pixels = display_pixels(read_image(folder / "view.exr"));
     CHECK(page.frame(request).pixels == std::string(pixels.begin(), pixels.end()));

@@ -8,6 +8,7 @@
 #include <csgrt/scene_io.hpp>
 
 #include "base/clock.hpp"
+#include "base/method_options.hpp"
 #include "commands.hpp"
 #include "cli/held_renderer.hpp"
 #include "cli/interrupt.hpp"
@@ -128,12 +129,7 @@ std::string canonical_command(const RenderArguments& arguments, const Camera& ca
     vector("--up", camera.up);
     if (camera.view_size) option("--view-size", *camera.view_size);
     option("--tolerance", tolerance);
-    if (arguments.settings.precision != Precision::double_)
-        text.append(" --precision ").append(name_of(precision_names, arguments.settings.precision));
-    if (arguments.settings.quartic != Quartic::bracketed)
-        text.append(" --quartic ").append(name_of(quartic_names, arguments.settings.quartic));
-    if (arguments.settings.contraction) text += " --contraction on";
-    text += model_options(arguments);
+    text += method_options(arguments.settings) + model_options(arguments);
     if (arguments.samples > 1) text += " --samples " + std::to_string(arguments.samples);
     for (const Plane& plane : arguments.clip) {
         vector("--clip", plane.normal);

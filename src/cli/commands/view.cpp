@@ -43,7 +43,6 @@ std::string words_of(const ViewArguments& arguments) {
     std::string text = shell_word(arguments.scene == "-" ? "SCENE" : arguments.scene);
     for (const std::string& object : arguments.objects) text += " " + shell_word(object);
     text += model_options(arguments);
-    for (const std::string& folder : arguments.load.file_folders) text += " --allow-files " + shell_word(folder);
     if (arguments.settings.tolerance_rule != Tolerance::length)
         text.append(" --tolerance ").append(name_of(tolerance_names, arguments.settings.tolerance_rule));
     else if (arguments.settings.tolerance >= 0)

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/shell_word.hpp"
 #include "partitions.hpp"
 
 namespace csgrt::cli {
@@ -136,6 +137,7 @@ std::string model_options(const SceneArguments& arguments) {
     if (arguments.settings.max_instances > 0)
         text += " --max-instances " + std::to_string(arguments.settings.max_instances);
     if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
+    for (const std::string& folder : arguments.load.file_folders) text += " --allow-files " + shell_word(folder);
     return text;
 }
 
