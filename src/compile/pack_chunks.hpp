@@ -8,6 +8,11 @@
 
 #include <csgrt/scene.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
 #include "base/parallel.hpp"
 #include "compile/compiled_scene.hpp"
 #include "compile/solids/planes.hpp"
@@ -48,9 +53,34 @@ void for_each_chunk(const std::vector<PackedChunk>& chunks, const Call& call) {
     for_chunks(chunks.size(), 1, 0, [&](std::size_t number, std::size_t, std::size_t) { call(number); });
 }
 
+/// Two solids with surfaces that became one, the first around the second. What lies between them is lost.
+struct Shell {
+    std::uint32_t outer, inner;
+    double thickness;  ///< millimetres
+};
+/// Those that more than rounding keeps apart: modellers' numbers are good to 1e-12 of a solid's size. Any thread.
+class Shells {
+public:
+    /// `common`: a box around the scene.
+    explicit Shells(const Box& common) : rounding_(4 * coordinate_rounding * largest_coordinate(common)) {}
+    /// `depth`: how far the second lies within the first; negative: the first within the second. `box`: the second's.
+    void add(std::size_t first, std::size_t second, double depth, const Box& box) {
+        if (!(std::fabs(depth) > std::max(rounding_, 1e-12 * diagonal(box))) || first == second) return;
+        if (depth < 0) std::swap(first, second);
+        const std::lock_guard lock(mutex_);
+        all_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second), std::fabs(depth)});
+    }
+    const std::vector<Shell>& all() const { return all_; }
+
+private:
+    double rounding_;
+    std::mutex mutex_;
+    std::vector<Shell> all_;
+};
+
 /// Finds the planes that several share: fills planes of `shapes`, appends references to its words, and the solids'
 /// ranges of them. `empty`: a table without planes.
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
-                  std::vector<Warning>& warnings);
+                  Shells& shells, std::vector<Warning>& warnings);
 
 }  // namespace csgrt

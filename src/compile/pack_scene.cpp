@@ -1,12 +1,15 @@
 // Solids are computed by several threads. What they share is found as if one after the other, in their order, so that
 // the result does not depend on the threads.
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "compile/linear.hpp"
 #include "compile/pack_chunks.hpp"
 #include "compile/solids/pack.hpp"
 #include "compile/solids/packer.hpp"
 #include "base/prefetch.hpp"
+#include "scene/range.hpp"
 
 namespace csgrt {
 
@@ -53,6 +56,7 @@ public:
           warnings_(warnings),
           planes_(space.center, 0.5 * diagonal(common)),
           surfaces_(space.center, space.radius),
+          shells_(common),
           chunks_((order.size() + PackedChunk::size - 1) / PackedChunk::size) {}
 
     Shapes pack() {
@@ -82,7 +86,8 @@ public:
         });
         share_surfaces();
         lay_out_reals();
-        share_planes(chunks_, planes_, common_, shapes_, warnings_);
+        share_planes(chunks_, planes_, common_, shapes_, shells_, warnings_);
+        note_shells();
         for (PackedChunk& chunk : chunks_) {
             shapes_.solid_types |= chunk.solid_types;
             std::move(chunk.warnings.begin(), chunk.warnings.end(), std::back_inserter(warnings_));
@@ -180,7 +185,9 @@ private:
                 if (i + soon < members.size()) prefetch_line(&part_at(i + soon));
                 const SurfaceTable::Surface& surface = surface_at(i).second;
                 PackedChunk::Part& part = part_at(i);
-                part.stands = table.add(surface, part.stands, reals_of, axes);
+                const SurfaceTable::Found found = table.add(surface, part.stands, reals_of, axes);
+                shells_.add(found.solid, part.stands, found.depth, shapes_.solid_boxes[part.stands]);
+                part.stands = found.solid;
             }
         });
     }
@@ -233,6 +240,48 @@ private:
         append_keys(faces, chunk.large_faces.emplace_back());
     }
 
+    /// Names the solids of shells that a region loses: it holds the outer one less the inner one.
+    void note_shells() {
+        if (shells_.all().empty()) return;
+        std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness;  // of instances
+        for (const Shell& shell : shells_.all()) {
+            double& most = thickness[{order_[shell.outer], order_[shell.inner]}];
+            most = std::max(most, shell.thickness);
+        }
+        std::set<std::pair<std::uint32_t, std::uint32_t>> lost;
+        for (const FlatRegion& region : flat_.regions) {
+            const std::vector<FlatTree::Node>& nodes = region.tree.nodes;
+            std::set<std::uint32_t> held, removed;
+            std::vector<bool> is_removed = {false};  // of operands that are still to come, from the last node back
+            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+                const bool here = is_removed.back();
+                is_removed.pop_back();
+                if (node->op == Operator::leaf) (here ? removed : held).insert(node->solid);
+                for (std::uint32_t i = 0; node->op != Operator::leaf && i < node->arity; ++i)
+                    is_removed.push_back(here !=
+                                         (node->op == Operator::not_ || (node->op == Operator::difference && i > 0)));
+            }
+            for (const auto& [pair, most] : thickness)
+                if (held.contains(pair.first) && removed.contains(pair.second)) lost.insert(pair);
+        }
+        constexpr std::size_t shown = 5;
+        std::size_t count = 0;
+        for (const auto& pair : lost) {
+            if (++count > shown) break;
+            const auto name = [&](std::uint32_t instance) {
+                return std::get<Solid>(scene_.objects[flat_.instances[instance].object]).name;
+            };
+            Warning& warning = warnings_.emplace_back();
+            warning.object = name(pair.first);
+            warning.reason = "nothing is left between it and '" + name(pair.second) +
+                             "', which is removed from it: they are " + rounded_text(thickness[pair]) +
+                             " mm apart, and surfaces within 1e-10 of a solid's size are one";
+        }
+        if (lost.size() > shown)
+            warnings_.emplace_back().reason =
+                "nothing is left between " + std::to_string(lost.size() - shown) + " more such pairs of solids";
+    }
+
     const Scene& scene_;
     const FlatScene& flat_;
     const Measured& measured_;
@@ -245,6 +294,7 @@ private:
     PlaneTable planes_;  ///< empty, as is the next: those of the shards begin as copies
     SurfaceTable surfaces_;
     SharedParts shared_;
+    Shells shells_;
     std::vector<PackedChunk> chunks_;
 };
 

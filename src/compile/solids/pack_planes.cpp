@@ -158,7 +158,13 @@ Firsts find_shared(std::vector<PackedChunk>& chunks, const Shards& shards, const
 }
 
 /// Writes the scene's records, in the order of the solids, and makes each `ref` the scene's.
-void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, Shapes& shapes) {
+void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const Firsts& firsts, const Box& common,
+                   Shapes& shapes, Shells& shells) {
+    // How far beyond the plane a point lies; outward of the solid whose face the plane is.
+    const auto beyond = [](const PlaneTable::Key& key, const Wide& point) {
+        const long double out = glm::dot(wide(key.one.normal), point) - key.one.distance;
+        return key.flipped ? -out : out;
+    };
     std::vector<std::uint32_t> first_record(chunks.size());
     for_each_chunk(chunks, [&](std::size_t number) {
         for (const PackedPlane& plane : chunks[number].planes) first_record[number] += plane.is_first;
@@ -180,6 +186,14 @@ void number_planes(std::vector<PackedChunk>& chunks, const Shards& shards, const
             PackedPlane& plane = chunks[number].planes[i];
             if (plane.is_first) continue;
             const Shards::Member first = firsts[shard][plane.ref >> 1];
+            if ((plane.ref & 1) == 0) {
+                const PackedPlane& other = chunks[first.chunk].planes[first.index];
+                const std::size_t solid = number * PackedChunk::size + plane.solid;
+                const Box& box = is_finite(shapes.solid_boxes[solid]) ? shapes.solid_boxes[solid] : common;
+                const Wide middle = 0.5L * (wide(box.low) + wide(box.high));
+                shells.add(first.chunk * PackedChunk::size + other.solid, solid,
+                           static_cast<double>(beyond(plane.key, middle) - beyond(other.key, middle)), box);
+            }
             plane.ref = chunks[first.chunk].planes[first.index].ref | (plane.ref & 1);
         }
     });
@@ -232,11 +246,11 @@ void write_references(const std::vector<PackedChunk>& chunks, const Box& common,
 }  // namespace
 
 void share_planes(std::vector<PackedChunk>& chunks, const PlaneTable& empty, const Box& common, Shapes& shapes,
-                  std::vector<Warning>& warnings) {
+                  Shells& shells, std::vector<Warning>& warnings) {
     for_each_chunk(chunks, [&](std::size_t number) { insert_large(chunks[number]); });
     const Shards shards = shards_of(chunks, empty, common, shapes);
     const Firsts firsts = find_shared(chunks, shards, empty, common, shapes);
-    number_planes(chunks, shards, firsts, shapes);
+    number_planes(chunks, shards, firsts, common, shapes, shells);
     write_references(chunks, common, shapes, warnings);
 }
 

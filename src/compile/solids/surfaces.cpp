@@ -28,7 +28,7 @@ Wide local_of(const double* reals, const Wide& p) {
     return q;
 }
 
-/// How far, about, a point of the world lies from the surface: f / |gradient of f|.
+/// How far, about, a point of the world lies outside the surface: f / |gradient of f|.
 long double distance(std::uint32_t type, const double* reals, const Wide& p) {
     const Wide q = local_of(reals, p);
     long double f = 0;
@@ -53,7 +53,7 @@ long double distance(std::uint32_t type, const double* reals, const Wide& p) {
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             in_world[column] += static_cast<long double>(reals[3 + 3 * row + column]) * gradient[row];
-    return std::fabs(f) / glm::length(in_world);
+    return f / glm::length(in_world);
 }
 
 /// Points of a surface, all over it: more than a quadric or a torus has freedoms.
@@ -126,8 +126,8 @@ std::array<Shards::Chunk::Dimension, 5> SurfaceTable::coarse_cells(const Surface
     return {{along(0), along(1), along(2), {surface.at[3], of_size, 0.25}, {double(surface.type), 0, 1}}};
 }
 
-std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of,
-                                const AxesOf& axes_of) {
+SurfaceTable::Found SurfaceTable::add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of,
+                                      const AxesOf& axes_of) {
     const double cell = point_cell * radius_ + 4 * rounding_;
     const auto cells = [&](int i, double tolerance) {
         return i < 3 ? cells_of(surface.at[i], tolerance > 0 ? tolerance * radius_ + rounding_ : 0, cell)
@@ -137,6 +137,7 @@ std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, co
     const std::span<double> mine = reals_of(number);
 
     std::uint32_t found = none;
+    long double out = 0;
     std::vector<Wide> points;
     for (std::int64_t x = ranges[0].first; x <= ranges[0].last; ++x)
         for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
@@ -147,10 +148,15 @@ std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, co
                     if (points.empty()) points = points_on(surface.type, mine.data(), axes_of(number));
                     for (std::uint32_t i = last; i != none; i = entries_[i].next) {
                         const double* other = reals_of(entries_[i].number).data();
+                        long double farthest = 0;
                         const bool same = std::all_of(points.begin(), points.end(), [&](const Wide& p) {
-                            return distance(surface.type, other, p) <= surface.limit;
+                            const long double d = distance(surface.type, other, p);
+                            if (std::fabs(d) > std::fabs(farthest)) farthest = d;
+                            return std::fabs(d) <= surface.limit;
                         });
-                        if (same) found = std::min(found, i);
+                        if (!same || i >= found) continue;
+                        found = i;
+                        out = farthest;
                     }
                 }
     if (found != none) {
@@ -158,13 +164,13 @@ std::uint32_t SurfaceTable::add(const Surface& surface, std::uint32_t number, co
         // A cone with its apex for origin keeps its digits there; one that was cut off has none to lose.
         if (has_apex_origin(surface.type, mine.data()) && !has_apex_origin(surface.type, first.data()))
             std::copy(mine.begin(), mine.end(), first.begin());
-        return entries_[found].number;
+        return {entries_[found].number, static_cast<double>(-out)};
     }
     const std::uint64_t hash =
         cell_hash({surface.type, cells(0, 0).first, cells(1, 0).first, cells(2, 0).first, cells(3, 0).first});
     const auto next = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({number, cells_.exchange(hash, next)});
-    return number;
+    return {number, 0};
 }
 
 }  // namespace csgrt

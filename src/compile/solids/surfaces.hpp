@@ -43,8 +43,13 @@ public:
     /// The parameters of a solid, by its number, and its local axes in the world.
     using RealsOf = std::function<std::span<double>(std::uint32_t)>;
     using AxesOf = std::function<WideMatrix(std::uint32_t)>;
-    /// The solid whose parameters stand for those of solid `number`: an earlier one with the same surface, or itself.
-    std::uint32_t add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
+    /// `solid`: whose parameters stand for those of solid `number`: an earlier one with the same surface, or itself.
+    /// `depth`: how far inside of that one's surface its own lies, millimetres; negative: outside.
+    struct Found {
+        std::uint32_t solid;
+        double depth;
+    };
+    Found add(const Surface& surface, std::uint32_t number, const RealsOf& reals_of, const AxesOf& axes_of);
 
     /// Without surfaces, in the memory that it has.
     void clear() {

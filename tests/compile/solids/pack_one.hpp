@@ -20,10 +20,13 @@ inline void pack_one(const Shape& shape, const Matrix& matrix, const Box& box, C
     if (const auto surface =
             surfaces.surface_of(record.type, scene.reals.data() + record.first_real, packer.axes_in_world, box)) {
         const std::size_t count = scene.reals.size() - record.first_real;
-        const std::uint32_t first = surfaces.add(
-            *surface, record.first_real,
-            [&](std::uint32_t real) { return std::span<double>(scene.reals.own()).subspan(real, count); },
-            [&](std::uint32_t) { return packer.axes_in_world; });
+        const std::uint32_t first =
+            surfaces
+                .add(
+                    *surface, record.first_real,
+                    [&](std::uint32_t real) { return std::span<double>(scene.reals.own()).subspan(real, count); },
+                    [&](std::uint32_t) { return packer.axes_in_world; })
+                .solid;
         if (first != record.first_real) scene.reals.resize(record.first_real);
         record.first_real = first;
     }

@@ -77,3 +77,37 @@ TEST_CASE("of many films the first few are named, and the others counted", "[fie
     REQUIRE(notes.size() == 6);
     CHECK(notes.back() == "nothing is left of 4 more such solids");
 }
+
+TEST_CASE("a shell between two solids that became one is named, with both", "[field]") {
+    Random random(7);
+    const auto larger = [](int kind, double by) -> Shape {
+        const double r = 20 * (1 + by), z = 15 * (1 + by);
+        if (kind == 0) return Ell{{0, 0, 0}, {r, 0, 0}, {0, r, 0}, {0, 0, r}};
+        if (kind == 1) return cylinder({0, 0, -z}, {0, 0, 2 * z}, r);
+        if (kind == 2) return Tor{{0, 0, 0}, {0, 0, 1}, 30, 0.5 * r};
+        return box({-z, -z, -z}, {z, z, z});
+    };
+    for (int kind = 0; kind < 4; ++kind)
+        for (const double by : {0.0, 3e-11, 1e-8}) {
+            const Matrix turn = rotation(random);
+            const auto notes_and_hits = [&](double outer, double inner) {
+                Builder to("shell", 1, 1);
+                const std::string a = to.solid(larger(kind, outer)), b = to.solid(larger(kind, inner));
+                to.region(operate(Operator::difference, {leaf(a, turn), leaf(b, turn)}));
+                to.region(leaf(to.solid(box({90, 0, 0}, {100, 1, 1}))));
+                const StressScene made = to.take();
+                Settings settings = test::on_reference();
+                settings.tolerance_rule = Tolerance::surfaces;
+                Renderer renderer(made.scene, made.objects, settings);
+                const Ray ray{moved_point(turn, {28, 3, -100}), moved_direction(turn, {kind == 2 ? 0 : -0.28, 0, 1})};
+                return std::pair(test::texts(renderer.warnings()), renderer.shoot({ray}).front().partitions.size());
+            };
+            CAPTURE(kind, by);
+            const auto [notes, hits] = notes_and_hits(by, 0);
+            CHECK(says(notes, "s0: nothing is left between it and 's1', which is removed from it: they are ") ==
+                  (by == 3e-11));
+            CHECK(notes.empty() == (by != 3e-11));
+            CHECK(hits == (by == 1e-8 ? 2 : 0));
+            CHECK(notes_and_hits(0, by).first.empty());  // the larger one is removed: nothing is left anyway
+        }
+}
