@@ -4,8 +4,8 @@
 // What csgrt does not have is not declared: the compiler names it.
 //
 // Distances are in lengths of r_dir. The partitions are those of Renderer::shoot(), to the last bit: neighbours of one
-// region are one partition, and what ends behind the ray's start is left out. Any number
-// of threads may shoot, and callbacks may shoot.
+// region are one partition, and what ends behind the ray's start is left out. Any number of threads may shoot, and
+// callbacks may shoot.
 #pragma once
 
 #ifndef __cplusplus
@@ -27,11 +27,13 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <csgrt/edit.hpp>
 #include <csgrt/model.hpp>
 #include <csgrt/renderer.hpp>
 #include <csgrt/scene_io.hpp>
@@ -50,7 +52,7 @@ struct xray {
 struct hit {
     fastf_t hit_dist = 0;
     point_t hit_point = {};
-    vect_t hit_normal = {};  ///< a unit vector, outward from the region; zeros where an overlap was cut
+    vect_t hit_normal = {};  ///< a unit vector, outward from the region; zeros if the solid is "?"
     const xray* hit_rayp = nullptr;
 };
 
@@ -58,7 +60,7 @@ struct directory {
     const char* d_namep = "";
 };
 
-/// A solid. An end that a decision about an overlap made has the solid "?".
+/// A solid. Where a decision about an overlap made an end and no surface lies there, it is "?".
 struct soltab {
     const char* st_name = "?";
     const directory* st_dp = nullptr;
@@ -146,9 +148,13 @@ struct rt_i {
     db_i database;
     bool asked = false;  ///< rt_gettree() was called
     std::vector<std::string> objects;
-    std::optional<csgrt::Model> model;        ///< none: there is nothing to hit
-    std::optional<csgrt::Renderer> renderer;  ///< of shoot_many()
-    std::mutex mutex;                         ///< of preparing and of `renderer`
+    std::optional<csgrt::Model> model;                ///< none: there is nothing to hit
+    std::optional<csgrt::Renderer> renderer;          ///< of shoot_many()
+    std::vector<std::optional<csgrt::Model>> layers;  ///< the model with some regions alone; see layers_of()
+    static constexpr size_t none = static_cast<size_t>(-1);
+    std::vector<size_t> layer;                  ///< of each region; none: not needed yet
+    std::set<std::pair<size_t, size_t>> apart;  ///< regions that overlap on a ray: they have different layers
+    std::mutex mutex;                           ///< of preparing, of `renderer` and of the layers
     std::vector<region> regions;
     std::vector<region*> region_pointers;
     std::vector<soltab> solids;
@@ -293,6 +299,59 @@ inline bool wants_overlaps(const application& ap) {
 inline Fields fields(bool overlaps) { return {.solids = true, .normals = true, .overlaps = overlaps}; }
 inline constexpr RayRanges whole_line{.all = {-std::numeric_limits<double>::infinity()}};
 
+/// Models that have the regions of the ray's overlaps between them, none with two that overlap on a ray. Their surfaces
+/// are the prepared model's, to the last bit.
+inline std::vector<Model> layers_of(rt_i& rtip, const Partitions& all, std::size_t ray) {
+    const std::lock_guard lock(rtip.mutex);
+    std::vector<std::size_t>& layer = rtip.layer;
+    layer.resize(rtip.nregions, rt_i::none);
+    std::set<std::size_t> regions, used;
+    for (std::int64_t k = all.overlap_splits[ray]; k < all.overlap_splits[ray + 1]; ++k) {
+        const std::int64_t* const splits = all.overlap_region_splits.data() + k;
+        const std::span claimants(all.overlap_region_ids.data() + splits[0], all.overlap_region_ids.data() + splits[1]);
+        for (std::size_t i = 0; i < claimants.size(); ++i) {
+            const auto a = static_cast<std::size_t>(claimants[i]);
+            regions.insert(a);
+            for (std::size_t j = 0; j < i; ++j) {
+                const auto b = static_cast<std::size_t>(claimants[j]);
+                rtip.apart.insert({{a, b}, {b, a}});
+                if (layer[a] == rt_i::none || layer[a] != layer[b]) continue;
+                rtip.layers[layer[a]].reset();
+                layer[a] = rt_i::none;
+            }
+        }
+    }
+    for (const std::size_t number : regions) {
+        if (layer[number] == rt_i::none) {
+            std::set<std::size_t> taken;
+            for (auto pair = rtip.apart.lower_bound({number, 0}); pair != rtip.apart.end() && pair->first == number;
+                 ++pair)
+                taken.insert(layer[pair->second]);
+            std::size_t free = 0;
+            while (taken.contains(free)) ++free;
+            rtip.layers.resize(std::max(rtip.layers.size(), free + 1));
+            rtip.layers[free].reset();
+            layer[number] = free;
+        }
+        used.insert(layer[number]);
+    }
+    std::vector<Model> models;
+    for (const std::size_t number : used) {
+        std::optional<Model>& model = rtip.layers[number];
+        if (!model) {
+            Edit edit(*rtip.model);
+            std::set<std::string> tops;
+            for (const region& one : rtip.regions) tops.emplace(one.reg_name, std::strcspn(one.reg_name + 1, "/") + 1);
+            for (const std::string& top : tops) edit.set_state(top, State::hidden);
+            for (std::size_t i = 0; i < layer.size(); ++i)
+                if (layer[i] == number) edit.set_state(rtip.Regions[i]->reg_name, State::shown);
+            model = edit.commit();
+        }
+        models.push_back(*model);
+    }
+    return models;
+}
+
 /// A part of a ray before it is one of librt's partitions.
 struct Piece {
     double t[2];  ///< in, out
@@ -309,6 +368,13 @@ struct Answer {
     partition overlap;
     seg overlap_segs[2];
     std::vector<region*> claimants;  // of the overlap
+    struct Surface {
+        double t = 0;
+        std::int32_t solid = -1;
+        Vec3 normal = {};  ///< against the ray
+    };
+    std::vector<Surface> surfaces;  // of the ray's overlapping regions, each as if alone; empty: not looked for yet
+    Partitions own;
 
     void start(const Partitions& all, std::int64_t first, std::int64_t last) {
         pieces.clear();
@@ -349,8 +415,32 @@ struct Answer {
         return ring.front();
     }
 
+    /// Finds the surfaces of all regions that overlap another one along the ray.
+    void find_surfaces(const application& ap, const Partitions& all, std::size_t ray) {
+        for (const Model& model : layers_of(*ap.a_rt_i, all, ray)) {
+            model.partitions(ray_of(ap.a_ray), own, {.solids = true, .normals = true, .hidden = false}, whole_line);
+            for (std::size_t i = 0; i < own.region_ids.size(); ++i) {
+                const Vec3& out = own.out_normals[i];
+                surfaces.push_back({own.t_in[i], own.in_solids[i], own.in_normals[i]});
+                surfaces.push_back({own.t_out[i], own.out_solids[i], {-out.x, -out.y, -out.z}});
+            }
+        }
+    }
+    /// The nearest of them within the model's tolerance.
+    Surface surface_at(const application& ap, double t) const {
+        double nearest = ap.a_rt_i->model->tolerance() / MAGNITUDE(ap.a_ray.r_dir);
+        Surface found;
+        for (const Surface& surface : surfaces) {
+            const double off = std::abs(surface.t - t);
+            if (!(off <= nearest) || (off == nearest && found.solid >= 0)) continue;
+            nearest = off;
+            found = surface;
+        }
+        return found;
+    }
+
     /// The interval [in, out], which is region `first`'s, becomes region `next`'s; -1: nobody's.
-    void give(double in, double out, std::int32_t first, std::int32_t next) {
+    void give(const application& ap, double in, double out, std::int32_t first, std::int32_t next) {
         others.clear();
         for (const Piece& piece : pieces) {
             if (piece.region != first || piece.t[1] <= in || piece.t[0] >= out) {
@@ -360,8 +450,15 @@ struct Answer {
             const auto part = [&](double from, double to, std::int32_t region) {
                 Piece cut = piece;
                 cut.region = region;
-                if (from > piece.t[0]) cut.t[0] = from, cut.solids[0] = -1, cut.normals[0] = {};
-                if (to < piece.t[1]) cut.t[1] = to, cut.solids[1] = -1, cut.normals[1] = {};
+                if (from > piece.t[0]) {
+                    const Surface at = surface_at(ap, from);
+                    cut.t[0] = from, cut.solids[0] = at.solid, cut.normals[0] = at.normal;
+                }
+                if (to < piece.t[1]) {
+                    const Surface at = surface_at(ap, to);
+                    cut.t[1] = to, cut.solids[1] = at.solid;
+                    cut.normals[1] = {-at.normal.x, -at.normal.y, -at.normal.z};
+                }
                 if (cut.t[0] < cut.t[1]) others.push_back(cut);
             };
             part(piece.t[0], std::min(in, piece.t[1]), first);
@@ -407,6 +504,7 @@ struct Answer {
     }
 
     void ask_about_overlaps(application& ap, const Partitions& all, std::size_t ray) {
+        surfaces.clear();
         for (std::int64_t k = all.overlap_splits[ray]; k < all.overlap_splits[ray + 1]; ++k) {
             const auto i = static_cast<std::size_t>(k);
             const double in = all.overlap_t_in[i], out = all.overlap_t_out[i];
@@ -417,7 +515,9 @@ struct Answer {
             const auto owner = static_cast<std::int32_t>(claimants[0]->reg_bit);
             const region* const left = decide(ap, in, out);
             const std::int32_t next = left ? static_cast<std::int32_t>(left->reg_bit) : -1;
-            if (next != owner) give(in, out, owner, next);
+            if (next == owner) continue;
+            if (surfaces.empty()) find_surfaces(ap, all, ray);
+            give(ap, in, out, owner, next);
         }
         std::erase_if(pieces, [](const Piece& piece) { return piece.t[1] < 0; });
     }
@@ -474,6 +574,9 @@ inline void prepare(rt_i& rtip, int threads) {
     settings.threads = threads > 0 ? static_cast<unsigned>(threads) : 0;
     rtip.model.reset();
     rtip.renderer.reset();
+    rtip.layers.clear();
+    rtip.layer.clear();
+    rtip.apart.clear();
     rtip.nregions = rtip.nsolids = 0;
     rtip.HeadRegion = {&rtip.HeadRegion, &rtip.HeadRegion};
     if (rtip.asked && rtip.objects.empty()) {

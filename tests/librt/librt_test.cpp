@@ -201,14 +201,58 @@ TEST_CASE("a callback about overlaps gives them to nobody, the first or the seco
     ap.a_ray = along_x(5);  // within a's and b's overlap, which is told of whole
     rt_shootray(&ap);
     CHECK(told.text == "b.r 2 14, c.r 14 34, d.r 50 60, e.r 100 101, f.r 101 102, g.r 102 106");
-    ap.a_hit = [](application*, partition* head, seg*) {
-        const partition* b = head->pt_forw;
-        CHECK(std::string(b->pt_inseg->seg_stp->st_name) == "?");  // where a decision cut, no solid is known
-        CHECK(VDOT(b->pt_inhit->hit_normal, b->pt_inhit->hit_normal) == 0);
-        CHECK(std::string(head->pt_back->pt_outseg->seg_stp->st_dp->d_namep) == "g");
+    ap.a_hit = [](application* of, partition* head, seg*) {
+        // The solid where each partition begins and ends, and whether the normals point out of it.
+        std::string& text = static_cast<Told*>(of->a_uptr)->text;
+        text.clear();
+        for (const partition* p = head->pt_forw; p != head; p = p->pt_forw) {
+            text += std::string(p->pt_inseg->seg_stp->st_name) + p->pt_outseg->seg_stp->st_dp->d_namep + ' ';
+            CHECK(p->pt_inhit->hit_normal[X] == -1);
+            CHECK(p->pt_outhit->hit_normal[X] == 1);
+        }
         return 1;
     };
+    ap.a_ray = along_x(-20);
     rt_shootray(&ap);
+    CHECK(told.text == "ab bc cc dd ef fg gg ");  // as in the partitions of code 2
+    told.code = 0;
+    const std::vector<xray> rays(2, ap.a_ray);
+    CHECK(librt::shoot_many(&ap, rays.data(), rays.size()) == 2);
+    CHECK(told.text == "ab ac bc dd ef ge fg ");
+}
+
+TEST_CASE("however overlaps are decided, each end has its solid and a normal that points outward") {
+    static int code;
+    static std::size_t asked, ends;
+    for (const std::string& file : test::scene_files()) {
+        INFO(file);
+        const Opened rtip = open(file);
+        application ap;
+        ap.a_rt_i = rtip.get();
+        ap.a_overlap = [](application*, partition*, region*, region*, partition*) {
+            ++asked;
+            return code;
+        };
+        ap.a_hit = [](application* of, partition* head, seg*) {
+            for (const partition* p = head->pt_forw; p != head; p = p->pt_forw) {
+                ends += 2;
+                const bool in = std::isinf(p->pt_inhit->hit_dist), out = std::isinf(p->pt_outhit->hit_dist);
+                REQUIRE((in || p->pt_inseg->seg_stp->st_bit >= 0));
+                REQUIRE((out || p->pt_outseg->seg_stp->st_bit >= 0));
+                REQUIRE((in || VDOT(p->pt_inhit->hit_normal, of->a_ray.r_dir) < 1e-6));
+                REQUIRE((out || VDOT(p->pt_outhit->hit_normal, of->a_ray.r_dir) > -1e-6));
+            }
+            return 1;
+        };
+        std::vector<xray> rays;
+        for (const Ray& ray : test::random_rays(Renderer(rtip->scene).bounds(), 200)) {
+            librt::copy(rays.emplace_back().r_pt, ray.origin);
+            librt::copy(rays.back().r_dir, ray.direction);
+        }
+        for (code = 0; code <= 2; ++code) librt::shoot_many(&ap, rays.data(), rays.size());
+    }
+    CHECK(asked > 100);
+    CHECK(ends > 1000);
 }
 
 TEST_CASE("a_onehit counts ends, and a ray that meets nothing is a miss") {
