@@ -78,7 +78,7 @@ TEST_CASE("a term's value is its tree's, whether it is scanned, walked or told b
                 covered[s] = random.below(4) < static_cast<std::uint32_t>(shot) % 5;
                 if (covered[s]) bits[s / 32] |= 1u << s % 32;
             }
-            const kernel::cover cover{ends.data(), bits.data(), solids, 0, 0, records.data(), nullptr, words.data()};
+            const kernel::cover cover{ends.data(), bits.data(), solids, 0, 0, 0, records.data(), nullptr, words.data()};
             kernel::covered_solids list;
             kernel::list_covered(cover, &list);
             const bool expected = value_of(tree, covered);

@@ -36,7 +36,7 @@ using namespace csgrt;
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
     FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, answer) \
-    FIELD(Frame, first_x) FIELD(Frame, first_y) FIELD(Frame, clip) FIELD(Frame, clip_count) \
+    FIELD(Frame, first_x) FIELD(Frame, first_y) FIELD(Frame, clip) FIELD(Frame, clip_count) FIELD(Frame, whole_lines) \
     RECORD(DisplayBytes) FIELD(DisplayBytes, ends) FIELD(DisplayBytes, first) \
     RECORD(ScreenBounds) \
     FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
@@ -56,7 +56,7 @@ using namespace csgrt;
     FIELD(PartitionNode, out_end) FIELD(PartitionNode, next) FIELD(PartitionNode, owner) \
     RECORD(DeepRay) FIELD(DeepRay, ray) FIELD(DeepRay, block) FIELD(DeepRay, segment) FIELD(DeepRay, event) \
     FIELD(DeepRay, at) FIELD(DeepRay, changed) FIELD(DeepRay, in_end) FIELD(DeepRay, out_end) \
-    FIELD(DeepRay, open) FIELD(DeepRay, last) FIELD(DeepRay, open_segments) FIELD(DeepRay, partitions) \
+    FIELD(DeepRay, open) FIELD(DeepRay, last) FIELD(DeepRay, open_solids) FIELD(DeepRay, partitions) \
     FIELD(DeepRay, sides) RECORD(DeepSegment) FIELD(DeepSegment, first) FIELD(DeepSegment, is_open) \
     FIELD(DeepSegment, covers) \
     RECORD(RayTally) FIELD(RayTally, partitions) FIELD(RayTally, overlaps) RECORD(Pixel) \
