@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
@@ -118,8 +119,11 @@ CSGRT_API std::vector<unsigned char> display_pixels(const Image& image);
 /// integers; R G B in linear light) or .png (display_pixels(), without A if all pixels are opaque; its header says
 /// sRGB). The file has a temporary name until it is complete. "-" writes to standard output, in `format` ("exr" or
 /// "png"); so do the names of pipes and devices. Throws Error: usage if the picture has not the channels that the
-/// format needs or the format is unknown, file if the file cannot be written. Any thread. In csgrt::image.
-CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr");
+/// format needs or the format is unknown, file if the file cannot be written. `progress` is called with the written
+/// part, 0 to 1; if it returns false, nothing is written, and Error (interrupted) is thrown. Any thread. In
+/// csgrt::image.
+CSGRT_API void write_image(const Image& image, const std::string& path, const std::string& format = "exr",
+                           const std::function<bool(double)>& progress = {});
 
 /// Reads an .exr with all its channels as 32-bit floats (R G B in linear light), unsigned integers as ids, its text
 /// attributes and its matrices. Channels have csgrt's order; others follow. Throws Error (file). Any thread. In

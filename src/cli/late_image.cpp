@@ -58,8 +58,9 @@ const ImageFunctions& functions() {
 
 }  // namespace
 
-void write_image(const Image& image, const std::string& path, const std::string& format) {
-    functions().write(image, path, format);
+void write_image(const Image& image, const std::string& path, const std::string& format,
+                 const std::function<bool(double)>& progress) {
+    functions().write(image, path, format, progress);
 }
 
 Image read_image(const std::string& path) { return functions().read(path); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -34,25 +35,23 @@ void check_form(const Image& image, const std::string& name) {
     }
 }
 
-/// Pixel by pixel, as image files want it. R G B as linear light.
-std::vector<float> interleave(const Image& image) {
+/// The pixels [first, end) one by one, as image files want them. R G B as linear light.
+void interleave(const Image& image, std::size_t first, std::size_t end, std::vector<float>& pixels) {
     const std::size_t count = image.channels.size();
-    std::vector<float> pixels(count * image.channels[0].size());
-    for (std::size_t c = 0; c < count; ++c) {
-        for (std::size_t i = 0; i < image.channels[c].size(); ++i) pixels[i * count + c] = image.channels[c][i];
-    }
-    if (!image.display_values) return pixels;
+    pixels.resize(count * (end - first));
+    for (std::size_t c = 0; c < count; ++c)
+        for (std::size_t i = first; i < end; ++i) pixels[(i - first) * count + c] = image.channels[c][i];
+    if (!image.display_values) return;
     std::span<const float> alpha;
     if (image.has_channel("A")) alpha = image.channel("A");
     for (std::size_t c = 0; c < count; ++c) {
         if (image.names[c] != "R" && image.names[c] != "G" && image.names[c] != "B") continue;
-        for (std::size_t i = 0; i < image.channels[c].size(); ++i) {
-            float& value = pixels[i * count + c];
+        for (std::size_t i = first; i < end; ++i) {
+            float& value = pixels[(i - first) * count + c];
             const double weight = !alpha.empty() && alpha[i] > 0 ? alpha[i] : 1;
             value = static_cast<float>(weight * linear_of_display(value / weight));
         }
     }
-    return pixels;
 }
 
 void describe(OIIO::ImageSpec& spec, const Image& image, bool every_channel) {
@@ -81,13 +80,13 @@ bool has_header(const std::vector<unsigned char>& exr, const Image& image) {
 
 }  // namespace
 
-std::vector<unsigned char> encode(const Image& image, const std::string& format, const std::string& name) {
+std::vector<unsigned char> encode(const Image& image, const std::string& format, const std::string& name,
+                                  const std::function<bool(double)>& progress) {
     if (format != "exr" && format != "png") {
         throw Error(Status::usage, name + ": pictures are written as exr or png, not as \"" + format + '"');
     }
     check_form(image, name);
     const bool exr = format == "exr";
-    const std::vector<float> floats = exr ? interleave(image) : std::vector<float>();
     for (const char* color : {"R", "G", "B"})
         if (!exr && !image.has_channel(color))
             throw Error(Status::usage, name + ": the picture has no channel " + color + ", which a PNG needs");
@@ -117,8 +116,19 @@ std::vector<unsigned char> encode(const Image& image, const std::string& format,
         if (!good) throw_from(name + ": cannot be encoded: ", output->geterror());
     };
     check(output->open("csgrt." + format, spec));
-    check(exr ? output->write_image(OIIO::TypeUnknown, floats.data())
-              : output->write_image(OIIO::TypeUInt8, colors.data(), 4));
+    if (!exr) check(output->write_image(OIIO::TypeUInt8, colors.data(), 4));
+    std::vector<float> floats;
+    // 16 rows are compressed together, by one thread.
+    const int rows_at_once =
+        progress ? 16 * static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : image.height;
+    for (int row = 0, end = 0; exr && row < image.height; row = end) {
+        if (progress && !progress(static_cast<double>(row) / image.height))
+            throw Error(Status::interrupted, "interrupted");
+        end = std::min(row + rows_at_once, image.height);
+        const auto width = static_cast<std::size_t>(image.width);
+        interleave(image, width * static_cast<std::size_t>(row), width * static_cast<std::size_t>(end), floats);
+        check(output->write_scanlines(row, end, 0, OIIO::TypeUnknown, floats.data()));
+    }
     check(output->close());
     if (!is_whole(bytes, format, image.height) || (exr && !has_header(bytes, image)))
         throw Error(Status::file, name + ": OpenImageIO has left the picture unfinished: is there enough memory?");

@@ -9,7 +9,9 @@
 namespace csgrt {
 
 /// `format` is "exr" or "png". The same picture gives the same bytes: no date, no name of a machine stands in them.
-/// Throws Error (usage) if the picture is not well formed (`name` says which), (file) if it cannot be encoded.
-std::vector<unsigned char> encode(const Image& image, const std::string& format, const std::string& name);
+/// Throws Error (usage) if the picture is not well formed (`name` says which), (file) if it cannot be encoded,
+/// (interrupted) if `progress`, which is told the done part, returns false.
+std::vector<unsigned char> encode(const Image& image, const std::string& format, const std::string& name,
+                                  const std::function<bool(double)>& progress = {});
 
 }  // namespace csgrt

@@ -8,7 +8,8 @@
 namespace csgrt {
 
 struct ImageFunctions {
-    void (*write)(const Image& image, const std::string& path, const std::string& format);
+    void (*write)(const Image& image, const std::string& path, const std::string& format,
+                  const std::function<bool(double)>& progress);
     Image (*read)(const std::string& path);
 };
 

@@ -22,10 +22,11 @@ std::string extension_of(const std::string& path) {
 
 }  // namespace
 
-void write_image(const Image& image, const std::string& path, const std::string& format) {
+void write_image(const Image& image, const std::string& path, const std::string& format,
+                 const std::function<bool(double)>& progress) {
     const FloatingPoint own;
-    const auto encoded = [&image](const std::string& as, const std::string& name) {
-        return with_image_threads(name, [&] { return encode(image, as, name); });
+    const auto encoded = [&](const std::string& as, const std::string& name) {
+        return with_image_threads(name, [&] { return encode(image, as, name, progress); });
     };
     const auto text = [](const std::vector<unsigned char>& bytes) {
         return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -192,6 +192,27 @@ TEST_CASE("the same picture gives the same bytes at any time", "[image]") {
     CHECK(encode(image, "png", "test") == png);
 }
 
+TEST_CASE("who follows the writing of an EXR gets the same bytes, and may end it", "[image]") {
+    const Folder folder;
+    const std::string file = folder.write("a.exr", "old");
+    Image image = full_picture();
+    image.width = 3;
+    image.height = 5000;
+    image.channels = Channels(15'000, std::vector<float>(image.names.size(), 0.1f));
+    double last = -1;
+    int calls = 0;
+    const auto grows = [&](double part) {
+        ++calls;
+        return part > std::exchange(last, part) && part < 1;
+    };
+    CHECK(encode(image, "exr", "test", grows) == encode(image, "exr", "test"));
+    CHECK(calls > 1);
+    CHECK(failure(Status::interrupted,
+                  [&] { write_image(image, file, "exr", [](double part) { return part < 0.5; }); }) == "interrupted");
+    CHECK(content(file) == "old");
+    CHECK(folder.files().size() == 1);
+}
+
 TEST_CASE("a file is replaced whole, and left alone when writing fails", "[image]") {
     const Folder folder;
     std::ofstream(folder / "a.png") << "old";
