@@ -6,9 +6,9 @@ cmake_minimum_required(VERSION 3.25)
 
 set(below_compile scene formats)
 set(below_pipeline compile device native ${below_compile})
-# Of image and view it sees functions.hpp, by which they are loaded late; else what every program sees: the public
+# Of image it sees functions.hpp, by which it is loaded late; else what every program sees: the public
 # headers.
-set(may_cli scene image view)
+set(may_cli scene image)
 set(may_render pipeline reference ${below_pipeline})
 set(may_pipeline ${below_pipeline})
 set(may_reference compile ${below_compile})
@@ -25,7 +25,6 @@ set(may_view scene)  # its vectors
 # Within pipeline, scheduling includes passes and readback, which do not know of each other, nor of scheduling.
 set(where_CL device native pipeline)
 set(where_nlohmann formats view)
-set(where_httplib view)
 set(where_OpenImageIO image)
 set(where_glm scene formats compile device reference pipeline render kernel_host)
 

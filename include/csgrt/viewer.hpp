@@ -19,10 +19,11 @@ struct ViewerOptions {
     /// What stands behind `csgrt` and `csgrt shoot` to load the same model, quoted for a shell: a file, objects,
     /// options.
     std::string command = {};
-    std::string file = {};             ///< when this file changes, `load` is called, on a thread of its own
+    std::string file = {};             ///< when this file changes, `load` is called, on another thread
     std::function<Model()> load = {};  ///< the model as it is now; throws Error, which the page then shows
-    /// Writes an .exr: csgrt::write_image, where csgrt::image is there. Empty: the page does not offer it.
-    std::function<void(const Image&, const std::string&)> write_exr = {};
+    /// Writes an .exr, unless the progress that it calls says no: csgrt::write_image, where csgrt::image is there.
+    /// Empty: the page does not offer it.
+    std::function<void(const Image&, const std::string&, const std::function<bool(double)>&)> write_exr = {};
 };
 
 /// Serves one page over HTTP, and draws for any number of browsers that have its address. The address holds a secret;
@@ -30,7 +31,8 @@ struct ViewerOptions {
 /// client's word.
 class CSGRT_API Viewer {
 public:
-    /// Listens from now on. Throws Error: file if there is no such interface, or the port is taken; as Renderer does.
+    /// Listens from now on. Throws Error: file if there is no such interface, the port is taken, or there is no thread
+    /// to answer with; as Renderer does.
     Viewer(Model model, const Settings& settings, ViewerOptions options);
     ~Viewer();
     Viewer(const Viewer&) = delete;
@@ -38,8 +40,8 @@ public:
 
     /// "http://127.0.0.1:40123/4f0c.../": of the page.
     const std::string& address() const;
-    /// Answers requests until the page's button End is pressed, stop() is called or `go_on`, which is called ten times
-    /// a second, returns false. Frames that are being drawn end then. Once.
+    /// Answers requests until the page's button End is pressed, stop() is called or `go_on`, which is called twenty
+    /// times a second or more, returns false. What is being drawn or written ends then. Once.
     void run(const std::function<bool()>& go_on = {});
     /// Ends run(). Any thread.
     void stop();

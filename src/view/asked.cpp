@@ -21,7 +21,7 @@ constexpr std::array<std::pair<std::string_view, Show>, 6> shows{{{"color", Show
                                                                   {"segments", Show::segments}}};
 constexpr std::array<std::pair<std::string_view, State>, 3> states{
     {{"shown", State::shown}, {"ghost", State::ghost}, {"hidden", State::hidden}}};
-constexpr int most_samples = 256;
+constexpr int most_samples = 256, most_nested = 16;
 
 template <class Names>
 auto named(const Names& names, const Request& request, const char* member) {
@@ -45,7 +45,18 @@ std::string text_of(const Vec3& v) { return decimal(v.x) + "," + decimal(v.y) + 
 
 }  // namespace
 
-Request::Request(const std::string& body) : value_(Json::parse(body, nullptr, false)) { expect_object(); }
+// What is nested deeper than a thread's stack goes would end the program where it is copied.
+Request::Request(const std::string& body)
+    : value_(Json::parse(
+          body,
+          [](int depth, Json::parse_event_t, const Json&) {
+              if (depth <= most_nested) return true;
+              throw Error(Status::usage,
+                          "the request: brackets are nested more than " + std::to_string(most_nested) + " deep");
+          },
+          false)) {
+    expect_object();
+}
 
 void Request::expect_object() const {
     if (!value_.is_object())

@@ -8,8 +8,6 @@ namespace csgrt {
 
 namespace {
 
-constexpr int forbidden = 403, not_found = 404, not_allowed = 405, unsupported_type = 415;
-
 bool is_loopback(std::string_view address) {
     return address == "127.0.0.1" || address == "::1" || address == "localhost";
 }
@@ -53,15 +51,15 @@ bool Guard::is_own_host(const std::string& host) const {
 }
 
 int Guard::refusal(const Asker& asker) const {
-    if (!is_own_host(asker.host)) return forbidden;
-    if (asker.has_origin && asker.origin != "http://" + asker.host) return forbidden;
-    if (!asker.path.starts_with(root())) return not_found;
+    if (!is_own_host(asker.host)) return http::forbidden;
+    if (asker.has_origin && asker.origin != "http://" + asker.host) return http::forbidden;
+    if (!asker.path.starts_with(root())) return http::not_found;
     const std::string_view rest = std::string_view(asker.path).substr(root().size());
-    if (rest.empty()) return asker.method == "GET" ? 0 : not_allowed;
-    if (!rest.starts_with("api/")) return not_found;
-    if (asker.method != "POST") return not_allowed;
+    if (rest.empty()) return asker.method == "GET" ? 0 : http::not_allowed;
+    if (!rest.starts_with("api/")) return http::not_found;
+    if (asker.method != "POST") return http::not_allowed;
     // A form of another site's page cannot have this type.
-    return asker.content_type.starts_with("application/json") ? 0 : unsupported_type;
+    return asker.content_type.starts_with("application/json") ? 0 : http::unsupported_type;
 }
 
 }  // namespace csgrt

@@ -5,6 +5,13 @@
 
 namespace csgrt {
 
+/// Statuses of answers.
+namespace http {
+inline constexpr int good = 200, bad_request = 400, forbidden = 403, not_found = 404, not_allowed = 405,
+                     no_length = 411, too_large = 413, unsupported_type = 415, large_head = 431, server_error = 500,
+                     other_version = 505;
+}
+
 /// 128 random bits, as 32 digits.
 std::string new_token();
 

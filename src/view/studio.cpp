@@ -10,13 +10,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numbers>
-#include <random>
 
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
 
 #include "base/method_options.hpp"
+#include "base/private_folder.hpp"
 #include "scene/vector.hpp"
 #include "view/false_colors.hpp"
 
@@ -111,25 +112,12 @@ std::string bytes_of(const Value* values, std::size_t count) {
     return {reinterpret_cast<const char*>(values), count * sizeof(Value)};
 }
 
-/// A file that nobody else can have named, which goes at the end.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::string& extension) {
-        std::random_device random;
-        path_ = std::filesystem::temp_directory_path() /
-                ("csgrt-" + std::to_string(random()) + "-" + std::to_string(random()) + extension);
-    }
-    ~TemporaryFile() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    std::string name() const { return path_.string(); }
-
-private:
-    std::filesystem::path path_;
-};
+/// False: it was given up.
+bool take(std::unique_lock<std::timed_mutex>& lock, const std::function<bool()>& is_wanted) {
+    while (!lock.try_lock_for(turn))
+        if (!is_wanted()) return false;
+    return is_wanted();
+}
 
 }  // namespace
 
@@ -245,9 +233,7 @@ Studio::Dressed Studio::model_with(const std::vector<Look>& looks) {
 bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_wanted,
                            const std::function<void()>& draw) {
     std::unique_lock lock(drawing_, std::defer_lock);
-    while (!lock.try_lock_for(turn))
-        if (!is_wanted()) return false;
-    if (!is_wanted()) return false;
+    if (!take(lock, is_wanted)) return false;
     struct Wanted {
         const std::function<bool()>*& by_renderer;
         ~Wanted() { by_renderer = nullptr; }
@@ -264,29 +250,29 @@ bool Studio::with_renderer(const Model& model, const std::function<bool()>& is_w
     return true;
 }
 
-Studio::Frame Studio::frame(const Request& request) {
-    Frame frame;
-    frame.studio = this;
-    frame.asked = read_asked(request);
-    frame.number = static_cast<std::uint64_t>(request.count("number", 0, std::numeric_limits<int>::max()));
-    frame.deflates = request.text("encoding") == "deflate";
-    const std::lock_guard lock(current_mutex_);
-    if (pages_.size() > most_pages) pages_.clear();  // frames that are being drawn keep theirs
-    auto& newest = pages_[request.text("page").substr(0, 64)];
-    if (!newest) newest = std::make_shared<std::atomic<std::uint64_t>>();
-    *newest = std::max<std::uint64_t>(*newest, frame.number);
-    frame.newest = newest;
-    return frame;
-}
-
-void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::function<void(std::string_view)>& send) {
-    const auto is_newest = [&] { return *newest == number && is_wanted(); };
-    const auto send_head = [&](const Json& head) {
+void Studio::frame(const Request& request, const Client& client) {
+    Asked asked = read_asked(request);
+    const auto number = static_cast<std::uint64_t>(request.count("number", 0, std::numeric_limits<int>::max()));
+    const bool deflates = request.text("encoding") == "deflate";
+    const auto newest = [&] {
+        const std::lock_guard lock(current_mutex_);
+        if (pages_.size() > most_pages) pages_.clear();  // frames that are being drawn keep theirs
+        auto& of_page = pages_[request.text("page").substr(0, 64)];
+        if (!of_page) of_page = std::make_shared<std::atomic<std::uint64_t>>();
+        *of_page = std::max<std::uint64_t>(*of_page, number);
+        return of_page;
+    }();
+    const std::function<bool()> is_newest = [&] { return *newest == number && client.is_wanted(); };
+    const auto send = [&](const Json& head, std::string_view pixels = {}) {
         const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
-        send(little_endian(static_cast<std::uint32_t>(text.size())) + text);
+        client.send({little_endian(static_cast<std::uint32_t>(text.size())), text, pixels}, 0);
     };
+    const Json cancelled = {{"cancelled", true}};
     try {
-        const auto [model, generation] = studio->model_with(asked.looks);
+        const std::size_t count =
+            static_cast<std::size_t>(asked.view.width) * static_cast<std::size_t>(asked.view.height);
+        Lent lent(*this);
+        const auto [model, generation] = model_with(asked.looks);
         const bool has_ghosts =
             std::ranges::any_of(model.regions(), [](const RegionInfo& region) { return region.state == State::ghost; });
         asked.view.channels = channels_for(asked.show, has_ghosts);
@@ -296,24 +282,21 @@ void Studio::Frame::draw(const std::function<bool()>& is_wanted, const std::func
                      {"samples", asked.view.samples},
                      {"generation", generation},
                      {"encoding", deflates ? "deflate" : "raw"}};
-        Lent lent(*studio);
         std::vector<std::uint32_t>& pixels = lent.pixels;
-        pixels.resize(static_cast<std::size_t>(asked.view.width) * static_cast<std::size_t>(asked.view.height));
-        if (!studio->with_renderer(model, is_newest, [&] {
-                studio->renderer_.render(asked.view, studio->framebuffer_);
-                head["draw_ms"] = studio->renderer_.statistics().ms.frame;
-                head["device"] = studio->renderer_.statistics().device;
-                paint(studio->framebuffer_.image(), asked.show, pixels);
+        pixels.resize(count);
+        if (!with_renderer(model, is_newest, [&] {
+                renderer_.render(asked.view, framebuffer_);
+                head["draw_ms"] = renderer_.statistics().ms.frame;
+                head["device"] = renderer_.statistics().device;
+                paint(framebuffer_.image(), asked.show, pixels);
             }))
-            return send_head({{"cancelled", true}});
-        const std::string packed = deflates ? deflated(pixels) : std::string();
-        send_head(head);
-        send(deflates ? std::string_view(packed)
-                      : std::string_view(reinterpret_cast<const char*>(pixels.data()), 4 * pixels.size()));
+            return send(cancelled);
+        if (deflates) return send(head, deflated(pixels));
+        send(head, {reinterpret_cast<const char*>(pixels.data()), 4 * pixels.size()});
     } catch (const Error& error) {
-        send_head({{"error", error.what()}});
+        send({{"error", error.what()}});
     } catch (const std::bad_alloc&) {
-        send_head({{"error", "not enough memory for this picture"}});
+        send({{"error", "not enough memory for this picture"}});
     }
 }
 
@@ -357,45 +340,58 @@ Json Studio::command(const Request& request) const {
     return {{"command", picture_command(read_asked(request)) + " -o view.png"}};
 }
 
-std::string Studio::slice(const Request& request) {
+// By the Renderer, which can be stopped.
+void Studio::slice(const Request& request, const Client& client) {
+    const Slice slice = read_slice(request);
     const Model model = model_with(read_asked(request).looks).model;
     Array<std::int32_t> ids;
-    model.slice(read_slice(request), ids);
-    return bytes_of(ids.data(), ids.size());
+    if (!with_renderer(model, client.is_wanted, [&] { renderer_.slice(slice, ids); })) return;
+    client.send({{reinterpret_cast<const char*>(ids.data()), ids.size() * sizeof ids.data()[0]}}, 0);
 }
 
-std::string Studio::exr(const Request& request) {
+void Studio::exr(const Request& request, const Client& client) {
     if (!options_.write_exr) throw Error(Status::usage, "this csgrt was built without OpenImageIO and writes no EXR");
     Asked asked = read_asked(request);
     asked.view.every_partition = true;
     asked.view.channels = channel::all;
+    std::unique_lock alone(exporting_, std::defer_lock);  // a large one takes gigabytes
+    if (!take(alone, client.is_wanted)) return;
     Image image;
-    with_renderer(
-        model_with(asked.looks).model, [] { return true; },
-        [&] {
+    if (!with_renderer(model_with(asked.looks).model, client.is_wanted, [&] {
             image = renderer_.render(asked.view);
             renderer_.name_pixels(image);
-        });
+        }))
+        return;
     image.attributes["csgrt:command"] = picture_command(asked);
-    const TemporaryFile file(".exr");
-    options_.write_exr(image, file.name());
-    std::ifstream in(file.name(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    const PrivateFolder folder;
+    const std::string path = folder / "view.exr";
+    try {
+        options_.write_exr(image, path, [&](double) { return client.is_wanted(); });
+    } catch (const Error& error) {
+        if (error.status() != Status::interrupted) throw;
+        return;
+    }
+    image = {};
+    client.send({}, std::filesystem::file_size(path));
+    std::ifstream in(path, std::ios::binary);
+    for (std::vector<char> piece(1 << 18); in.read(piece.data(), std::ssize(piece)), in.gcount() > 0;)
+        client.send_more({piece.data(), static_cast<std::size_t>(in.gcount())});
 }
 
 void Studio::load_again() {
-    std::string error;
     try {
         const Model model = options_.load();
         auto paths = paths_of(model);
         const std::lock_guard lock(current_mutex_);
         current_ = {.base = model, .paths = std::move(paths), .generation = current_.generation + 1};
-        return;
-    } catch (const Error& failure) {
-        error = failure.what();
     } catch (const std::bad_alloc&) {
-        error = "not enough memory to load the model again";
+        set_error("not enough memory to load the model again");
+    } catch (const std::exception& failure) {
+        set_error(failure.what());
     }
+}
+
+void Studio::set_error(const std::string& error) {
     const std::lock_guard lock(current_mutex_);
     current_.error = error;
 }

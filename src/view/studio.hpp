@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <list>
 #include <map>
 #include <mutex>
@@ -20,6 +21,14 @@
 
 namespace csgrt {
 
+/// Who waits for an answer that takes long, or is long.
+struct Client {
+    std::function<bool()> is_wanted;  ///< false ends the work
+    /// Begins an answer of all these bytes, and so many more, which `send_more` sends.
+    std::function<void(std::initializer_list<std::string_view> parts, std::uint64_t later)> send;
+    std::function<void(std::string_view)> send_more;
+};
+
 /// Any thread may call everything. A request has the members that page.html sends; answers are those that it expects.
 class Studio {
 public:
@@ -31,28 +40,17 @@ public:
     Json pick(const Request& request);
     Json command(const Request& request) const;
     /// Numbers of regions, 4 bytes each; -1 nothing, -2 several.
-    std::string slice(const Request& request);
-    /// The bytes of a file. Throws Error, too, if the file cannot be written.
-    std::string exr(const Request& request);
-
-    /// A picture of a page. The newest of a page's ends those before it; `is_wanted` ends it, too.
-    class Frame {
-    public:
-        /// The answer in pieces: the length of a text of JSON in 4 bytes, the text, and pixels.
-        void draw(const std::function<bool()>& is_wanted, const std::function<void(std::string_view)>& send);
-
-    private:
-        friend class Studio;
-        Studio* studio = nullptr;
-        Asked asked = {};
-        std::shared_ptr<std::atomic<std::uint64_t>> newest = {};
-        std::uint64_t number = 0;
-        bool deflates = false;
-    };
-    Frame frame(const Request& request);
+    void slice(const Request& request, const Client& client);
+    /// A file. Throws Error, too, if it cannot be written.
+    void exr(const Request& request, const Client& client);
+    /// A picture of a page: the length of a text of JSON in 4 bytes, the text, and pixels. The newest of a page's ends
+    /// those before it.
+    void frame(const Request& request, const Client& client);
 
     /// The model is what ViewerOptions::load says now. If that throws, the old model stays, and status() has the error.
     void load_again();
+    /// The old model stays, and status() has the error.
+    void set_error(const std::string& error);
 
 private:
     /// The model as the file has it, and with what looks it was asked for.
@@ -92,7 +90,7 @@ private:
     /// New memory takes the system longer than a GPU takes for the picture.
     std::vector<std::vector<std::uint32_t>> spare_pixels_;
 
-    std::timed_mutex drawing_;
+    std::timed_mutex exporting_, drawing_;
     const std::function<bool()>* wanted_ = nullptr;  ///< of the frame that is drawn
     Framebuffer framebuffer_;
     Renderer renderer_;

@@ -1,7 +1,8 @@
 // The function that libFuzzer calls with bytes of its own making. The variable CSGRT_FUZZ names the reader that gets
-// them: rays, view, or else that of scenes (.json, .asc, .g: the bytes tell). A scene that is read is compiled, and the
-// reference traces rays through it, unless CSGRT_FUZZ is "parse". An Error is a right answer. All else ends the
-// program: another exception, a finding of the sanitizers, many seconds without an answer (-timeout).
+// them: rays, view, request (of the page), or else that of scenes (.json, .asc, .g: the bytes tell). A scene that is
+// read is compiled, and the reference traces rays through it, unless CSGRT_FUZZ is "parse". An Error is a right answer.
+// All else ends the program: another exception, a finding of the sanitizers, many seconds without an answer (-timeout).
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,10 @@
 
 #include "cli/text/rays.hpp"
 #include "formats/brlcad/view_script.hpp"
+#ifdef CSGRT_HAVE_VIEW
+#include "view/asked.hpp"
+#include "view/request_head.hpp"
+#endif
 
 using namespace csgrt;
 
@@ -57,6 +62,24 @@ void read_rays(std::string_view bytes) {
     close(file);
 }
 
+/// A body is read whatever its head is: else few would be.
+void read_request(std::string_view bytes) {
+#ifdef CSGRT_HAVE_VIEW
+    static const Guard guard("127.0.0.1", std::string(32, '0'));
+    const std::size_t end = std::min(bytes.find("\r\n\r\n"), bytes.size()), body = std::min(end + 4, bytes.size());
+    RequestHead head;
+    if (read_request_head(bytes.substr(0, body), head) == 0 && guard.refusal(head) == 0 && body_refusal(head) == 0 &&
+        (head.host.empty() || head.is_in_pieces || head.length > most_body_bytes ||
+         head.path.size() < guard.root().size()))
+        std::abort();  // what the server relies on
+    const Request request{std::string(bytes.substr(body))};
+    static_cast<void>(command_options(read_asked(request)));
+    static_cast<void>(read_slice(request));
+#else
+    static_cast<void>(bytes);
+#endif
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -72,6 +95,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             ++were_read;
         } else if (reader == "view") {
             static_cast<void>(parse_view_script(TextSource("view", std::move(bytes))));
+            ++were_read;
+        } else if (reader == "request") {
+            read_request(bytes);
             ++were_read;
         } else {
             const Scene scene = parse_scene(std::move(bytes), "scene");

@@ -1,8 +1,6 @@
 // A Viewer on a thread, and requests as its page sends them.
 #pragma once
 
-#include <httplib.h>
-
 #include <cstring>
 #include <string>
 #include <thread>
@@ -11,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <csgrt/viewer.hpp>
+
+#include "http_client.hpp"
 
 namespace csgrt::test {
 
@@ -42,15 +42,10 @@ public:
     const std::string& host() const { return host_; }
     const std::string& root() const { return root_; }
     int port() const { return std::stoi(host_.substr(host_.rfind(':') + 1)); }
-    httplib::Client client() const {
-        httplib::Client client(host_);
-        client.set_keep_alive(true);
-        client.set_read_timeout(60);
-        return client;
-    }
+    HttpConnection connect(int patience_ms = 60'000) const { return HttpConnection(port(), patience_ms); }
 
-    httplib::Result post(const std::string& name, const json& body, const httplib::Headers& headers = {}) const {
-        return client().Post(root_ + "api/" + name, headers, body.dump(), "application/json");
+    std::optional<HttpAnswer> post(const std::string& name, const json& body) const {
+        return connect().ask("POST", root_ + "api/" + name, body.dump());
     }
     json ask(const std::string& name, const json& body = json::object()) const {
         const auto result = post(name, body);

@@ -1,7 +1,7 @@
 // What a Viewer answers is what Model and Renderer say of the same view; and who gets no answer.
+#include <sys/stat.h>
 #include <zlib.h>
 
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -29,6 +29,10 @@ std::string printed_by(const std::string& line) {
 }
 
 constexpr int width = 96, height = 80;
+
+void write_exr(const Image& image, const std::string& path, const std::function<bool(double)>& progress) {
+    write_image(image, path, "exr", progress);
+}
 
 Model operators() { return Model(load_scene(std::getenv("CSGRT_SCENES") + std::string("/operators.json"))); }
 
@@ -188,8 +192,7 @@ TEST_CASE("view: the command draws the page's picture", "[view]") {
 
 TEST_CASE("view: a slice and an EXR are those of Model and Renderer", "[view]") {
     const Model model = operators();
-    const PageClient page(model,
-                          {.write_exr = [](const Image& image, const std::string& path) { write_image(image, path); }});
+    const PageClient page(model, {.write_exr = write_exr});
     json request = sized(page.ask("model")["view"]);
     request.update({{"center", {0, 0, 10}}, {"right", {100, 0, 0}}, {"up", {0, 100, 0}}});
     Array<std::int32_t> ids;
@@ -257,9 +260,7 @@ TEST_CASE("view: the frame of a client that is gone ends", "[view]") {
                        {"number", 1},
                        {"encoding", "raw"}};
     const auto start = std::chrono::steady_clock::now();
-    httplib::Client client(page.host());
-    client.set_read_timeout(0, 300'000);  // and closes the connection
-    client.Post(page.root() + "api/frame", slow.dump(), "application/json");
+    CHECK(!page.connect(300).ask("POST", page.root() + "api/frame", slow.dump()));  // and closes the connection
     CHECK(page.frame(sized(slow["view"])).pixels.size() == 4 * width * height);
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));  // the frame takes minutes
 }
@@ -298,6 +299,43 @@ TEST_CASE("view: a changed file is seen, and one that does not load leaves the o
                                std::filesystem::copy_options::overwrite_existing);
     CHECK(until([](const json& status) { return status["generation"] == 2 && status["error"].is_null(); }));
     CHECK(page.ask("model")["regions"][0]["path"].get<std::string>().starts_with("/overlap"));
+
+    const auto says = [&](const std::string& what) {
+        return until([&](const json& status) {
+            return status["error"].is_string() && status["error"].get<std::string>().find(what) != std::string::npos;
+        });
+    };
+    const std::string other = folder / "other.json";
+    const auto back_again = [&](int generation) {
+        std::filesystem::remove(file);
+        std::filesystem::copy_file(std::getenv("CSGRT_SCENES") + std::string("/overlap.json"), file);
+        return until(
+            [&](const json& status) { return status["generation"] == generation && status["error"].is_null(); });
+    };
+    std::filesystem::remove(file);
+    CHECK(says("is not there any more"));
+    CHECK(back_again(3));
+    std::filesystem::remove(file);
+    REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+    CHECK(says("but a pipe"));
+    CHECK(back_again(4));
+    std::filesystem::remove(file);
+    std::filesystem::create_directory(file);
+    CHECK(says("but a folder"));
+    std::filesystem::remove(file);
+    std::filesystem::create_symlink("/dev/zero", file);
+    CHECK(says("but a device"));
+    std::filesystem::remove(file);
+    std::filesystem::create_symlink("nowhere", file);
+    CHECK(says("is not there any more"));
+    CHECK(page.frame(sized(view)).pixels.size() == 4 * width * height);
+    CHECK(back_again(5));
+
+    // Another file of the same size and time.
+    std::filesystem::copy_file(file, other);
+    std::filesystem::last_write_time(other, std::filesystem::last_write_time(file));
+    std::filesystem::rename(other, file);
+    CHECK(until([](const json& status) { return status["generation"] == 6; }));
 }
 
 TEST_CASE("view: wrong requests are refused with a sentence that names the member", "[view]") {
@@ -317,29 +355,23 @@ TEST_CASE("view: wrong requests are refused with a sentence that names the membe
     CHECK_THAT(refused("command", right, "/view/show", "colour"), Contains("show: there is no 'colour'"));
     CHECK_THAT(refused("command", right, "/view/looks", {{{"path", 1}}}), Contains("view.looks[0].path: expected"));
     CHECK_THAT(refused("command", right, "/view", 1), Contains("view: expected an object"));
-    CHECK(page.client().Post(page.root() + "api/model", "{", "application/json")->status == 400);
-    CHECK(page.client().Post(page.root() + "api/model", std::string(1'100'000, ' '), "application/json")->status ==
-          413);
+    const auto status = [&](const std::string& body) {
+        return page.connect().ask("POST", page.root() + "api/model", body)->status;
+    };
+    CHECK(status("{") == 400);
+    CHECK(status(std::string(1'000'000, ' ')) == 400);
+    CHECK(status(std::string(1'000'001, ' ')) == 413);
     json request = right;
     request["view"]["camera"]["perspective"] = 180;
     request.update({{"page", "a"}, {"number", 1}, {"samples", 1}, {"encoding", "raw"}});
     CHECK_THAT(page.frame(request).head["error"].get<std::string>(), Contains("perspective"));
 }
 
-TEST_CASE("view: no answer waits for a packer, whatever a browser takes", "[view]") {
-    const PageClient page(operators());
-    const httplib::Headers any = {{"Accept-Encoding", "gzip, deflate, br"}};
-    CHECK(page.post("model", json::object(), any)->get_header_value("Content-Encoding").empty());
-    const auto html = page.client().Get(page.root(), any);
-    CHECK(html->get_header_value("Content-Encoding").empty());
-    CHECK(html->body == page.client().Get(page.root())->body);
-}
-
 TEST_CASE("view: nobody else gets in", "[view]") {
     const PageClient page(operators());
     const std::string port = page.host().substr(page.host().rfind(':'));
-    const auto status = [&](const std::string& path, const httplib::Headers& headers) {
-        return page.client().Post(path, headers, "{}", "application/json")->status;
+    const auto status = [&](const std::string& path, const Headers& headers) {
+        return page.connect().ask("POST", path, "{}", headers)->status;
     };
     const std::string model = page.root() + "api/model";
     CHECK(status(model, {}) == 200);
@@ -355,12 +387,12 @@ TEST_CASE("view: nobody else gets in", "[view]") {
     CHECK(status("/" + std::string(32, '0') + "/api/model", {}) == 404);
     CHECK(status(page.root() + "api/none", {}) == 404);
     CHECK(status(page.root() + "../../etc/passwd", {}) == 404);
-    auto client = page.client();
-    CHECK(client.Post(model, "{}", "text/plain")->status == 415);
-    CHECK(client.Get(model)->status == 405);
-    CHECK(client.Get("/")->status == 404);
-    CHECK(client.Get(page.root())->body.find("<html") != std::string::npos);
-    CHECK(client.Get(page.root())->get_header_value("Content-Security-Policy").starts_with("default-src 'none'"));
+    CHECK(status(model, {{"Content-Type", "text/plain"}}) == 415);
+    const auto get = [&](const std::string& path) { return *page.connect().ask("GET", path); };
+    CHECK(get(model).status == 405);
+    CHECK(get("/").status == 404);
+    CHECK(get(page.root()).body.find("<html") != std::string::npos);
+    CHECK(get(page.root()).headers["content-security-policy"].starts_with("default-src 'none'"));
 
     try {
         Viewer second(operators(), {}, {.port = page.port()});
@@ -369,25 +401,4 @@ TEST_CASE("view: nobody else gets in", "[view]") {
         CHECK(error.status() == Status::file);
         CHECK_THAT(error.what(), Catch::Matchers::Contains("another program"));
     }
-}
-
-TEST_CASE("view: slow clients do not keep others waiting", "[view]") {
-    const PageClient page(operators());
-    std::atomic<int> done{0};
-    std::vector<std::jthread> slow;
-    for (int i = 0; i < 20; ++i)
-        slow.emplace_back([&] {  // sends a head, and no body
-            httplib::Client client(page.host());
-            client.Post(
-                page.root() + "api/model", 1000,
-                [](std::size_t, std::size_t, httplib::DataSink&) {
-                    std::this_thread::sleep_for(std::chrono::seconds(4));
-                    return false;
-                },
-                "application/json");
-            ++done;
-        });
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    CHECK(page.ask("model")["generation"] == 1);
-    CHECK(done == 0);
 }

@@ -1,20 +1,18 @@
 // csgrt view: a page that shows a scene, until it is interrupted.
-#include <dlfcn.h>
 #include <spawn.h>
 
 #include <cstdio>
 #include <filesystem>
 
 #include <csgrt/image.hpp>
+#include <csgrt/viewer.hpp>
 
 #include "base/shell_word.hpp"
 #include "commands.hpp"
-#include "cli/component.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/text/partitions.hpp"
 #include "cli/text/scene.hpp"
-#include "view/functions.hpp"
 
 extern char** environ;
 
@@ -22,22 +20,7 @@ namespace csgrt::cli {
 
 namespace {
 
-#if defined CSGRT_VIEW_LIBRARY
-/// The library for HTTP takes 4 ms to load, which other commands do not wait for.
-const ViewFunctions& view_functions() {
-    void* const library = open_component(CSGRT_VIEW_LIBRARY);
-    void* const symbol = library ? dlsym(library, view_functions_name) : nullptr;
-    if (!symbol) throw Error(Status::file, std::string("cannot load the library for the page: ") + dlerror());
-    return *static_cast<const ViewFunctions*>(symbol);
-}
-#elif defined CSGRT_HAVE_VIEW
-const ViewFunctions& view_functions() { return csgrt_view_functions; }
-#else
-const ViewFunctions& view_functions() {
-    throw Error(Status::usage, "this csgrt was built without cpp-httplib and shows no page: csgrt -o FILE.png draws");
-}
-#endif
-
+#ifdef CSGRT_HAVE_VIEW
 /// The words behind `csgrt` that load the same model.
 std::string words_of(const ViewArguments& arguments) {
     std::string text = shell_word(arguments.scene == "-" ? "SCENE" : arguments.scene);
@@ -57,11 +40,12 @@ void open_browser(const std::string& address) {
     if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ) != 0)
         std::fputs("csgrt: warning: there is no xdg-open to open a browser with: open the address yourself\n", stderr);
 }
+#endif
 
 }  // namespace
 
+#ifdef CSGRT_HAVE_VIEW
 Status run(const ViewArguments& arguments) {
-    const ViewFunctions& view = view_functions();
     prepare_devices(arguments.settings);
     const auto load_model = [&arguments] {
         return Model(load(arguments.scene, arguments.load), arguments.objects, arguments.settings);
@@ -81,17 +65,22 @@ Status run(const ViewArguments& arguments) {
         options.load = load_model;
     }
 #ifdef CSGRT_HAVE_IMAGE
-    options.write_exr = [](const Image& image, const std::string& path) { write_image(image, path); };
+    options.write_exr = [](const Image& image, const std::string& path, const std::function<bool(double)>& progress) {
+        write_image(image, path, "exr", progress);
+    };
 #endif
-    view.serve(
-        model, arguments.settings, options,
-        [&](const std::string& address) {
-            print(address + "\n");
-            std::fflush(stdout);
-            if (arguments.open) open_browser(address);
-        },
-        [] { return !interrupted(); });
+    Viewer viewer(model, arguments.settings, options);
+    print(viewer.address() + "\n");
+    std::fflush(stdout);
+    if (arguments.open) open_browser(viewer.address());
+    viewer.run([] { return !interrupted(); });
+    check_interrupt();
     return Status::ok;
 }
+#else
+Status run(const ViewArguments&) {
+    throw Error(Status::usage, "this csgrt was built without zlib and shows no page: csgrt -o FILE.png draws");
+}
+#endif
 
 }  // namespace csgrt::cli

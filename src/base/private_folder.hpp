@@ -1,0 +1,35 @@
+// A new folder of this user's alone, which goes at the end with what is in it.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <csgrt/error.hpp>
+
+namespace csgrt {
+
+class PrivateFolder {
+public:
+    /// Below the folder for temporary files. Throws Error (file).
+    PrivateFolder() {
+        std::error_code error;
+        path_ = (std::filesystem::temp_directory_path(error) / "csgrt-XXXXXX").string();
+        if (error || !mkdtemp(path_.data()))
+            throw Error(Status::file, "cannot make a folder for temporary files (TMPDIR): " + path_);
+    }
+    ~PrivateFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    PrivateFolder(const PrivateFolder&) = delete;
+    PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+private:
+    std::string path_;
+};
+
+}  // namespace csgrt

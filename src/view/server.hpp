@@ -1,0 +1,132 @@
+// A server of HTTP/1.1 for few who may ask and any number who may not. One thread reads all requests; others answer
+// those that were admitted. A client takes no thread while it sends, or is silent. Nothing is kept of it beyond
+// most_head_bytes before it is admitted.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/thread.hpp"
+#include "view/request_head.hpp"
+
+namespace csgrt {
+
+inline constexpr const char* json_type = "application/json; charset=utf-8";
+
+/// An open file of the system, or none (-1).
+class Handle {
+public:
+    explicit Handle(int number = -1) : number_(number) {}
+    Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Handle();
+    operator int() const { return number_; }
+
+private:
+    int number_;
+};
+
+/// A request, and its answer. Of the thread that answers it.
+class Exchange {
+public:
+    const RequestHead& head;
+    const std::string body;
+
+    /// False: the client is gone, or the server ends.
+    bool is_wanted() const;
+    /// Sends all of an answer but for the last `later` bytes, which write() sends. The first one alone is sent.
+    void answer(int status, const char* type, std::initializer_list<std::string_view> parts, std::uint64_t later = 0);
+    void write(std::string_view bytes);
+
+private:
+    friend class Server;
+    Exchange(const RequestHead& of, std::string text, int socket, const std::atomic<bool>& stopping)
+        : head(of), body(std::move(text)), socket_(socket), stopping_(stopping) {}
+
+    bool is_whole() const { return has_begun_ && is_good_ && left_ == 0; }
+
+    const int socket_;
+    const std::atomic<bool>& stopping_;
+    std::uint64_t left_ = 0;  ///< bytes of the answer that were not sent
+    bool has_begun_ = false, is_good_ = true;
+};
+
+class Server {
+public:
+    /// The status that refuses a request, or 0.
+    using Refusal = std::function<int(const Asker&)>;
+    using Answer = std::function<void(Exchange&)>;
+
+    /// Listens from now on; port 0 is any that is free. Throws Error (file) if it cannot, or gets no thread.
+    Server(const std::string& address, int port, Refusal refusal, Answer answer);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    int port() const { return port_; }
+    /// Until stop() is called or `go_on`, which is called twenty times a second or more, returns false. Once.
+    void run(const std::function<bool()>& go_on);
+    /// Any thread.
+    void stop();
+    /// Another thread does it. Only of the thread that is in run().
+    void submit(std::function<void()> work);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    enum class Phase { head, waiting, body, answered, refused };
+    struct Connection {
+        Handle socket;
+        Clock::time_point deadline = {};
+        Phase phase = Phase::head;
+        bool is_admitted = false;  ///< a request of it was
+        RequestHead head = {};
+        std::string bytes = {};  ///< that have come
+        bool is_over = false;
+    };
+
+    void accept_some();
+    bool take_place();
+    void receive(Connection& connection);
+    void advance(Connection& connection, std::string_view more = {});
+    void refuse(Connection& connection, int status);
+    void answer(Connection& connection) noexcept;
+    void wake();
+    void take_back();
+    void close_over();
+    void work();
+    void end_threads();
+
+    const Refusal refusal_;
+    const Answer answer_;
+    Handle listener_, wake_;
+    int port_ = 0;
+    std::list<Connection> connections_ = {};
+    std::size_t body_bytes_ = 0;  ///< of the bodies that come, or are answered
+    bool accepts_ = true;
+    std::atomic<bool> stopping_{false};
+
+    std::mutex mutex_ = {};
+    std::condition_variable has_work_ = {};
+    std::deque<std::function<void()>> work_ = {};
+    std::size_t idle_ = 0;
+    bool is_ended_ = false;
+    std::vector<Connection*> answered_ = {};    ///< since run() looked last
+    std::vector<Connection*> taken_back_ = {};  ///< of run()
+    std::optional<JoinedThreads> threads_ = {};
+};
+
+}  // namespace csgrt
