@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <thread>
 
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
@@ -26,7 +27,8 @@ namespace csgrt {
 namespace {
 
 constexpr std::size_t most_dressed = 16, most_pages = 256, most_spare = 2;
-constexpr std::chrono::milliseconds turn{5};  ///< between two looks whether a frame that waits is still wanted
+constexpr std::size_t most_lent = 64'000'000;  ///< bytes: four frames of 2000 x 2000
+constexpr std::chrono::milliseconds turn{5};   ///< between two looks whether a frame that waits is still wanted
 
 Json to_json(const Box& box) {
     if (!(box.low.x <= box.high.x)) return nullptr;
@@ -134,16 +136,23 @@ Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
     spare_pixels_.reserve(most_spare);
 }
 
-Studio::Lent::Lent(Studio& from) : studio(from) {
-    const std::lock_guard lock(studio.current_mutex_);
-    if (studio.spare_pixels_.empty()) return;
-    pixels = std::move(studio.spare_pixels_.back());
-    studio.spare_pixels_.pop_back();
+Studio::Lent::Lent(Studio& from, std::size_t bytes, const std::function<bool()>& is_wanted) : studio_(from) {
+    for (; is_wanted(); std::this_thread::sleep_for(turn)) {
+        const std::lock_guard lock(studio_.current_mutex_);
+        if (studio_.lent_bytes_ > 0 && studio_.lent_bytes_ + bytes > most_lent) continue;
+        studio_.lent_bytes_ += bytes_ = bytes;
+        if (studio_.spare_pixels_.empty()) return;
+        pixels = std::move(studio_.spare_pixels_.back());
+        studio_.spare_pixels_.pop_back();
+        return;
+    }
 }
 
 Studio::Lent::~Lent() {
-    const std::lock_guard lock(studio.current_mutex_);
-    if (studio.spare_pixels_.size() < most_spare) studio.spare_pixels_.push_back(std::move(pixels));
+    const std::lock_guard lock(studio_.current_mutex_);
+    studio_.lent_bytes_ -= bytes_;
+    if (pixels.capacity() * sizeof pixels[0] <= most_lent && studio_.spare_pixels_.size() < most_spare)
+        studio_.spare_pixels_.push_back(std::move(pixels));
 }
 
 Json Studio::model() const {
@@ -271,7 +280,8 @@ void Studio::frame(const Request& request, const Client& client) {
     try {
         const std::size_t count =
             static_cast<std::size_t>(asked.view.width) * static_cast<std::size_t>(asked.view.height);
-        Lent lent(*this);
+        Lent lent(*this, sizeof(std::uint32_t) * count * (deflates ? 3 : 1), is_newest);
+        if (!lent) return send(cancelled);
         const auto [model, generation] = model_with(asked.looks);
         const bool has_ghosts =
             std::ranges::any_of(model.regions(), [](const RegionInfo& region) { return region.state == State::ghost; });
@@ -344,8 +354,10 @@ Json Studio::command(const Request& request) const {
 void Studio::slice(const Request& request, const Client& client) {
     const Slice slice = read_slice(request);
     const Model model = model_with(read_asked(request).looks).model;
+    const Lent lent(*this, sizeof(std::int32_t) * static_cast<std::size_t>(slice.width) * slice.height,
+                    client.is_wanted);
     Array<std::int32_t> ids;
-    if (!with_renderer(model, client.is_wanted, [&] { renderer_.slice(slice, ids); })) return;
+    if (!lent || !with_renderer(model, client.is_wanted, [&] { renderer_.slice(slice, ids); })) return;
     client.send({{reinterpret_cast<const char*>(ids.data()), ids.size() * sizeof ids.data()[0]}}, 0);
 }
 

@@ -71,14 +71,22 @@ private:
     /// Calls draw() when no other frame is drawn, and the Renderer has the model; false: it was given up.
     bool with_renderer(const Model& model, const std::function<bool()>& is_wanted, const std::function<void()>& draw);
 
-    /// Pixels of a frame before, which are there for the next again when they have been sent or given up.
-    struct Lent {
-        explicit Lent(Studio& from);
+    /// Memory for an answer, which is there for the next again when it has been sent or given up. Answers that wait
+    /// have none: all that are made or sent have most_lent bytes, or there is only one.
+    class Lent {
+    public:
+        /// Waits for it; false: it was given up.
+        Lent(Studio& from, std::size_t bytes, const std::function<bool()>& is_wanted);
         ~Lent();
         Lent(const Lent&) = delete;
         Lent& operator=(const Lent&) = delete;
-        Studio& studio;
+        explicit operator bool() const { return bytes_ > 0; }
+
         std::vector<std::uint32_t> pixels = {};
+
+    private:
+        Studio& studio_;
+        std::size_t bytes_ = 0;
     };
 
     const ViewerOptions options_;
@@ -89,6 +97,7 @@ private:
     std::map<std::string, std::shared_ptr<std::atomic<std::uint64_t>>> pages_;
     /// New memory takes the system longer than a GPU takes for the picture.
     std::vector<std::vector<std::uint32_t>> spare_pixels_;
+    std::size_t lent_bytes_ = 0;
 
     std::timed_mutex exporting_, drawing_;
     const std::function<bool()>* wanted_ = nullptr;  ///< of the frame that is drawn

@@ -235,6 +235,31 @@ TEST_CASE("view: 64 pages that poll, and 64 that wait for frames, leave a 65th i
     for (HttpConnection& page : pages) CHECK(page.receive()->body.size() > 96 * 96 * 4);
 }
 
+TEST_CASE("view: pages that wait for large frames share memory", "[view]") {
+    NEEDS_COMMAND();
+    const ViewProcess view;
+    REQUIRE(view.is_up());
+    CHECK(view.connect().ask("POST", view.api("frame"), view.frame(2000).dump())->status == 200);
+    const long before = view.kilobytes();
+    std::atomic<int> left = 60, whole = 0;
+    std::vector<std::jthread> pages;
+    const json request = view.frame(2000);
+    for (int i = 0; i < 60; ++i)
+        pages.emplace_back([&, own = request, i]() mutable {
+            own["page"] = std::to_string(i);
+            const auto answer = view.connect().ask("POST", view.api("frame"), own.dump());
+            whole += answer && answer->body.size() > 2000 * 2000 * 4;
+            --left;
+        });
+    long most = before;
+    for (; left > 0; std::this_thread::sleep_for(5ms)) most = std::max(most, view.kilobytes());
+    CHECK(whole == 60);
+    CAPTURE(before, most);
+#ifndef CSGRT_SANITIZED
+    CHECK(most < before + 128 * 1024);
+#endif
+}
+
 TEST_CASE("view: an export ends when its page leaves, and at a signal", "[view]") {
     NEEDS_COMMAND();
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
