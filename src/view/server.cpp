@@ -84,7 +84,29 @@ int port_of(int socket) {
                                             : reinterpret_cast<const sockaddr_in&>(name).sin_port);
 }
 
+/// This machine's address for who is at another one; no packet is sent.
+std::string own_address(const char* other, const char* otherwise) {
+    const Addresses to = addresses_of(other, 9, SOCK_DGRAM, AI_NUMERICHOST);
+    if (!to) return otherwise;
+    const Handle udp(socket(to->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    sockaddr_storage own{};
+    socklen_t length = sizeof own;
+    auto* const name = reinterpret_cast<sockaddr*>(&own);
+    char text[NI_MAXHOST] = {};
+    return connect(udp, to->ai_addr, to->ai_addrlen) == 0 && getsockname(udp, name, &length) == 0 &&
+                   getnameinfo(name, length, text, sizeof text, nullptr, 0, NI_NUMERICHOST) == 0
+               ? text
+               : otherwise;
+}
+
 }  // namespace
+
+std::string reachable_address(const std::string& address) {
+    // Addresses that are kept for documents: what leads there leads to other machines.
+    if (address == "0.0.0.0") return own_address("192.0.2.1", "127.0.0.1");
+    if (address == "::") return own_address("2001:db8::1", "::1");
+    return address;
+}
 
 Handle::~Handle() {
     if (number_ >= 0) close(number_);

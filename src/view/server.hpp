@@ -65,6 +65,9 @@ private:
     bool has_begun_ = false, is_good_ = true;
 };
 
+/// Where others reach this machine, if `address` means all of its addresses; else that.
+std::string reachable_address(const std::string& address);
+
 class Server {
 public:
     /// The status that refuses a request, or 0.

@@ -85,7 +85,7 @@ struct Viewer::Impl {
               options.address, options.port, [this](const Asker& asker) { return guard.refusal(asker); },
               [this](Exchange& exchange) { answer(exchange); }) {
         if (!options.load || !loaded.is_file()) next_look = Clock::time_point::max();  // a pipe is read once
-        const std::string& host = options.address;
+        const std::string host = reachable_address(options.address);
         address = "http://" + (host.find(':') == host.npos ? host : "[" + host + "]") + ":" +
                   std::to_string(server.port()) + guard.root();
 

@@ -281,6 +281,44 @@ TEST_CASE("view: an export ends when its page leaves, and at a signal", "[view]"
     }
 }
 
+TEST_CASE("view: the browser gets the address by a file that nobody else can read", "[view]") {
+    NEEDS_COMMAND();
+    const Folder folder;
+    const std::string program = folder.write("xdg-open",
+                                             "#!/bin/sh\n{ echo \"$@\"; stat -c %a \"${1%/*}\"; cat \"$1\"; } > "
+                                             "\"$TOLD.new\"; mv \"$TOLD.new\" \"$TOLD\"\n");
+    fs::permissions(program, fs::perms::owner_all);
+    const std::string told = folder / "told";
+    ViewProcess view({"--open"}, {{"PATH", (folder / "") + ":" + std::getenv("PATH")}, {"TOLD", told}});
+    REQUIRE(view.is_up());
+    const std::string children =
+        "/proc/" + std::to_string(view.process()) + "/task/" + std::to_string(view.process()) + "/children";
+    for (int i = 0; i < 1000 && (!fs::exists(told) || !read_file(children).empty()); ++i)
+        std::this_thread::sleep_for(10ms);
+    CHECK(read_file(children).empty());
+    std::ifstream lines(told);
+    std::string arguments, mode, text;
+    std::getline(lines, arguments);
+    std::getline(lines, mode);
+    std::getline(lines, text, '\0');
+    CHECK(!contains(arguments, view.root().substr(1, 8)));
+    CHECK(mode == "700");
+    CHECK(contains(text, "url=" + view.address()));
+    CHECK(view.end(SIGTERM) == 130);
+    CHECK(!fs::exists(arguments));
+}
+
+TEST_CASE("view: with all interfaces, the address can be opened, and others are told of", "[view]") {
+    NEEDS_COMMAND();
+    const ViewProcess view({"--address", "0.0.0.0"});
+    REQUIRE(view.is_up());
+    CHECK(!view.host().starts_with("0.0.0.0"));
+    CHECK(contains(view.printed_errors(), "warning: other machines can connect"));
+    CHECK(view.connect().ask("POST", view.api("status"), "{}", {{"Host", view.host()}})->status == 200);
+    const ViewProcess own;
+    CHECK(own.printed_errors() == "");
+}
+
 TEST_CASE("view: a thread that is not to be had: the page answers all the same, or csgrt says so", "[view]") {
     NEEDS_COMMAND();
     const char* library = std::getenv("CSGRT_FAIL_LIBRARY");

@@ -1,12 +1,16 @@
 // csgrt view: a page that shows a scene, until it is interrupted.
 #include <spawn.h>
+#include <sys/wait.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 
 #include <csgrt/image.hpp>
 #include <csgrt/viewer.hpp>
 
+#include "base/private_folder.hpp"
 #include "base/shell_word.hpp"
 #include "commands.hpp"
 #include "cli/interrupt.hpp"
@@ -33,12 +37,37 @@ std::string words_of(const ViewArguments& arguments) {
     return text;
 }
 
-void open_browser(const std::string& address) {
-    std::string program = "xdg-open", argument = address;
-    char* words[] = {program.data(), argument.data(), nullptr};
-    pid_t process = 0;
-    if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, words, environ) != 0)
-        std::fputs("csgrt: warning: there is no xdg-open to open a browser with: open the address yourself\n", stderr);
+void warn(const char* what) { std::fprintf(stderr, "csgrt: warning: %s\n", what); }
+
+/// The desktop's browser, and the file that it opens first: every user can read the arguments of a process, and the
+/// address has a secret.
+class Browser {
+public:
+    explicit Browser(const std::string& address) {
+        const std::string file = folder_ / "page.html";
+        std::ofstream(file) << "<!DOCTYPE html><meta http-equiv=\"refresh\" content=\"0; url=" << address << "\">\n";
+        std::string program = "xdg-open", argument = file;
+        char* words[] = {program.data(), argument.data(), nullptr};
+        if (posix_spawnp(&process_, program.c_str(), nullptr, nullptr, words, environ) != 0) {
+            process_ = 0;
+            warn("there is no xdg-open to open a browser with: open the address yourself");
+        }
+    }
+    /// Lets the program end that opens the browser. Some go on for as long as the browser does.
+    void reap() {
+        int status = 0;
+        if (process_ == 0 || waitpid(process_, &status, WNOHANG) == 0) return;
+        process_ = 0;
+        if (status != 0) warn("xdg-open has opened no browser: open the address yourself");
+    }
+
+private:
+    PrivateFolder folder_;
+    pid_t process_ = 0;
+};
+
+bool is_of_this_machine(const std::string& address) {
+    return address.starts_with("127.") || address == "::1" || address == "localhost";
 }
 #endif
 
@@ -72,8 +101,18 @@ Status run(const ViewArguments& arguments) {
     Viewer viewer(model, arguments.settings, options);
     print(viewer.address() + "\n");
     std::fflush(stdout);
-    if (arguments.open) open_browser(viewer.address());
-    viewer.run([] { return !interrupted(); });
+    if (!is_of_this_machine(arguments.address))
+        warn("other machines can connect, and who listens on the way sees the address and the pictures");
+    std::optional<Browser> browser;
+    try {
+        if (arguments.open) browser.emplace(viewer.address());
+    } catch (const Error& error) {
+        warn((std::string(error.what()) + ": open the address yourself").c_str());
+    }
+    viewer.run([&] {
+        if (browser) browser->reap();
+        return !interrupted();
+    });
     check_interrupt();
     return Status::ok;
 }
