@@ -4,9 +4,14 @@ from __future__ import annotations
 
 
 def _end(process):
-    process.terminate()
-    process.wait()
-    process.stdout.close()
+    import subprocess
+
+    process.stdout.close()  # at which it ends, as it does when this process is killed
+    try:
+        process.wait(5)
+    except subprocess.TimeoutExpired:  # a child of this process has the pipe, too
+        process.terminate()
+        process.wait()
 
 
 class Page:
@@ -23,7 +28,7 @@ class Page:
         program = shutil.which(command)
         if program is None:
             raise FileNotFoundError(
-                f"scene.view() needs the command {command}, built with cpp-httplib, which is not in this package: "
+                f"scene.view() needs the command {command}, built with zlib, which is not in this package: "
                 "./setup builds it, and PATH or command= tells where it is")
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.json")

@@ -145,7 +145,8 @@ The address of a page is printed, on which the model can be turned, cut open and
 behind a pixel, and how thick it is. Whoever has the address can see the model; only programs of
 this machine can reach it, unless --address says more. From another machine: ssh -L P:127.0.0.1:P
 MACHINE with the port P, and the same address there. When the scene's file changes, it is loaded
-again. The page's button End and Ctrl-C end the command. docs/viewer.md tells what the page can do.
+again. The page's button End and Ctrl-C end the command; with - as SCENE, so does the end of who
+reads its output. docs/viewer.md tells what the page can do.
 )";
 
 inline constexpr const char* info_notes = R"(

@@ -2,6 +2,9 @@
 
 import json
 import os
+import signal
+import subprocess
+import sys
 import time
 import urllib.error
 import urllib.request
@@ -20,7 +23,7 @@ def ask(page, name):
 @pytest.fixture
 def command(command):
     if "csgrt view" not in command("--help", capture_output=True, text=True).stdout:
-        pytest.skip("this csgrt was built without cpp-httplib")
+        pytest.skip("this csgrt was built without zlib")
     return os.environ["CSGRT_COMMAND"]
 
 
@@ -43,6 +46,27 @@ def test_a_page_shows_the_scene_as_it_is_and_ends(operators, command):
     time.sleep(0.1)
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(address, timeout=5)
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGKILL"])
+def test_a_python_that_is_killed_takes_its_page_with_it(scenes, command, name):
+    program = ("import csgrt, sys, time\n"
+               "page = csgrt.load(sys.argv[1]).view(command=sys.argv[2])\n"
+               "print(page.address, flush=True)\n"
+               "time.sleep(60)\n")
+    with subprocess.Popen([sys.executable, "-c", program, scenes / "operators.json", command],
+                          stdout=subprocess.PIPE, text=True) as python:
+        address = python.stdout.readline().strip()
+        urllib.request.urlopen(address, timeout=30).close()
+        python.send_signal(getattr(signal, name))
+        python.wait(30)
+    for _ in range(200):
+        try:
+            urllib.request.urlopen(address, timeout=5).close()
+        except OSError:
+            return
+        time.sleep(0.05)
+    raise AssertionError("the page is still there")
 
 
 def test_without_the_command_a_sentence_says_what_is_missing(operators):

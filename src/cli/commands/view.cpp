@@ -1,6 +1,8 @@
 // csgrt view: a page that shows a scene, until it is interrupted.
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -66,6 +68,12 @@ private:
     pid_t process_ = 0;
 };
 
+/// Whether nobody is left who could read what this process prints.
+bool is_output_closed() {
+    pollfd output{STDOUT_FILENO, 0, 0};
+    return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
+}
+
 bool is_of_this_machine(const std::string& address) {
     return address.starts_with("127.") || address == "::1" || address == "localhost";
 }
@@ -86,10 +94,10 @@ Status run(const ViewArguments& arguments) {
     ViewerOptions options;
     options.address = arguments.address;
     options.port = arguments.port;
-    options.name =
-        arguments.scene == "-" ? "standard input" : std::filesystem::path(arguments.scene).filename().string();
+    const bool is_input = arguments.scene == "-";
+    options.name = is_input ? "standard input" : std::filesystem::path(arguments.scene).filename().string();
     options.command = words_of(arguments);
-    if (arguments.scene != "-") {
+    if (!is_input) {
         options.file = arguments.scene;
         options.load = load_model;
     }
@@ -111,7 +119,8 @@ Status run(const ViewArguments& arguments) {
     }
     viewer.run([&] {
         if (browser) browser->reap();
-        return !interrupted();
+        // A program that gave its scene by a pipe has ended, and has not closed its page.
+        return !interrupted() && !(is_input && is_output_closed());
     });
     check_interrupt();
     return Status::ok;
