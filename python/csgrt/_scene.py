@@ -69,8 +69,10 @@ def _range(rays: np.ndarray, tnear, tfar):
     return 0.0, 0.0, ranges
 
 
-def _parse(text: str) -> _core.Source:
-    return _core.parse(text, "scene", False, [])
+def _parse(text: str | bytes, name: str = "scene", strict: bool = False,
+           file_folders: Sequence[str] = ()) -> _core.Source:
+    contents = text.encode() if isinstance(text, str) else text
+    return _core.parse(contents, name, strict, [os.fspath(folder) for folder in file_folders])
 
 
 class Subtree:
@@ -320,4 +322,4 @@ def load(path, objects: Sequence[str] = (), *, strict: bool = False, file_folder
 def parse(text: str | bytes, objects: Sequence[str] = (), *, name: str = "scene", strict: bool = False,
           file_folders: Sequence[str] = (), **settings) -> Scene:
     """As load(), from the contents of a file. Errors call it `name`, and files in it are relative to its folder."""
-    return Scene(_core.parse(text, name, strict, list(map(os.fspath, file_folders))), objects, **settings)
+    return Scene(_parse(text, name, strict, file_folders), objects, **settings)

@@ -61,10 +61,12 @@ NB_MODULE(_core, module) {
         "path"_a, "strict"_a, "file_folders"_a, "settings"_a, Unlocked());
     module.def(
         "parse",
-        [](std::string text, const std::string& name, bool strict, std::vector<std::string> folders) {
-            return parse_scene(std::move(text), name, {.strict = strict, .file_folders = std::move(folders)});
+        [](const nb::bytes& text, const std::string& name, bool strict, std::vector<std::string> folders) {
+            std::string contents(text.c_str(), text.size());
+            nb::gil_scoped_release unlocked;
+            return parse_scene(std::move(contents), name, {.strict = strict, .file_folders = std::move(folders)});
         },
-        "text"_a, "name"_a, "strict"_a, "file_folders"_a, Unlocked());
+        "text"_a, "name"_a, "strict"_a, "file_folders"_a);
     module.def("device_rows", &device_rows);
     module.def("rays_parallel", &parallel, "bounds"_a, "axis"_a, "pixels"_a,
                "Parallel rays along an axis, upward, through the middles of the cells of a box's face.\n\n"

@@ -179,6 +179,11 @@ def test_long_chains_and_shared_parts_stay_small():
     assert len(csgrt.Scene(doubled).partitions([[-5, 0, 0, 1, 0, 0]])["t_in"]) == 1024
 
 
+def test_the_contents_of_a_file_are_text_or_bytes(operators, scenes):
+    for contents in ((scenes / "operators.json").read_text(), (scenes / "operators.json").read_bytes()):
+        assert repr(csgrt.parse(contents).regions) == repr(operators.regions)
+
+
 def test_an_error_has_status_place_and_suggestion(tmp_path):
     with pytest.raises(csgrt.Error) as caught:
         csgrt.parse('{"csgrt": 1,\n "solids": {"a": {"type": "spere"}}}', name="a.json")
