@@ -20,9 +20,9 @@ struct Camera {
     std::optional<Vec3> center = {};       ///< the middle of the picture; default: the centre of the model's box
     std::optional<double> view_size = {};  ///< height of the view at `center`; default: the box's diagonal
 
-    /// Where the eye is, in place of azimuth and elevation, which then have no effect. With a perspective it determines
-    /// the size of the view as well, and `view_size` must be absent. An orthographic view takes only its direction from
-    /// it.
+    /// Where the eye is, in place of azimuth and elevation, which then have no effect: JSON, the command and Python,
+    /// which know what was given, refuse them beside it. With a perspective it determines the size of the view as well,
+    /// and `view_size` must be absent. An orthographic view takes only its direction from it.
     std::optional<Vec3> eye = {};
     std::optional<Vec3> look_at = {};  ///< another name of `center`, which must be absent if this is given
     /// The direction that points up in the picture; not parallel to the line of sight. Default: +z; in a view straight

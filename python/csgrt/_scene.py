@@ -218,16 +218,18 @@ class Scene(_core.Scene):
     # ---- Views
 
     def _view(self, width: int, height: int, options: Mapping) -> _core.View:
-        if "eye" in options and ("azimuth" in options or "elevation" in options):
+        """What is given replaces what it contradicts in the camera, as the command's options do."""
+        angles = "azimuth" in options or "elevation" in options
+        if angles and "eye" in options:
             raise ValueError("eye cannot be combined with azimuth or elevation")
         view, members = _core.View(), {"camera": self.camera, "width": width, "height": height}
-        if "azimuth" in options or "elevation" in options:
-            members["eye"] = None
-        if "eye" in options:
-            members["view_size"] = None
-        if "look_at" in options:
-            members["center"] = None
+        if angles or "eye" in options:
+            members.update(eye=None, up=None)
+        if "center" in options or "look_at" in options:
+            members.update(center=None, look_at=None)
         _assign({**members, **options}, "a view has no", view.camera, view)
+        if view.camera.eye and view.camera.perspective > 0 and "view_size" not in options:
+            view.camera.view_size = None
         return view
 
     def render(self, width: int = 1024, height: int = 1024, **view) -> Image:

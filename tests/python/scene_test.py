@@ -1,6 +1,7 @@
 """Pictures, edits, errors, warnings; scenes made in code."""
 
 import io
+import json
 import pickle
 import re
 import sys
@@ -71,6 +72,22 @@ def test_pick_tells_what_the_picture_shows(operators):
 def test_a_view_names_the_member_that_it_refuses(operators, error, view, message):
     with pytest.raises(error, match=re.escape(message)):
         operators.render(**view)
+
+
+@pytest.mark.parametrize("camera, view", [
+    ({"eye": [9000, -20000, 9000], "up": [1, 0, 1], "perspective": 30}, {"azimuth": 60}),
+    ({"azimuth": 10, "up": [1, 0, 1], "size": 7000}, {"eye": (9000.0, -20000.0, 9000.0)}),
+    ({"eye": [9000, -20000, 9000], "size": 7000}, {"perspective": 20}),
+    ({"look_at": [0, 0, 3000], "up": [1, 0, 1]}, {"center": (0.0, 6000.0, 0.0)}),
+])
+def test_what_a_view_gives_replaces_what_the_command_replaces(scenes, command, tmp_path, camera, view):
+    scene = json.loads((scenes / "operators.json").read_text()) | {"camera": camera}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    options = [word for name, value in view.items()
+               for word in (f"--{name}", ",".join(map(str, np.atleast_1d(value))))]
+    command(tmp_path / "scene.json", "--size", "48x32", *options, "-o", tmp_path / "theirs.png")
+    theirs = np.asarray(pillow.open(tmp_path / "theirs.png").convert("RGBA"))
+    np.testing.assert_array_equal(csgrt.load(tmp_path / "scene.json").render(48, 32, **view).color, theirs)
 
 
 def test_a_view_has_the_camera_that_is_given(operators):
