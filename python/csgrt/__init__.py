@@ -16,7 +16,10 @@ from ._image import Image
 from ._page import Page
 from ._scene import Scene, Subtree, load, parse
 from ._solids import Part, box, cone, cylinder, rotate, scale, solid, sphere, torus, translate
-from ._values import Device, Diagnostic, Error, Pick, Place, Region, Regions, SceneWarning, Solid, Warning
+from ._values import (
+    Device, DeviceName, Diagnostic, Error, Hits, Material, Partitions, Pick, Place, Region, Regions, SceneWarning,
+    Solid, Verification, Warning,
+)
 
 
 def devices() -> list[Device]:
@@ -25,7 +28,8 @@ def devices() -> list[Device]:
 
 
 __all__ = [
-    "Camera", "Device", "Diagnostic", "Error", "Image", "Page", "Part", "Pick", "Place", "Region", "Regions", "Scene",
-    "SceneWarning", "Settings", "Solid", "Subtree", "View", "Warning", "box", "cone", "cylinder", "devices", "load",
-    "parse", "rays_parallel", "rays_pinhole", "rotate", "scale", "solid", "sphere", "torus", "translate",
+    "Camera", "Device", "DeviceName", "Diagnostic", "Error", "Hits", "Image", "Material", "Page", "Part", "Partitions",
+    "Pick", "Place", "Region", "Regions", "Scene", "SceneWarning", "Settings", "Solid", "Subtree", "Verification",
+    "View", "Warning", "box", "cone", "cylinder", "devices", "load", "parse", "rays_parallel", "rays_pinhole", "rotate",
+    "scale", "solid", "sphere", "torus", "translate",
 ]

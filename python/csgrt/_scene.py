@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from operator import index
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 import numpy as np
 
@@ -14,15 +16,27 @@ from ._page import Page
 from ._solids import Part, scene_text, shape_text, sphere
 from ._values import Pick, Place, Region, Regions, SceneWarning, Solid, Warning, did_you_mean, unmasked
 
+if TYPE_CHECKING:
+    from typing import Union
+
+    from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Unpack
+
+    from ._core import Operator, State
+    from ._values import Hits, Material, Partitions, ThreeNumbers, Triple
+
+    Name = Union[str, os.PathLike[str]]
+
 _COLOR, _DISTANCE, _NORMAL, _IDS, _COUNTS, _DISPLAY, _GHOSTS = (1 << bit for bit in range(7))
 
 # What members take, by their annotations in the stub.
 _TAKEN = {"float": "a number", "int": "a whole number", "bool": "True or False", "str": "a string",
-          "float | None": "a number or None", "collections.abc.Sequence[float] | None": "three numbers or None",
-          "collections.abc.Sequence[tuple[collections.abc.Sequence[float], float]]": "a list of (normal, distance)"}
+          "float | None": "a number or None", "csgrt._values.DeviceChoice": "a number or a name",
+          "csgrt._values.ThreeNumbers | None": "three numbers or None",
+          "collections.abc.Sequence[tuple[csgrt._values.ThreeNumbers, float]]": "a list of (normal, distance)"}
 
 
-def _assign(members: Mapping, what: str, *targets):
+def _assign(members: Mapping[str, object], what: str, *targets: object) -> None:
     """Each member's value becomes that of the first target that has the member. Raises TypeError."""
     for name, value in members.items():
         target = next((t for t in targets if not name.startswith("_") and hasattr(t, name)), None)
@@ -34,18 +48,17 @@ def _assign(members: Mapping, what: str, *targets):
             setattr(target, name, value)
         except TypeError:
             taken = getattr(type(target), name).fset.__doc__.split("arg: ")[1].split(", /")[0]
-            raise TypeError(f"{name}: expected {_TAKEN.get(taken, taken)}, not {value!r}") from None
+            taken = _TAKEN.get(taken, taken.replace("typing.Literal", "one of "))
+            raise TypeError(f"{name}: expected {taken}, not {value!r}") from None
 
 
-def _settings(given: Mapping) -> _core.Settings:
+def _settings(given: _core.SettingsKeywords) -> _core.Settings:
     settings = _core.Settings()
-    if "device" in given:
-        given = {**given, "device": str(given["device"])}
     _assign(given, "csgrt has no setting", settings)
     return settings
 
 
-def _doubles(values, last: int, what: str) -> np.ndarray:
+def _doubles(values: ArrayLike, last: int, what: str) -> NDArray[np.float64]:
     """The values as they are, if they are float64 in C order; else a copy."""
     if isinstance(values, np.ndarray) and values.dtype.kind == "c":
         raise TypeError(f"{what} are real, not {values.dtype}")
@@ -55,10 +68,11 @@ def _doubles(values, last: int, what: str) -> np.ndarray:
     return array
 
 
-def _range(rays: np.ndarray, tnear, tfar):
+def _range(rays: NDArray[np.float64], tnear: ArrayLike,
+           tfar: ArrayLike) -> tuple[float, float, NDArray[np.float64] | None]:
     """near, far, and in their place a list of both, if one of them is an array."""
     if np.ndim(tnear) == 0 and np.ndim(tfar) == 0:
-        return float(tnear), float(tfar), None
+        return float(tnear), float(tfar), None  # type: ignore[arg-type]
     ranges = np.empty(rays.shape[:-1] + (2,))
     for i, (name, end) in enumerate((("tnear", tnear), ("tfar", tfar))):
         end = unmasked(end, f"elements of {name}")
@@ -70,7 +84,7 @@ def _range(rays: np.ndarray, tnear, tfar):
 
 
 def _parse(text: str | bytes, name: str = "scene", strict: bool = False,
-           file_folders: Sequence[str] = ()) -> _core.Source:
+           file_folders: Iterable[Name] = ()) -> _core.Source:
     contents = text.encode() if isinstance(text, str) else text
     return _core.parse(contents, name, strict, [os.fspath(folder) for folder in file_folders])
 
@@ -81,41 +95,51 @@ class Subtree:
     __slots__ = ("_scene", "path")
 
     def __init__(self, scene: Scene, path: str):
-        self._scene, self.path = scene, path
+        self._scene: Scene = scene
+        self.path: str = path
 
     @property
-    def color(self) -> tuple:
+    def color(self) -> Triple:
         """Of a region: red, green, blue; display values, 0 to 1. Set: of all regions below the path, here alone."""
         return self._scene.regions[self.path].color
 
     @color.setter
-    def color(self, rgb):
+    def color(self, rgb: ThreeNumbers) -> None:
         self._scene._set_color(self.path, rgb)
 
     @property
-    def state(self) -> str:
+    def state(self) -> State:
         """Of a region: "shown", "ghost" or "hidden". Set: as color."""
         return self._scene.regions[self.path].state
 
     @state.setter
-    def state(self, state: str):
+    def state(self, state: State) -> None:
         self._scene._set_state(self.path, state)
 
-    def _set_finish(self, members: Mapping):
+    @property
+    def finish(self) -> NoReturn:
+        """Set: a dict of specular, diffuse, ambient, shine, as in csgrt's JSON."""
+        raise AttributeError("finish can be set, not read")
+
+    @finish.setter
+    def finish(self, members: Material) -> None:
         part = sphere(1).color((1, 1, 1), **members)
         self._scene._set_finish(self.path, _parse(scene_text({"finish": part})))
 
-    def _set_matrix(self, matrix):
+    @property
+    def matrix(self) -> NoReturn:
+        """Set: the (4, 4) matrix of the path's last leg, of this instance alone."""
+        raise AttributeError("matrix can be set, not read")
+
+    @matrix.setter
+    def matrix(self, matrix: ArrayLike) -> None:
         self._scene._set_matrix(self.path, _matrix(matrix))
 
-    finish = property(None, _set_finish, doc="Set: a dict of specular, diffuse, ambient, shine, as in csgrt's JSON.")
-    matrix = property(None, _set_matrix, doc="Set: the (4, 4) matrix of the path's last leg, of this instance alone.")
-
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<csgrt.Subtree {self.path}>"
 
 
-def _matrix(matrix) -> np.ndarray:
+def _matrix(matrix: ArrayLike) -> NDArray[np.float64]:
     return np.ascontiguousarray(unmasked(matrix, "a matrix's elements"), np.float64)
 
 
@@ -126,7 +150,8 @@ class Scene(_core.Scene):
     none: the scene's top objects. settings: attributes of csgrt.Settings. Raises csgrt.Error.
     """
 
-    def __init__(self, scene: Part | Mapping[str, Part] | _core.Source, objects: Iterable[str] = (), **settings):
+    def __init__(self, scene: Part | Mapping[str, Part] | _core.Source, objects: Iterable[str] = (),
+                 **settings: Unpack[_core.SettingsKeywords]):
         if isinstance(scene, Part):
             scene = {"part": scene}
         if not isinstance(scene, (Mapping, _core.Source)):
@@ -134,7 +159,7 @@ class Scene(_core.Scene):
         if not isinstance(scene, _core.Source):
             scene = _parse(scene_text(scene))
         super().__init__(scene, [objects] if isinstance(objects, str) else list(objects), _settings(settings))
-        self._regions = None
+        self._regions: Regions | None = None
         found = self.warnings
         if found:
             more = f" (and {len(found) - 1} more: Scene.warnings)" if len(found) > 1 else ""
@@ -161,13 +186,14 @@ class Scene(_core.Scene):
         return [Warning(row[0], Place(*row[1]), *row[2:]) for row in self._warning_rows()]
 
     @property
-    def bounds(self) -> np.ndarray:
+    def bounds(self) -> NDArray[np.float64]:
         """(2, 3) float64: the low and the high corner of the box around all regions, mm."""
-        return np.array(self._box)
+        return np.array(self._box, np.float64)
 
     # ---- Rays
 
-    def cast_rays(self, rays, tnear=0.0, tfar=np.inf, *, solids: bool = True, normals: bool = True) -> dict:
+    def cast_rays(self, rays: ArrayLike, tnear: ArrayLike = 0.0, tfar: ArrayLike = np.inf, *, solids: bool = True,
+                  normals: bool = True) -> Hits:
         """Where rays first meet a region that pictures show.
 
         rays: (..., 6): origin in mm, direction of any length but 0. A distance along a ray counts lengths of the
@@ -181,8 +207,8 @@ class Scene(_core.Scene):
         rays = _doubles(rays, 6, "rays")
         return self._hit_arrays(rays, *_range(rays, tnear, tfar), solids, normals)
 
-    def partitions(self, rays, tnear=0.0, tfar=np.inf, *, solids: bool = False, normals: bool = False,
-                   overlaps: bool = False, hidden: bool = True) -> dict:
+    def partitions(self, rays: ArrayLike, tnear: ArrayLike = 0.0, tfar: ArrayLike = np.inf, *, solids: bool = False,
+                   normals: bool = False, overlaps: bool = False, hidden: bool = True) -> Partitions:
         """Which region holds which part of each ray.
 
         rays, tnear, tfar: as in cast_rays. hidden=False leaves out regions whose state is "ghost" or "hidden".
@@ -203,12 +229,13 @@ class Scene(_core.Scene):
         rays = _doubles(rays, 6, "rays")
         return self._partition_arrays(rays, *_range(rays, tnear, tfar), solids, normals, overlaps, hidden)
 
-    def test_occlusions(self, rays, tnear=0.0, tfar=np.inf) -> np.ndarray:
+    def test_occlusions(self, rays: ArrayLike, tnear: ArrayLike = 0.0,
+                        tfar: ArrayLike = np.inf) -> NDArray[np.bool_]:
         """Whether rays meet a region that pictures show: (...) bool. Arguments and errors: as of cast_rays."""
         rays = _doubles(rays, 6, "rays")
         return self._occluded(rays, *_range(rays, tnear, tfar))
 
-    def region_at(self, points) -> np.ndarray:
+    def region_at(self, points: ArrayLike) -> NDArray[np.int32]:
         """The ids of the regions that hold points: (..., 3) float64, mm, gives (...) int32; -1: nothing.
 
         Of two regions that touch at the point it is the one that begins there along +x. Raises csgrt.Error.
@@ -217,12 +244,13 @@ class Scene(_core.Scene):
 
     # ---- Views
 
-    def _view(self, width: int, height: int, options: Mapping) -> _core.View:
+    def _view(self, width: int, height: int, options: _core.ViewKeywords) -> _core.View:
         """What is given replaces what it contradicts in the camera, as the command's options do."""
         angles = "azimuth" in options or "elevation" in options
         if angles and "eye" in options:
             raise ValueError("eye cannot be combined with azimuth or elevation")
-        view, members = _core.View(), {"camera": self.camera, "width": width, "height": height}
+        view = _core.View()
+        members: dict[str, object] = {"camera": self.camera, "width": width, "height": height}
         if angles or "eye" in options:
             members.update(eye=None, up=None)
         if "center" in options or "look_at" in options:
@@ -232,7 +260,7 @@ class Scene(_core.Scene):
             view.camera.view_size = None
         return view
 
-    def render(self, width: int = 1024, height: int = 1024, **view) -> Image:
+    def render(self, width: int = 1024, height: int = 1024, **view: Unpack[_core.ViewKeywords]) -> Image:
         """A picture: .color, .rgba, .depth, .normal, .region_ids, and by name image["ghost"].
 
         view: azimuth, elevation, perspective, center, view_size, eye, look_at, up (as of csgrt.Camera; default: those
@@ -247,11 +275,13 @@ class Scene(_core.Scene):
                 made.channels |= _COUNTS
         return Image(*self._planes(made))
 
-    def pick(self, column: int, row: int, width: int = 1024, height: int = 1024, **view) -> Pick:
+    def pick(self, column: SupportsIndex, row: SupportsIndex, width: int = 1024, height: int = 1024,
+             **view: Unpack[_core.ViewKeywords]) -> Pick:
         """What render() with the same view shows at a pixel, from the top left, and all partitions along its ray."""
-        return Pick(*self._pick_row(self._view(width, height, view), column, row))
+        return Pick(*self._pick_row(self._view(width, height, view), index(column), index(row)))
 
-    def rays_of(self, width: int = 1024, height: int = 1024, **view) -> np.ndarray:
+    def rays_of(self, width: int = 1024, height: int = 1024,
+                **view: Unpack[_core.ViewKeywords]) -> NDArray[np.float64]:
         """The rays of a picture: (height, width, 6) float64."""
         return self._view_rays(self._view(width, height, view))
 
@@ -264,19 +294,20 @@ class Scene(_core.Scene):
         """
         return Subtree(self, path)
 
-    def add(self, name: str, part: Part, top: bool = True):
+    def add(self, name: str, part: Part, top: bool = True) -> None:
         """Adds a part under a new name. It is rendered if it is a top object, or joined to one. Raises csgrt.Error."""
         self._add_objects(_parse(scene_text({name: part})), name if top else "")
 
-    def add_leg(self, combination: str, object: str, operator: str = "union", matrix=np.eye(4)):  # noqa: A002
+    def add_leg(self, combination: str, object: str, operator: Operator = "union",  # noqa: A002
+                matrix: ArrayLike = np.eye(4)) -> None:
         """A combination's tree becomes: tree, operator ("union", "difference", "intersection", "xor"), object."""
         self._join(combination, operator, object, _matrix(matrix))
 
-    def replace(self, solid: str, part: Part):
+    def replace(self, solid: str, part: Part) -> None:
         """A solid gets another shape, in all of its places. Raises csgrt.Error, or ValueError for a tree."""
         self._replace_shape(solid, _parse(shape_text(part)))
 
-    def commit(self):
+    def commit(self) -> None:
         """Makes all edits. If csgrt.Error is raised, the scene is as it was, and the edits wait: see discard().
 
         Paths of colours, finishes and states are looked up here, those of other edits at once.
@@ -284,7 +315,7 @@ class Scene(_core.Scene):
         self._commit_edits()
         self._regions = None
 
-    def save(self, path):
+    def save(self, path: Name) -> None:
         """Writes the scene with all committed edits as .json. Raises csgrt.Error, or ValueError for another format."""
         path = os.fspath(path)
         if not path.endswith(".json"):
@@ -298,7 +329,7 @@ class Scene(_core.Scene):
         """
         return Page(self, in_browser, height, command)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<csgrt.Scene: {len(self.regions)} regions>"
 
 
@@ -309,19 +340,19 @@ def _inside(level: int) -> bool:
     return sys._getframe(level).f_globals.get("__package__") == __package__
 
 
-def load(path, objects: Sequence[str] = (), *, strict: bool = False, file_folders: Sequence[str] = (),
-         **settings) -> Scene:
+def load(path: Name, objects: Iterable[str] = (), *, strict: bool = False, file_folders: Iterable[Name] = (),
+         **settings: Unpack[_core.SettingsKeywords]) -> Scene:
     """Reads and compiles a scene file: .json, or BRL-CAD's .g and .asc.
 
     objects: names or paths ("all.g/tor.r"); none: the scene's top objects. strict: a fault of a BRL-CAD database is an
     error. file_folders: below which a scene may name files, besides its own folder. settings: attributes of
     csgrt.Settings, such as device="gpu" or air=True. Raises csgrt.Error (file, scene, out_of_memory, no_device).
     """
-    source = _core.load(os.fspath(path), strict, list(map(os.fspath, file_folders)), _settings(settings))
+    source = _core.load(os.fspath(path), strict, [os.fspath(folder) for folder in file_folders], _settings(settings))
     return Scene(source, objects, **settings)
 
 
-def parse(text: str | bytes, objects: Sequence[str] = (), *, name: str = "scene", strict: bool = False,
-          file_folders: Sequence[str] = (), **settings) -> Scene:
+def parse(text: str | bytes, objects: Iterable[str] = (), *, name: str = "scene", strict: bool = False,
+          file_folders: Iterable[Name] = (), **settings: Unpack[_core.SettingsKeywords]) -> Scene:
     """As load(), from the contents of a file. Errors call it `name`, and files in it are relative to its folder."""
     return Scene(_parse(text, name, strict, file_folders), objects, **settings)

@@ -3,28 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._values import unmasked
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
 
-def translate(x: float | Sequence[float] = 0, y: float = 0, z: float = 0) -> np.ndarray:
+    from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Unpack
+
+    from ._values import Material, ThreeNumbers
+
+
+def translate(x: float | ThreeNumbers = 0, y: float = 0, z: float = 0) -> NDArray[np.float64]:
     """The (4, 4) matrix that moves by x, y, z mm: three numbers, or one sequence of three."""
-    if np.ndim(x):
-        x, y, z = x
     matrix = np.eye(4)
-    matrix[:3, 3] = x, y, z
+    matrix[:3, 3] = x if np.ndim(x) else (x, y, z)
     return matrix
 
 
-def scale(x: float, y: float | None = None, z: float | None = None) -> np.ndarray:
+def scale(x: float, y: float | None = None, z: float | None = None) -> NDArray[np.float64]:
     """The (4, 4) matrix that scales by x, or by x, y and z. A negative number mirrors."""
     return np.diag([x, x if y is None else y, x if z is None else z, 1.0])
 
 
-def rotate(x: float = 0, y: float = 0, z: float = 0) -> np.ndarray:
+def rotate(x: float = 0, y: float = 0, z: float = 0) -> NDArray[np.float64]:
     """The (4, 4) matrix that turns about x, then about y, then about z, degrees. Quarter turns are exact."""
     matrix = np.eye(4)
     for axis, degrees in enumerate((x, y, z)):
@@ -39,7 +45,7 @@ def rotate(x: float = 0, y: float = 0, z: float = 0) -> np.ndarray:
     return matrix
 
 
-def _part(value) -> Part:
+def _part(value: object) -> Part:
     if not isinstance(value, Part):
         raise TypeError(f"expected a Part, not {value!r}")
     return value
@@ -55,16 +61,16 @@ class Part:
     # _kind: "solid" (_data: its members in JSON), "region" (_data: part, material), or an operator (_data: operands).
     __slots__ = ("_kind", "_data", "_matrix", "_coloured")
 
-    def __init__(self, kind, data, matrix=None):
+    def __init__(self, kind: str, data: Any, matrix: NDArray[np.float64] | None = None):
         self._kind, self._data = kind, data
         self._matrix = np.eye(4) if matrix is None else matrix
-        self._coloured = kind == "region" or (kind == "union" and any(part._coloured for part in data))
+        self._coloured: bool = kind == "region" or (kind == "union" and any(part._coloured for part in data))
 
-    def transform(self, matrix) -> Part:
+    def transform(self, matrix: ArrayLike) -> Part:
         """The part moved by a (4, 4) matrix on column vectors, in mm."""
         return Part(self._kind, self._data, np.asarray(unmasked(matrix, "a matrix's elements"), float) @ self._matrix)
 
-    def translate(self, x: float | Sequence[float] = 0, y: float = 0, z: float = 0) -> Part:
+    def translate(self, x: float | ThreeNumbers = 0, y: float = 0, z: float = 0) -> Part:
         """The part moved by x, y, z mm: three numbers, or one sequence of three."""
         return self.transform(translate(x, y, z))
 
@@ -76,7 +82,7 @@ class Part:
         """The part scaled about the origin by x, or by x, y and z. A negative number mirrors."""
         return self.transform(scale(x, y, z))
 
-    def color(self, rgb, **finish) -> Part:
+    def color(self, rgb: ThreeNumbers, **finish: Unpack[Material]) -> Part:
         """All of the part as one region of this colour: red, green, blue; display values, 0 to 1.
 
         finish: members of a material in csgrt's JSON, such as specular=0.5, shine=20.
@@ -110,7 +116,8 @@ class Part:
         if not self._coloured:
             return self
         if self._kind == "region":
-            return self._data[0].transform(self._matrix)
+            part: Part = self._data[0]
+            return part.transform(self._matrix)
         return Part("union", tuple(part._plain() for part in self._data), self._matrix)
 
 
@@ -120,7 +127,7 @@ def _join(operator: str, a: Part, b: Part) -> Part:
     return Part(operator, a._data + (b,) if chain else (a, b))
 
 
-def solid(type: str, **members) -> Part:  # noqa: A002
+def solid(type: str, **members: object) -> Part:  # noqa: A002
     """Any solid of csgrt's JSON, with the members that scenes/README.md lists; lengths in mm.
 
     solid("tgc", base=(0, 0, 0), height=(0, 0, 9), a=(2, 0, 0), b=(0, 1, 0), c=(1, 0, 0), d=(0, 1, 0))
@@ -133,7 +140,7 @@ def sphere(radius: float) -> Part:
     return solid("sphere", center=(0, 0, 0), radius=radius)
 
 
-def box(size, center: bool = False) -> Part:
+def box(size: float | ThreeNumbers, center: bool = False) -> Part:
     """A box of that size, a number or (x, y, z), from the origin on, or about it."""
     if np.shape(size) not in ((), (3,)):
         raise ValueError(f"the size of a box is a number or (x, y, z), not {size!r}")
@@ -144,7 +151,8 @@ def box(size, center: bool = False) -> Part:
 
 def cylinder(height: float, radius_low: float, radius_high: float | None = None, center: bool = False) -> Part:
     """A cylinder along z from the origin on, or about it. radius_high: that of the top; default: radius_low."""
-    axis = {"base": (0, 0, -height / 2 if center else 0), "height": (0, 0, height), "radius": radius_low}
+    low = (0, 0, -height / 2 if center else 0)
+    axis: dict[str, object] = {"base": low, "height": (0, 0, height), "radius": radius_low}
     if radius_high is None:
         return solid("cylinder", **axis)
     return solid("cone", **axis, top_radius=radius_high)
@@ -163,12 +171,14 @@ def torus(radius: float, tube: float) -> Part:
 class _Writer:
     """Writes parts as a scene in JSON. What occurs several times is one object."""
 
-    def __init__(self):
-        self.solids, self.combinations = {}, {}
-        self.names = {}  # by the identity of a part's data, with the data, so that it keeps its identity
-        self.counts = {}
+    def __init__(self) -> None:
+        self.solids: dict[str, object] = {}
+        self.combinations: dict[str, object] = {}
+        # By the identity of a part's data, with the data, so that it keeps its identity.
+        self.names: dict[int, tuple[str, object]] = {}
+        self.counts: dict[str, int] = {}
 
-    def leg(self, prefix: str, part: Part):
+    def leg(self, prefix: str, part: Part) -> str | dict[str, object]:
         name = self.named(prefix, part)
         if (part._matrix == np.eye(4)).all():
             return name
@@ -190,7 +200,7 @@ class _Writer:
             self.combinations[name] = {"tree": {part._kind: [self.leg(prefix, operand) for operand in data]}}
         return name
 
-    def top(self, name: str, part: Part):
+    def top(self, name: str, part: Part) -> None:
         """A region, or a combination of regions."""
         if part._kind == "region":
             inner, material = part._data

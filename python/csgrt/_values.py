@@ -2,19 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from operator import index
+from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, TypedDict, TypeVar, overload
 
 import numpy as np
 
 
-def _describe(kind: type, **members: str):
+class DeviceName(str):
+    """Part of a device's or a platform's name, or choices with commas between them, as a value of the setting `device`:
+    device=DeviceName("PoCL"). At run time any string will do; type checkers take one for a misspelled word."""
+
+
+if TYPE_CHECKING:  # numpy.typing takes as long to load as csgrt
+    from collections.abc import Callable, Iterable
+    from typing import Literal, Union
+
+    from numpy.typing import NDArray
+
+    from ._core import State, Status
+
+    DeviceChoice = Union[int, Literal["", "cpu", "gpu", "gpus"], DeviceName]
+    ThreeNumbers = Union[Sequence[float], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
+    TwoPoints = Union[Sequence[ThreeNumbers], NDArray[np.floating[Any]], NDArray[np.integer[Any]]]
+    Triple = tuple[float, float, float]
+    Bounds = tuple[Triple, Triple]
+
+T = TypeVar("T")
+
+
+def _describe(kind: Any, **members: str) -> None:
     """Gives the members of a NamedTuple docstrings. Those that their names describe have none."""
     for name in kind._fields:
         getattr(kind, name).__doc__ = members.get(name, "")
 
 
-def did_you_mean(wrong: str, known) -> str:
+def did_you_mean(wrong: str, known: Iterable[str]) -> str:
     """What a sentence about an unknown name ends with: the nearest known one, if any is near."""
     from difflib import get_close_matches
 
@@ -22,9 +45,10 @@ def did_you_mean(wrong: str, known) -> str:
     return f": did you mean {near[0]!r}?" if near else ""
 
 
-def unmasked(values, what: str):
+def unmasked(values: T, what: str) -> T:
     """The values. Raises ValueError for an array of numpy.ma that masks some: numpy would hand them over unmasked."""
-    if np.ma.is_masked(values):
+    is_masked: Callable[[object], bool] = np.ma.is_masked  # numpy 2.2 gives it no types
+    if is_masked(values):
         raise ValueError(f"{what} are masked in part, and csgrt knows no masks: give compressed() or filled() arrays")
     return values
 
@@ -61,10 +85,10 @@ class Error(RuntimeError):
     diagnostics: all findings, at least one. place, suggestion: those of the first.
     """
 
-    def __init__(self, message: str, status: str = "usage", diagnostics: Sequence[tuple] = ()):
+    def __init__(self, message: str, status: Status = "usage", diagnostics: Sequence[tuple[Any, ...]] = ()):
         super().__init__(message)
-        self.status = status
-        self.diagnostics = [Diagnostic(Place(*place), *texts) for place, *texts in diagnostics]
+        self.status: Status = status
+        self.diagnostics: list[Diagnostic] = [Diagnostic(Place(*place), *texts) for place, *texts in diagnostics]
 
     @property
     def place(self) -> Place | None:
@@ -74,7 +98,7 @@ class Error(RuntimeError):
     def suggestion(self) -> str:
         return self.diagnostics[0].suggestion if self.diagnostics else ""
 
-    def __reduce__(self):  # from a process of multiprocessing to another
+    def __reduce__(self) -> tuple[Any, ...]:  # from a process of multiprocessing to another
         findings = [(tuple(place), *texts) for place, *texts in self.diagnostics]
         return type(self), (str(self), self.status, findings)
 
@@ -85,7 +109,7 @@ class Warning(NamedTuple):  # noqa: A001
     object: str
     place: Place
     reason: str
-    count: int
+    count: int  # type: ignore[assignment]  # a tuple has a method of that name
     appearance: bool
     text: str
 
@@ -109,9 +133,9 @@ class Region(NamedTuple):
     id: int
     path: str
     material: int
-    bounds: tuple
-    color: tuple
-    state: str
+    bounds: Bounds
+    color: Triple
+    state: State
     region_id: int
     air: int
     los: int
@@ -137,30 +161,34 @@ class Solid(NamedTuple):
 _describe(Solid, type="BRL-CAD's name: ell, tgc, arb8, ...", piece="From 0")
 
 
-class Regions(Sequence):
+class Regions(Sequence[Region]):
     """The regions of a scene, by id or by path. A table when printed.
 
     Raises IndexError for negative ids, since -1 is a miss, and KeyError for unknown paths.
     """
 
-    def __init__(self, rows):
+    def __init__(self, rows: Iterable[tuple[Any, ...]]):
         self._rows = [Region(*row) for row in rows]
         self._by_path = {region.path: region for region in self._rows}
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._rows)
 
-    def __getitem__(self, key):
+    @overload
+    def __getitem__(self, key: str | SupportsIndex) -> Region: ...
+    @overload
+    def __getitem__(self, key: slice) -> list[Region]: ...
+    def __getitem__(self, key: str | SupportsIndex | slice) -> Region | list[Region]:
         if isinstance(key, str):
             path = "/" + key.removeprefix("/")
             if path not in self._by_path:
                 raise KeyError(f"no region has the path {key!r}" + did_you_mean(path, self._by_path))
             return self._by_path[path]
-        if not isinstance(key, slice) and key < 0:
+        if not isinstance(key, slice) and index(key) < 0:
             raise IndexError(f"no region has the id {key}; -1 is a miss")
         return self._rows[key]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         shown = self._rows if len(self) <= 40 else self._rows[:20] + self._rows[-20:]
         width = max([len(region.path) for region in shown], default=4)
         lines = [f"{'id':>6}  {'path':{width}}  material  bounds (mm)"]
@@ -195,13 +223,69 @@ class Pick(NamedTuple):
     region_id: int
     solid_id: int
     t: float
-    point: tuple
-    normal: tuple
-    ray: tuple
-    partitions: list
+    point: Triple
+    normal: Triple
+    ray: tuple[Triple, Triple]
+    partitions: list[tuple[int, float, float]]
 
 
 _describe(Pick, region_id="The index in Scene.regions; -1: nothing", solid_id="The index in Scene.solids; -1: nothing",
           t="Lengths of the ray's direction", point="mm", normal="Unit, outward from the region",
           ray="Origin, direction", partitions="(index in Scene.regions, t_in, t_out) of all regions along the ray, "
           "hidden ones, too")
+
+
+class Hits(TypedDict):
+    """What Scene.cast_rays() answers, which tells shapes and units. It has solid_ids and normals if they are asked."""
+
+    t_hit: NDArray[np.float64]
+    region_ids: NDArray[np.int32]
+    solid_ids: NDArray[np.int32]
+    normals: NDArray[np.float64]
+
+
+class Partitions(TypedDict):
+    """What Scene.partitions() answers, which tells shapes and units. It has ray_splits, region_ids, t_in and t_out, and
+    what else is asked."""
+
+    ray_splits: NDArray[np.int64]
+    region_ids: NDArray[np.int32]
+    t_in: NDArray[np.float64]
+    t_out: NDArray[np.float64]
+    in_solids: NDArray[np.int32]
+    out_solids: NDArray[np.int32]
+    in_normals: NDArray[np.float64]
+    out_normals: NDArray[np.float64]
+    overlap_splits: NDArray[np.int64]
+    overlap_t_in: NDArray[np.float64]
+    overlap_t_out: NDArray[np.float64]
+    overlap_region_splits: NDArray[np.int64]
+    overlap_region_ids: NDArray[np.int32]
+
+
+class Verification(TypedDict):
+    """What Scene.verify() answers."""
+
+    passed: bool
+    device: str
+    rays: int
+    hits: int
+    decided: int
+    ties: int
+    wrong: int
+    bit_differences: int
+    ends: int
+    farthest_mm: float
+    worst_ulps: float
+
+
+class Material(TypedDict, total=False):
+    """Members of a material in csgrt's JSON, besides its colour: what Part.color() and Subtree.finish take."""
+
+    specular: float
+    diffuse: float
+    ambient: float
+    shine: int
+    transmit: float
+    reflect: float
+    light: Mapping[str, object]

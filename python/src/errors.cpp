@@ -4,17 +4,15 @@
 namespace csgrt::python {
 namespace {
 
-constexpr std::pair<Status, const char*> status_names[] = {
-    {Status::usage, "usage"},         {Status::scene, "scene"},
-    {Status::no_device, "no_device"}, {Status::out_of_memory, "out_of_memory"},
-    {Status::file, "file"},           {Status::device_fault, "device_fault"},
-    {Status::differs, "differs"},     {Status::interrupted, "interrupted"},
+constexpr std::pair<std::string_view, Status> status_names[] = {
+    {"usage", Status::usage},         {"scene", Status::scene},
+    {"no_device", Status::no_device}, {"out_of_memory", Status::out_of_memory},
+    {"file", Status::file},           {"device_fault", Status::device_fault},
+    {"differs", Status::differs},     {"interrupted", Status::interrupted},
 };
 
 void raise(const Error& error) {
-    const char* status = "";
-    for (const auto& [value, name] : status_names)
-        if (value == error.status()) status = name;
+    const std::string status(name_of(status_names, error.status()));
     nb::list diagnostics;
     for (const Diagnostic& d : error.diagnostics())
         diagnostics.append(nb::make_tuple(place_row(d.place), d.message, d.suggestion, d.excerpt));
@@ -28,7 +26,8 @@ nb::tuple place_row(const Place& place) {
     return nb::make_tuple(place.file, place.line, place.column, place.offset, place.pointer);
 }
 
-void bind_errors(nb::module_&) {
+void bind_errors(nb::module_& module) {
+    module.attr("Status") = literal(status_names);
     nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
         try {
             std::rethrow_exception(thrown);

@@ -6,20 +6,20 @@ namespace {
 
 using Unlocked = nb::call_guard<nb::gil_scoped_release>;
 
-nb::list device_rows() {
+Rows device_rows() {
     std::vector<DeviceInfo> found;
     {
         nb::gil_scoped_release unlocked;
         found = devices();
     }
-    nb::list rows;
+    Rows rows;
     for (const DeviceInfo& d : found)
         rows.append(nb::make_tuple(d.name, d.platform, d.version, d.driver, d.type, d.memory, d.max_allocation,
                                    d.compute_units, d.fp64));
     return rows;
 }
 
-nb::object rays_of(const RayGrid& grid) {
+Numpy<double> rays_of(const RayGrid& grid) {
     auto rays = std::make_unique<Array<Ray>>();
     {
         nb::gil_scoped_release unlocked;
@@ -32,13 +32,13 @@ nb::object rays_of(const RayGrid& grid) {
     return array(data, {std::size_t(grid.rows), std::size_t(grid.columns)}, keeper(rays));
 }
 
-nb::object parallel(const Box& box, const std::string& axis, std::pair<int, int> pixels) {
+Numpy<double> parallel(const Box& box, const std::string& axis, std::pair<int, int> pixels) {
     if (axis != "x" && axis != "y" && axis != "z")
         throw nb::value_error("the axis of parallel rays is \"x\", \"y\" or \"z\"");
     return rays_of(rays_parallel(box, Axis(axis[0] - 'x'), pixels.first, pixels.second));
 }
 
-nb::object pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width, int height) {
+Numpy<double> pinhole(double vertical_fov, const Vec3& center, const Vec3& eye, const Vec3& up, int width, int height) {
     return rays_of(rays_pinhole(vertical_fov, center, eye, up, width, height));
 }
 
@@ -69,6 +69,8 @@ NB_MODULE(_core, module) {
         "text"_a, "name"_a, "strict"_a, "file_folders"_a);
     module.def("device_rows", &device_rows);
     module.def("rays_parallel", &parallel, "bounds"_a, "axis"_a, "pixels"_a,
+               nb::sig("def rays_parallel(bounds: csgrt._values.TwoPoints, axis: typing.Literal['x', 'y', 'z'], "
+                       "pixels: tuple[int, int]) -> numpy.typing.NDArray[numpy.float64]"),
                "Parallel rays along an axis, upward, through the middles of the cells of a box's face.\n\n"
                "bounds: (low, high), mm; axis: \"x\", \"y\" or \"z\"; pixels: (columns, rows). They start 1 mm before "
                "the box.\nReturns (rows, columns, 6) float64: origin, direction. The top row has the largest z (y, if "

@@ -160,8 +160,8 @@ private:
 
 // ---- What is known ----
 
-nb::list region_rows(const LiveScene& scene) {
-    nb::list rows;
+Rows region_rows(const LiveScene& scene) {
+    Rows rows;
     const Model model = scene.model();
     for (const RegionInfo& r : model.regions()) {
         rows.append(nb::make_tuple(rows.size(), r.path, r.material_id, r.bounds, r.color,
@@ -170,17 +170,17 @@ nb::list region_rows(const LiveScene& scene) {
     return rows;
 }
 
-nb::list solid_rows(const LiveScene& scene) {
-    nb::list rows;
+Rows solid_rows(const LiveScene& scene) {
+    Rows rows;
     const Model model = scene.model();
     for (const SolidInfo& s : model.solids()) rows.append(nb::make_tuple(s.name, s.type, s.piece));
     return rows;
 }
 
-nb::list warning_rows(LiveScene& scene) {
+Rows warning_rows(LiveScene& scene) {
     std::vector<Warning> warnings;
     scene.run([&](Renderer& renderer) { warnings = renderer.warnings(); });
-    nb::list rows;
+    Rows rows;
     for (const Warning& w : warnings)
         rows.append(nb::make_tuple(w.object, place_row(w.place), w.reason, w.count, w.appearance, format(w)));
     return rows;
@@ -188,8 +188,19 @@ nb::list warning_rows(LiveScene& scene) {
 
 // ---- Rays and points ----
 
-nb::dict partitions(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
-                    Fields fields) {
+/// Dicts whose types are in csgrt/_values.py.
+class PartitionArrays : public nb::dict {
+    NB_OBJECT_DEFAULT(PartitionArrays, nb::dict, "csgrt._values.Partitions", PyDict_Check)
+};
+class HitArrays : public nb::dict {
+    NB_OBJECT_DEFAULT(HitArrays, nb::dict, "csgrt._values.Hits", PyDict_Check)
+};
+class Figures : public nb::dict {
+    NB_OBJECT_DEFAULT(Figures, nb::dict, "csgrt._values.Verification", PyDict_Check)
+};
+
+PartitionArrays partitions(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
+                           Fields fields) {
     // What keeps the answer gives its memory back to the scene, if there is one yet.
     struct Held {
         std::weak_ptr<Spare> giver;
@@ -206,7 +217,7 @@ nb::dict partitions(LiveScene& scene, const Doubles& rays, RayRange range, const
     const auto list = list_of<Ray>(rays);
     scene.trace(list.size(), [&](auto& tracer) { tracer.partitions(list, p, fields, ranges_of(range, ranges)); });
     const nb::capsule kept = keeper(held);
-    nb::dict arrays;
+    PartitionArrays arrays;
     arrays["ray_splits"] = array(p.ray_splits, kept);
     arrays["region_ids"] = array(p.region_ids, kept);
     arrays["t_in"] = array(p.t_in, kept);
@@ -229,15 +240,15 @@ nb::dict partitions(LiveScene& scene, const Doubles& rays, RayRange range, const
     return arrays;
 }
 
-nb::dict cast_rays(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
-                   Fields fields) {
+HitArrays cast_rays(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges,
+                    Fields fields) {
     auto answer = std::make_unique<Hits>();
     const auto list = list_of<Ray>(rays);
     scene.trace(list.size(), [&](auto& tracer) { tracer.cast_rays(list, *answer, fields, ranges_of(range, ranges)); });
     Hits& hits = *answer;
     const nb::capsule kept = keeper(answer);
     const Shape shape = leading(rays);
-    nb::dict arrays;
+    HitArrays arrays;
     arrays["t_hit"] = array(hits.t_hit.data(), shape, kept);
     arrays["region_ids"] = array(hits.region_ids.data(), shape, kept);
     if (fields.solids) arrays["solid_ids"] = array(hits.solid_ids.data(), shape, kept);
@@ -245,7 +256,7 @@ nb::dict cast_rays(LiveScene& scene, const Doubles& rays, RayRange range, const 
     return arrays;
 }
 
-nb::object occluded(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges) {
+Numpy<bool> occluded(LiveScene& scene, const Doubles& rays, RayRange range, const std::optional<Doubles>& ranges) {
     auto answer = std::make_unique<Array<std::uint8_t>>();
     const auto list = list_of<Ray>(rays);
     scene.trace(list.size(), [&](auto& tracer) { tracer.occluded(list, *answer, ranges_of(range, ranges)); });
@@ -253,7 +264,7 @@ nb::object occluded(LiveScene& scene, const Doubles& rays, RayRange range, const
     return array(data, leading(rays), keeper(answer));
 }
 
-nb::object region_at(LiveScene& scene, const Doubles& points) {
+Numpy<std::int32_t> region_at(LiveScene& scene, const Doubles& points) {
     auto answer = std::make_unique<Array<std::int32_t>>();
     const auto list = list_of<Vec3>(points);
     scene.trace(list.size(), [&](auto& tracer) { tracer.region_at(list, *answer); });
@@ -261,7 +272,8 @@ nb::object region_at(LiveScene& scene, const Doubles& points) {
     return array(data, leading(points), keeper(answer));
 }
 
-nb::object slice(LiveScene& scene, const Vec3& normal, double offset, std::pair<int, int> pixels, bool hidden) {
+Numpy<std::int32_t> slice(LiveScene& scene, const Vec3& normal, double offset, std::pair<int, int> pixels,
+                          bool hidden) {
     auto answer = std::make_unique<Array<std::int32_t>>();
     csgrt::Slice cut;
     scene.run([&](Renderer& renderer) {
@@ -275,17 +287,16 @@ nb::object slice(LiveScene& scene, const Vec3& normal, double offset, std::pair<
 
 // ---- Views ----
 
-nb::tuple render(LiveScene& scene, const View& view) {
+std::pair<Numpy<float>, std::vector<std::string>> render(LiveScene& scene, const View& view) {
     auto image = std::make_unique<Image>();
     scene.run([&](Renderer& renderer) { *image = renderer.render(view); });
-    nb::list names;
-    for (const std::string& name : image->names) names.append(name);
+    std::vector<std::string> names = image->names;
     float* const data = image->channels[0].data();  // all channels are one piece of memory
     const Shape shape = {image->channels.size(), std::size_t(image->height), std::size_t(image->width)};
-    return nb::make_tuple(array(data, shape, keeper(image)), names);
+    return {array(data, shape, keeper(image)), std::move(names)};
 }
 
-nb::tuple pick(LiveScene& scene, const View& view, int column, int row) {
+Row pick(LiveScene& scene, const View& view, int column, int row) {
     Pick found;
     scene.run([&](Renderer& renderer) { found = renderer.model().pick(view, column, row); });
     nb::list along;
@@ -294,17 +305,17 @@ nb::tuple pick(LiveScene& scene, const View& view, int column, int row) {
                           nb::make_tuple(found.ray.origin, found.ray.direction), along);
 }
 
-nb::object rays_of(LiveScene& scene, const View& view) {
+Numpy<double> rays_of(LiveScene& scene, const View& view) {
     auto rays = std::make_unique<std::vector<Ray>>();
     scene.run([&](Renderer& renderer) { *rays = renderer.rays_of(view); });
     Ray* const data = rays->data();
     return array(data, {std::size_t(view.height), std::size_t(view.width)}, keeper(rays));
 }
 
-nb::dict verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
+Figures verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
     if (rays == 0) throw usage("verify() needs a ray at least");
     const Verification result = scene.verify(rays, seed);
-    nb::dict figures;
+    Figures figures;
     figures["passed"] = result.passed();
     figures["device"] = result.device;
     figures["rays"] = result.rays;
@@ -323,6 +334,8 @@ nb::dict verify(LiveScene& scene, std::size_t rays, std::uint64_t seed) {
 
 void bind_scene(nb::module_& module) {
     using namespace nb::literals;
+    module.attr("State") = literal(state_names);
+    module.attr("Operator") = literal(operator_names);
     nb::class_<LiveScene>(module, "Scene", "What csgrt.Scene is made of.")
         .def(nb::init<Scene&, std::vector<std::string>, const Settings&>(), "source"_a, "objects"_a, "settings"_a)
         .def("_region_rows", &region_rows)

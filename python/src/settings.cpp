@@ -14,7 +14,9 @@ void named(nb::class_<Settings>& bound, const char* name, Value Settings::*membe
             const auto refusal = [](const std::string& text) { return nb::value_error(text.c_str()); };
             s.*member = value_of(names, name, given, refusal);
         },
-        doc);
+        doc, nb::for_getter(nb::sig(("def " + std::string(name) + "(self) -> " + literal(names)).c_str())),
+        nb::for_setter(
+            nb::sig(("def " + std::string(name) + "(self, arg: " + literal(names) + ", /) -> None").c_str())));
 }
 
 }  // namespace
@@ -24,8 +26,11 @@ void bind_settings(nb::module_& module) {
                                   "How csgrt computes. load(), parse() and Scene take any of these "
                                   "attributes as a keyword.");
     settings.def(nb::init<>())
-        .def_rw("device", &Settings::device,
-                "A number in devices(), \"cpu\", \"gpu\", \"gpus\" or part of a name; \"\": a GPU, else the processor")
+        .def_prop_rw(
+            "device", [](const Settings& s) { return s.device; },
+            [](Settings& s, const nb::object& choice) { s.device = nb::str(choice).c_str(); },
+            nb::for_setter(nb::sig("def device(self, arg: csgrt._values.DeviceChoice, /) -> None")),
+            "A number in devices(), \"cpu\", \"gpu\", \"gpus\" or part of a name; \"\": a GPU, else the processor")
         .def_rw("reference", &Settings::reference, "The CPU reference computes, and no device")
         .def_rw("wait_for_device", &Settings::wait_for_device, "Calls wait until a GPU's kernels are compiled")
         .def_rw("device_timeout", &Settings::device_timeout, "Seconds until a device without an answer is lost")

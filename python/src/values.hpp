@@ -24,7 +24,7 @@ namespace nanobind::detail {
 template <>
 struct type_caster<csgrt::Vec3> {
     using Numbers = make_caster<std::array<double, 3>>;
-    NB_TYPE_CASTER(csgrt::Vec3, Numbers::Name)
+    NB_TYPE_CASTER(csgrt::Vec3, io_name("csgrt._values.ThreeNumbers", "tuple[float, float, float]"))
     bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
         Numbers numbers;
         if (!numbers.from_python(from, flags, cleanup)) return false;
@@ -40,7 +40,7 @@ struct type_caster<csgrt::Vec3> {
 template <>
 struct type_caster<csgrt::Box> {
     using Points = make_caster<std::pair<csgrt::Vec3, csgrt::Vec3>>;
-    NB_TYPE_CASTER(csgrt::Box, Points::Name)
+    NB_TYPE_CASTER(csgrt::Box, io_name("csgrt._values.TwoPoints", "csgrt._values.Bounds"))
     bool from_python(handle from, std::uint32_t flags, cleanup_list* cleanup) noexcept {
         Points points;
         if (!points.from_python(from, flags, cleanup)) return false;
@@ -61,6 +61,12 @@ namespace csgrt::python {
 using Doubles = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 using Matrices = nb::ndarray<const double, nb::shape<4, 4>, nb::c_contig, nb::device::cpu>;
 using Shape = std::vector<std::size_t>;
+
+/// Answers. The names are those of types in the stub.
+template <class T>
+using Numpy = nb::ndarray<nb::numpy, T>;
+using Row = nb::typed<nb::tuple, nb::any, nb::ellipsis>;
+using Rows = nb::typed<nb::list, Row>;
 
 /// The elements of an array whose last axis is one element: rays, ranges, points.
 template <class T>
@@ -86,16 +92,16 @@ nb::capsule keeper(std::unique_ptr<Answer>& answer) {
 
 /// A numpy array that shows `data`, which `kept` keeps. Points have an axis of their own.
 template <class T>
-nb::object array(T* data, Shape shape, nb::handle kept) {
+auto array(T* data, Shape shape, nb::handle kept) {
     if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Ray>) {
         shape.push_back(sizeof(T) / sizeof(double));
         return array(reinterpret_cast<double*>(data), std::move(shape), kept);
     } else {
-        return nb::ndarray<nb::numpy, T>(data, shape.size(), shape.data(), kept).cast();
+        return Numpy<T>(data, shape.size(), shape.data(), kept);
     }
 }
 template <class T>
-nb::object array(Array<T>& values, nb::handle kept) {
+auto array(Array<T>& values, nb::handle kept) {
     return array(values.data(), {values.size()}, kept);
 }
 
@@ -109,6 +115,14 @@ Value value_of(const std::pair<std::string_view, Value> (&names)[count], const s
         known += (known.empty() ? "" : ", ") + std::string(name);
     }
     throw refusal(what + " is one of " + known + ", not " + given);
+}
+
+/// The type of a string that is one of these names, in the stub.
+template <class Value, std::size_t count>
+std::string literal(const std::pair<std::string_view, Value> (&names)[count]) {
+    std::string text;
+    for (const auto& [name, value] : names) text += (text.empty() ? "'" : ", '") + std::string(name) + "'";
+    return "typing.Literal[" + text + "]";
 }
 
 nb::tuple place_row(const Place& place);  ///< the members of csgrt.Place
