@@ -14,19 +14,20 @@ namespace csgrt {
 /// An orthographic view has no eye. Its rays start on a plane in front of the whole model, so that all of the model is
 /// seen however small the view is. That plane cuts half-spaces, which have no end.
 struct Camera {
-    double azimuth = 35;                   ///< of the direction from the model to the eye: from +x about z
-    double elevation = 25;                 ///< of the same direction: above the xy plane
-    double perspective = 0;                ///< angle of view across the picture's height, below 180; 0: orthographic
-    std::optional<Vec3> center = {};       ///< the middle of the picture; default: the centre of the model's box
-    std::optional<double> view_size = {};  ///< height of the view at `center`; default: the box's diagonal
-
-    /// Where the eye is, in place of azimuth and elevation, which then have no effect: JSON, the command and Python,
-    /// which know what was given, refuse them beside it. With a perspective it determines the size of the view as well,
-    /// and `view_size` must be absent. An orthographic view takes only its direction from it.
+    double azimuth = 35;              ///< Degrees of the direction from the model to the eye: from +x about z.
+    double elevation = 25;            ///< Degrees of the same direction above the xy plane.
+    double perspective = 0;           ///< Degrees of the angle of view across the picture's height, below 180; 0: parallel.
+    std::optional<Vec3> center = {};  ///< The middle of the picture; the middle of the model's box if not given.
+    /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view
+    /// shows everything before its plane, however small it is.
+    std::optional<double> view_size = {};
+    /// Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; a
+    /// parallel view takes only its direction from it. The angles have no effect then; JSON, the command and Python,
+    /// which know what was given, refuse them beside it. `view_size` must be absent in a perspective.
     std::optional<Vec3> eye = {};
-    std::optional<Vec3> look_at = {};  ///< another name of `center`, which must be absent if this is given
-    /// The direction that points up in the picture; not parallel to the line of sight. Default: +z; in a view straight
-    /// down or up, the direction that azimuth 0 has.
+    std::optional<Vec3> look_at = {};  ///< Another name of the picture's middle. `center` must be absent then.
+    /// The direction that points up in the picture; +z if not given, or in a view straight down or up the direction
+    /// that azimuth 0 has. It is not parallel to the line of sight.
     std::optional<Vec3> up = {};
 };
 

@@ -566,6 +566,27 @@ CSGRT_API csgrt_status csgrt_verifier_result(const csgrt_verifier* verifier, csg
 
 // ---- Defaults ----
 
+// For C and C++ as macros, for all others as functions: each puts the defaults into the struct.
+CSGRT_API void csgrt_diagnostic_init(csgrt_diagnostic* diagnostic);
+CSGRT_API void csgrt_settings_init(csgrt_settings* settings);
+CSGRT_API void csgrt_device_info_init(csgrt_device_info* device_info);
+CSGRT_API void csgrt_load_options_init(csgrt_load_options* load_options);
+CSGRT_API void csgrt_finish_init(csgrt_finish* finish);
+CSGRT_API void csgrt_combination_init(csgrt_combination* combination);
+CSGRT_API void csgrt_camera_init(csgrt_camera* camera);
+CSGRT_API void csgrt_scene_info_init(csgrt_scene_info* scene_info);
+CSGRT_API void csgrt_model_info_init(csgrt_model_info* model_info);
+CSGRT_API void csgrt_region_info_init(csgrt_region_info* region_info);
+CSGRT_API void csgrt_solid_info_init(csgrt_solid_info* solid_info);
+CSGRT_API void csgrt_rays_init(csgrt_rays* rays);
+CSGRT_API void csgrt_partition_arrays_init(csgrt_partition_arrays* partition_arrays);
+CSGRT_API void csgrt_hits_init(csgrt_hits* hits);
+CSGRT_API void csgrt_statistics_init(csgrt_statistics* statistics);
+CSGRT_API void csgrt_view_init(csgrt_view* view);
+CSGRT_API void csgrt_image_info_init(csgrt_image_info* image_info);
+CSGRT_API void csgrt_pick_init(csgrt_pick* pick);
+CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
+
 // clang-format off
 #define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
 #define CSGRT_SETTINGS {sizeof(csgrt_settings), "", 0, 0, -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, NULL, NULL}

@@ -10,9 +10,10 @@ namespace csgrt {
 
 /// How a scene is read.
 struct LoadOptions {
-    bool strict = false;  ///< true: any fault of a BRL-CAD database is an error, as it always is in .json
-    /// Folders below which a scene may name files (the cells of an ebm, vol or dsp), besides the folder of its own
-    /// file. Links and `..` are resolved first.
+    /// A BRL-CAD database in which anything is missing or broken is refused, as a .json always is.
+    bool strict = false;
+    /// Folders below which the scene may name files (the cells of an ebm, vol or dsp), besides its own. Links and `..`
+    /// are resolved first.
     std::vector<std::string> file_folders = {};
 };
 

@@ -11,48 +11,51 @@ namespace csgrt {
 
 /// What a Renderer, a Verifier and prepare_devices() are given. They copy it.
 struct Settings {
-    bool reference = false;  ///< true: the CPU reference computes, and no device
-    /// Which device: a number (the index in devices()), "cpu", "gpu", or part of a device's or a platform's name.
-    /// Several devices share the work of a call: "gpus" (all GPUs), or choices with commas between them ("0,1"). "": a
-    /// GPU if there is one, else a native device, else any device, else the reference, with a warning.
+    bool reference = false;  ///< The CPU reference computes, and no device.
+    /// Which device: its number in the list of devices, its type ("cpu", "gpu"), or part of its name or platform;
+    /// several with commas between them, or all "gpus", share the work. "": a GPU if there is one, else a native device,
+    /// else any device, else the reference, with a warning.
     std::string device = {};
-    /// A driver takes up to half a minute to compile the kernels for a GPU. Until then a native device computes, with
-    /// the same bits. True: calls wait for the GPU instead, as measurements need it.
+    /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits. A
+    /// driver takes up to half a minute to compile. Measurements need the GPU from the first call on.
     bool wait_for_device = false;
-    /// Seconds that a call waits for an answer of a device. A device that gives none is lost: the call throws Error
-    /// (device_fault), and so do all later calls of the Renderer; what the driver holds stays until the process ends.
-    /// 0: any time. Negative: 60 s for a GPU, any time for a processor, whose kernels take as long as the rays do. A
-    /// call of the driver that does not return, such as its compiler's, is waited for.
+    /// Seconds that a device may take for an answer before it is given up; 0: any time. Negative: 60 s for a GPU, any
+    /// time for a processor, whose kernels take as long as the rays do. A device that is given up is lost: the call
+    /// throws Error (device_fault), and so do all later calls of the Renderer; what the driver holds stays until the
+    /// process ends. A call of the driver that does not return, such as its compiler's, is waited for.
     double device_timeout = -1;
-    std::uint64_t max_memory = 0;  ///< bytes of memory to use on each device; 0: what the device has
-    /// Most instances: solids, as often as the trees use them. They are counted before any is made, and a scene of more
+    /// Bytes of memory to use on each device; a frame that needs more is drawn in batches. 0: what the device has.
+    std::uint64_t max_memory = 0;
+    /// Most solids of the model, as often as its trees use them; they are counted before any is made. A scene of more
     /// throws Error (scene). One with many parts counts as several (docs/limits.md). 0: Limits::instances, or twice as
     /// many as the scene's solids once each, if that is more. At most Limits::most_instances.
     std::uint64_t max_instances = 0;
-    Precision precision = Precision::double_;
+    Precision precision = Precision::double_;  ///< Numbers of the geometry; single ones are relative to the eye.
     Quartic quartic = Quartic::bracketed;
     /// On a device only: its compiler may contract a product and a sum into one operation (fma). Results then differ
     /// from the reference's.
     bool contraction = false;
-    Tolerance tolerance_rule = Tolerance::length;
-    double tolerance = -1;          ///< millimetres, for Tolerance::length; negative: the scene's tolerance
-    bool air = false;               ///< true: air regions are part of the model
-    bool skip_unsupported = false;  ///< true: solids of unknown types are left out with a warning, as in lenient scenes
-    /// True: the model's colours are shaded as they are, as BRL-CAD does. False: they are decoded to linear light
+    Tolerance tolerance_rule = Tolerance::length;  ///< Which ends of segments along a ray count as one.
+    double tolerance = -1;  ///< Millimetres along a ray, for the rule of a length; negative: the scene's.
+    bool air = false;       ///< Regions of air are part of the model.
+    /// Solids of types that csgrt does not know are left out, with a warning, as they always are in a BRL-CAD database
+    /// that is not read strictly.
+    bool skip_unsupported = false;
+    /// The model's colours are shaded as they are, as BRL-CAD does; else they are decoded from sRGB to linear light
     /// first.
     bool display_shading = false;
-    /// n: the CPU reference traces the first batch of rays, and every n-th after it, as well. A call whose bits differ
-    /// throws Error (device_fault) that names the pixel and the channel, or the ray. 0: none. Batches are as large as
-    /// the device's memory and kind allow, and the reference is slower by far. Not with `contraction`.
+    /// The CPU reference traces the first batch of rays and every N-th after it as well, and a call whose bits differ
+    /// fails. It throws Error (device_fault) that names the pixel and the channel, or the ray. 0: none. Batches are as
+    /// large as the device's memory and kind allow, and the reference is slower by far. Not with `contraction`.
     unsigned check = 0;
-    /// That work on processors at a time: for the reference, a native device, the compilation of the scene and pixels
-    /// on their way into a picture. 0: one for each processor. Renderers share them.
+    /// Threads that work on processors at a time, for all calls together. They are those of the reference, a native
+    /// device, the compilation of the scene and pixels on their way into a picture. 0: one for each processor.
     unsigned threads = 0;
-    /// Called with the done fraction, by the thread whose call it is, which waits while others work: with 0 at the
-    /// beginning of a call, then every 20 ms, and with 1 when all is done. If it returns false before that, the call
-    /// ends and throws Error (interrupted): on a processor within 50 ms, but for a single ray that takes longer and
-    /// for a driver that compiles kernels; on a GPU after the kernels that are queued. The answer to the last call
-    /// changes nothing. It must not use the object whose call it reports.
+    /// A function that is called with the done fraction, and ends the call if it returns false. The thread whose call
+    /// it is calls it, and waits while others work: with 0 at the beginning of a call, then every 20 ms, and with 1 when
+    /// all is done. A call that it ends throws Error (interrupted): on a processor within 50 ms, but for a single ray
+    /// that takes longer and for a driver that compiles kernels; on a GPU after the kernels that are queued. The answer
+    /// to the last call changes nothing. It must not use the object whose call it reports.
     std::function<bool(double)> progress = {};
 };
 

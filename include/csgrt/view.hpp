@@ -29,21 +29,21 @@ struct PixelRectangle {
 
 /// A picture to be drawn.
 struct View {
-    int width = 1024, height = 1024;  ///< pixels, 1 to 32,768 each
+    int width = 1024, height = 1024;  ///< Pixels. 1 to 32,768 each.
     Camera camera = {};
-    /// True: everything along each ray is computed. False: only the first hits, several times faster, and the picture
-    /// has none of the channels of channel::counts. A scene with plates (a bot of that mode) takes as long as if true.
+    /// Everything along each ray is computed; else first hits alone, several times faster, without the channels depth,
+    /// partitions and overlap. A scene with plates (a bot of that mode) takes as long as if true.
     bool every_partition = true;
-    std::uint32_t channels = channel::all;  ///< the groups that the picture has, in the order of their bits
-    /// Up to six planes: what is beyond any of them (not in the half-space) is gone, as if half-spaces in the model's
-    /// tree cut it. What they cut open has the region's colour, the plane's normal and no solid. Counts include what is
-    /// beyond the planes that the ray leaves through. A plane's normal may have any length but 0.
+    std::uint32_t channels = channel::all;  ///< The groups of channels that the picture has, a bit each.
+    /// Up to six planes: what is beyond any of them is gone. They leave what half-spaces in the model's tree would leave.
+    /// What they cut open has the region's colour, the plane's normal and no solid. Counts include what is beyond the
+    /// planes that the ray leaves through. A plane's normal may have any length but 0.
     std::vector<Plane> clip = {};
-    std::optional<PixelRectangle> part = {};  ///< if given, the picture has these pixels alone: each as in the whole
-    /// Rays a pixel, 1 to 256: the colours of more are their mean, in a pattern that does not change. The other
-    /// channels are those of the ray through the pixel's middle.
+    std::optional<PixelRectangle> part = {};  ///< The pixels that the picture has alone, each as in the whole.
+    /// Rays a pixel, whose mean the colours are. 1 to 256, in a pattern that does not change. The other channels are
+    /// those of the ray through the pixel's middle.
     int samples = 1;
-    bool transparent = false;  ///< true: R, G, B and A are 0 where a ray hits nothing, in place of the background
+    bool transparent = false;  ///< No background: red, green, blue and alpha are 0 where a ray hits nothing.
 };
 
 }  // namespace csgrt

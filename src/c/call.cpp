@@ -1,5 +1,7 @@
 #include "c/call.hpp"
 
+#include "c/described.hpp"
+
 using namespace csgrt;
 
 namespace {
@@ -74,27 +76,7 @@ std::vector<std::string> texts(const char* const* first, std::size_t count, cons
 
 Settings settings_of(const csgrt_settings* settings) {
     if (!settings) return {};
-    const csgrt_settings s = read(settings, csgrt_settings CSGRT_SETTINGS, "settings");
-    Settings all{
-        .reference = s.reference != 0,
-        .device = text_or_empty(s.device),
-        .wait_for_device = s.wait_for_device != 0,
-        .device_timeout = s.device_timeout,
-        .max_memory = s.max_memory,
-        .max_instances = s.max_instances,
-        .precision = choice(s.precision, Precision::quad, "settings->precision"),
-        .quartic = choice(s.quartic, Quartic::yuksel, "settings->quartic"),
-        .contraction = s.contraction != 0,
-        .tolerance_rule = choice(s.tolerance_rule, Tolerance::none, "settings->tolerance_rule"),
-        .tolerance = s.tolerance,
-        .air = s.air != 0,
-        .skip_unsupported = s.skip_unsupported != 0,
-        .display_shading = s.display_shading != 0,
-        .check = s.check,
-        .threads = s.threads,
-    };
-    if (s.progress) all.progress = [s](double done) { return s.progress(s.user, done) != 0; };
-    return all;
+    return described<Settings>(read(settings, csgrt_settings CSGRT_SETTINGS, "settings"), "settings");
 }
 
 Camera camera_of(const csgrt_camera* camera) {
@@ -139,16 +121,7 @@ std::vector<Light> lights_of(const csgrt_light* lights, std::size_t count) {
 }
 
 View view_of(const csgrt_view* view) {
-    const csgrt_view v = read(view, csgrt_view CSGRT_VIEW, "view");
-    View all{.width = v.width, .height = v.height, .every_partition = v.every_partition != 0, .channels = v.channels};
-    if (v.camera) all.camera = camera_of(v.camera);
-    for (const csgrt_plane& plane : needed(v.clip, v.clip_count, "view->clip")) {
-        all.clip.push_back({of(plane.normal), plane.distance});
-    }
-    if (v.part) all.part = {v.part->left, v.part->top, v.part->width, v.part->height};
-    all.samples = v.samples;
-    all.transparent = v.transparent != 0;
-    return all;
+    return described<View>(read(view, csgrt_view CSGRT_VIEW, "view"), "view");
 }
 
 Matrix matrix_of(const double* matrix) {
@@ -196,3 +169,28 @@ csgrt_status csgrt_last_diagnostic(size_t index, csgrt_diagnostic* diagnostic) {
         return CSGRT_ERROR_USAGE;
     }
 }
+
+#define CSGRT_INIT(type, defaults)     \
+    void type##_init(type* given) {    \
+        const type usual defaults;     \
+        if (given) *given = usual;     \
+    }
+CSGRT_INIT(csgrt_diagnostic, CSGRT_DIAGNOSTIC)
+CSGRT_INIT(csgrt_settings, CSGRT_SETTINGS)
+CSGRT_INIT(csgrt_device_info, CSGRT_DEVICE_INFO)
+CSGRT_INIT(csgrt_load_options, CSGRT_LOAD_OPTIONS)
+CSGRT_INIT(csgrt_finish, CSGRT_FINISH)
+CSGRT_INIT(csgrt_combination, CSGRT_COMBINATION)
+CSGRT_INIT(csgrt_camera, CSGRT_CAMERA)
+CSGRT_INIT(csgrt_scene_info, CSGRT_SCENE_INFO)
+CSGRT_INIT(csgrt_model_info, CSGRT_MODEL_INFO)
+CSGRT_INIT(csgrt_region_info, CSGRT_REGION_INFO)
+CSGRT_INIT(csgrt_solid_info, CSGRT_SOLID_INFO)
+CSGRT_INIT(csgrt_rays, CSGRT_RAYS)
+CSGRT_INIT(csgrt_partition_arrays, CSGRT_PARTITION_ARRAYS)
+CSGRT_INIT(csgrt_hits, CSGRT_HITS)
+CSGRT_INIT(csgrt_statistics, CSGRT_STATISTICS)
+CSGRT_INIT(csgrt_view, CSGRT_VIEW)
+CSGRT_INIT(csgrt_image_info, CSGRT_IMAGE_INFO)
+CSGRT_INIT(csgrt_pick, CSGRT_PICK)
+CSGRT_INIT(csgrt_verification, CSGRT_VERIFICATION)

@@ -1,6 +1,7 @@
 #include <charconv>
 
 #include "c/call.hpp"
+#include "c/described.hpp"
 
 using namespace csgrt;
 using namespace csgrt::c;
@@ -9,8 +10,7 @@ namespace {
 
 LoadOptions options_of(const csgrt_load_options* options) {
     if (!options) return {};
-    const csgrt_load_options o = read(options, csgrt_load_options CSGRT_LOAD_OPTIONS, "options");
-    return {.strict = o.strict != 0, .file_folders = texts(o.file_folders, o.file_folder_count, "file_folders")};
+    return described<LoadOptions>(read(options, csgrt_load_options CSGRT_LOAD_OPTIONS, "options"), "options");
 }
 
 void add(csgrt_scene& to, Object object) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "described.hpp"
 #include "help_notes.hpp"
 #include "options.hpp"
 #include "values.hpp"
@@ -27,56 +28,16 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
     throw Error(Status::usage, {Diagnostic{{}, std::move(message), std::move(suggestion), {}}});
 }
 
-void define_load(Options& options, LoadOptions& load) {
-    options.flag(
-        "--strict",
-        "refuse a .g or .asc in which anything is missing or broken; if not given, that is left out, with a warning",
-        load.strict);
-    options.list(
-        "--allow-files", "FOLDER",
-        "the scene may name files (cells of an ebm, vol or dsp) below FOLDER; if not given, only below its own "
-        "folder, and none if it is on standard input; may be given several times",
-        load.file_folders);
-}
-
 void define_scene(Options& options, SceneArguments& arguments) {
     options.argument("SCENE", scene_help, arguments.scene);
     options.arguments("OBJECT", "objects of the scene, or paths to them (all.g/tor.r); its top objects if not given",
                       arguments.objects);
-    options.flag("--air", "keep air regions", arguments.settings.air);
-    define_load(options, arguments.load);
-    options.count("--max-instances",
-                  "most solids of the model, as often as its trees use them; they are counted before any is made; " +
-                      std::to_string(Limits::instances) + ", or twice the scene's own if that is more, if not given",
-                  arguments.settings.max_instances, 1, Limits::most_instances);
-    options.flag("--skip-unsupported",
-                 "leave out solids of types that csgrt does not know, with a warning; always done for a .g or .asc "
-                 "unless --strict",
-                 arguments.settings.skip_unsupported);
+    define_members(options, arguments.settings, form::Concern::model);
+    define_members(options, arguments.load, form::Concern::model);
 }
 
 void define_settings(Options& options, Settings& settings) {
-    auto& device = options.text(
-        "--device", "NAME|cpu|gpu|N|gpus",
-        "device to use: part of its name, its type, or its number in 'csgrt devices'; several with commas, or "
-        "all 'gpus', share the work; a GPU if there is one, else this processor, if not given",
-        settings.device);
-    device.excludes = "--reference";
-    options.flag("--reference", "compute with the CPU reference instead of a device", settings.reference);
-    options.count("--threads", "threads of the native device and of the reference; all cores if not given",
-                  settings.threads, 1, 4096);
-    options.value(
-        "--max-memory", "SIZE",
-        "device memory to use, in bytes, or such as 512M or 2G (powers of 1024); a frame that needs more is drawn "
-        "in batches",
-        settings.max_memory, parse_memory, "a number of bytes such as 800000, 512M or 2G");
-    options
-        .number(
-            "--device-timeout", "S",
-            "seconds that a device may take for an answer, or it is given up; 0: any time; 60 for a GPU and any time "
-            "for a processor, if not given",
-            settings.device_timeout, 0, unlimited, "a number of seconds, 0 or more")
-        .excludes = "--reference";
+    define_members(options, settings, form::Concern::work);
     auto parse_tolerance = [&settings](const std::string& text) {
         auto rule = find_name(tolerance_names, text);
         auto length = parse_number(text);
@@ -94,10 +55,6 @@ void define_settings(Options& options, Settings& settings) {
         settings.tolerance_rule, parse_tolerance,
         "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
     for (const auto& entry : tolerance_names) tolerance.words.push_back(entry.first);
-    auto& precision =
-        options.choice("--precision", "numbers of the geometry; single: relative to the eye; double if not given",
-                       settings.precision, precision_names);
-    precision.value = "double|single";  // the rest is for comparison
     options.choice("--quartic", {}, settings.quartic, quartic_names).for_comparison = true;
 }
 
@@ -107,17 +64,7 @@ void define_either(Options& options, Settings& settings) {
     auto& contraction = options.choice("--contraction", {}, settings.contraction, on_off);
     contraction.excludes = "--reference";
     contraction.for_comparison = true;
-    auto& wait = options.flag(
-        "--wait-for-device",
-        "wait until the GPU's kernels are compiled; if not given, the processor draws until then, with the same bits",
-        settings.wait_for_device);
-    wait.excludes = "--reference";
-    options
-        .count("--check",
-               "have the CPU reference trace the first batch of rays and every N-th after it, too, and end with status "
-               "7 if a bit differs; none if not given",
-               settings.check, 1, std::numeric_limits<unsigned>::max())
-        .excludes = "--reference";
+    define_members(options, settings, form::Concern::either);
 }
 
 Option& define_size(Options& options, int& width, int& height) {
@@ -157,56 +104,20 @@ void define(Options& options, RenderArguments& arguments) {
     output.letter = 'o';
     options.choice("--format", "format on standard output, a device or a pipe; exr if not given", arguments.format,
                    formats);
-    define_size(options, arguments.width, arguments.height);
-    options.number("--azimuth", "DEG", "direction of the eye, from +x about z; the scene's, or 35, if not given",
-                   arguments.azimuth, -unlimited, unlimited, "an angle in degrees");
-    options.number("--elevation", "DEG", "direction of the eye, upward; the scene's, or 25, if not given",
-                   arguments.elevation, -unlimited, unlimited, "an angle in degrees");
-    options.number("--perspective", "DEG", "angle of view, 0 is orthographic; the scene's, or 0, if not given",
-                   arguments.perspective, 0, 180, "an angle in degrees, from 0 to less than 180");
-    const auto vector = [&options](const char* name, const char* help, std::optional<Vec3>& target, const char* what) {
-        options.value(name, "X,Y,Z", help, target, parse_vector,
-                      std::string(what) + ": three numbers with commas between them, such as 10,0,-5");
-    };
-    vector("--center",
-           "middle of the picture, in millimetres; the scene's, or the middle of the model's box, if not given",
-           arguments.center, "a point");
-    auto parse_length = [](const std::string& text) {
-        auto number = parse_number(text);
-        return number && *number > 0 ? number : std::nullopt;
-    };
-    options.value(
-        "--view-size", "MM",
-        "height of the view at the middle of the picture; the scene's, or the diagonal of the model's box, if not "
-        "given. It zooms a parallel view, which shows everything before the viewing plane, lit as in the whole picture",
-        arguments.view_size, parse_length, "a length in millimetres, greater than 0");
-    vector(
-        "--eye",
-        "position of the eye, instead of azimuth and elevation; in a perspective it also gives the size of the view; a "
-        "parallel view has only the direction from it to the middle of the picture",
-        arguments.eye, "a point");
-    vector("--look-at", "point that the eye looks at, the middle of the picture: another name of --center",
-           arguments.look_at, "a point");
-    vector("--up", "direction that points upward in the picture; +z if not given", arguments.up, "a direction");
+    define_size(options, arguments.picture.width, arguments.picture.height);
+    define_members(options, arguments.picture.camera, form::Concern::picture,
+                   [&](const auto& member, Option& option) {
+                       option.accept = [accept = option.accept, &arguments, name = member.option.name](const auto& text) {
+                           arguments.given.insert(name);
+                           return accept(text);
+                       };
+                   });
     options.text("--view", "FILE",
                  "view as MGED's saveview writes it: viewsize, orientation and eye_pt; databases hold no views",
                  arguments.view);
-    options.each(
-        "--clip", "AXIS:OFFSET",
-        "cut away what is beyond the plane across the axis x, y or z at OFFSET mm; NX,NY,NZ:OFFSET: the points "
-        "p with n . p > OFFSET, n being the unit vector of NX,NY,NZ; up to six times",
-        arguments.clip, parse_plane, "a plane such as z:2.5 or 1,0,1:2.5");
+    define_members(options, arguments.picture, form::Concern::picture);
     define_looks(options, arguments.looks);
-    options.count("--samples", "rays a pixel, whose mean the colours are; 1 if not given", arguments.samples, 1, 256);
-    options.flag("--first-hit",
-                 "draw first hits only, several times faster: without the channels depth, partitions and overlap",
-                 arguments.first_hit);
-    options.flag("--transparent", "no background: red, green, blue and alpha are 0 where nothing is hit",
-                 arguments.transparent);
-    options.flag("--display-shading",
-                 "shade the model's colours as they are, as BRL-CAD does; if not given, they are decoded from sRGB to "
-                 "linear light first",
-                 arguments.settings.display_shading);
+    define_members(options, arguments.settings, form::Concern::picture);
     define_either(options, arguments.settings);
     options.text("--stats", "FILE",
                  "write the figures of the frame as JSON, times in milliseconds; - is standard output",
@@ -317,7 +228,7 @@ void define(Options& options, InfoArguments& arguments) {
 void define(Options& options, ConvertArguments& arguments) {
     options.argument("IN", scene_help, arguments.input);
     options.argument("OUT", "FILE.json to write; - is standard output", arguments.output);
-    define_load(options, arguments.load);
+    define_members(options, arguments.load, form::Concern::model);
 }
 
 struct Entry {

@@ -46,8 +46,11 @@ Option& Options::add(std::string name, std::string type, std::string help, std::
     return option;
 }
 
-Option& Options::flag(std::string name, std::string help, bool& target) {
-    return add(std::move(name), {}, std::move(help), {}, [&target](const std::string&) { return target = true; });
+Option& Options::flag(std::string name, std::string help, bool& target, bool value) {
+    return add(std::move(name), {}, std::move(help), {}, [&target, value](const std::string&) {
+        target = value;
+        return true;
+    });
 }
 
 Option& Options::text(std::string name, std::string type, std::string help, std::string& target) {

@@ -32,7 +32,7 @@ struct Option {
 /// The options of one command. Targets must outlive it.
 class Options {
 public:
-    Option& flag(std::string name, std::string help, bool& target);
+    Option& flag(std::string name, std::string help, bool& target, bool value = true);
 
     /// `read` turns text into an optional that is empty for a wrong value.
     template <class Target, class Parse>

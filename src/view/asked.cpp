@@ -7,7 +7,7 @@
 
 #include <csgrt/error.hpp>
 
-#include "base/shell_word.hpp"
+#include "form/requests.hpp"
 
 namespace csgrt {
 
@@ -40,8 +40,6 @@ Camera read_camera(const Request& request) {
     camera.view_size = request.number("view_size");
     return camera;
 }
-
-std::string text_of(const Vec3& v) { return decimal(v.x) + "," + decimal(v.y) + "," + decimal(v.z); }
 
 }  // namespace
 
@@ -128,6 +126,15 @@ Asked read_asked(const Request& request) {
         if (one.has("color")) look.color = one.vector("color");
         asked.looks.push_back(std::move(look));
     }
+    form::for_members(form::of<View>, [&](const auto& member) {
+        auto& value = asked.view.*member.at;
+        const std::string name(member.key.member);
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, bool>) {
+            if (view.has(name.c_str())) value = view.flag(name.c_str());
+        } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Whole>) {
+            if (view.has(name.c_str())) value = view.count(name.c_str(), member.kind.low, member.kind.high);
+        }
+    });
     if (view.has("show")) asked.show = named(shows, view, "show");
     asked.view.width = asked.view.height = 1;
     if (request.has("width")) {
@@ -153,28 +160,5 @@ std::string_view name_of(State state) {
 }
 
 Json to_json(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-std::string command_options(const Asked& asked) {
-    const Camera& camera = asked.view.camera;
-    std::string text = " --size " + std::to_string(asked.view.width) + "x" + std::to_string(asked.view.height) +
-                       " --azimuth " + decimal(camera.azimuth) + " --elevation " + decimal(camera.elevation) +
-                       " --perspective " + decimal(camera.perspective);
-    if (camera.center) text += " --center " + text_of(*camera.center);
-    if (camera.view_size) text += " --view-size " + decimal(*camera.view_size);
-    if (asked.view.samples > 1) text += " --samples " + std::to_string(asked.view.samples);
-    for (const Plane& plane : asked.view.clip)
-        text += " --clip " + text_of(plane.normal) + ":" + decimal(plane.distance);
-    for (const Look& look : asked.looks) {
-        if (look.state)
-            text += std::string(*look.state == State::shown ? " --show " : " --hide ") + shell_word(look.path);
-        if (look.color) text += " --color " + shell_word(look.path + ":" + text_of(*look.color));
-    }
-    return text;
-}
-
-std::string decimal(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 }  // namespace csgrt

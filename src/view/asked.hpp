@@ -63,9 +63,5 @@ Json to_json(const Vec3& v);
 /// As requests have it.
 std::string_view name_of(State state);
 
-/// The options of the command that draws the same: " --size 800x600 --azimuth 35 ...".
-std::string command_options(const Asked& asked);
-/// The shortest decimal that reads back to the same bits.
-std::string decimal(double value);
 
 }  // namespace csgrt

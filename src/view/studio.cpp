@@ -17,8 +17,8 @@
 #include <csgrt/edit.hpp>
 #include <csgrt/error.hpp>
 
-#include "base/method_options.hpp"
 #include "base/private_folder.hpp"
+#include "form/written_back.hpp"
 #include "scene/vector.hpp"
 #include "view/false_colors.hpp"
 
@@ -125,7 +125,7 @@ bool take(std::unique_lock<std::timed_mutex>& lock, const std::function<bool()>&
 
 Studio::Studio(Model model, const Settings& settings, ViewerOptions options)
     : options_(std::move(options)),
-      methods_(method_options(settings)),
+      methods_(options_text(Settings{.precision = settings.precision, .display_shading = settings.display_shading})),
       current_{.base = model, .paths = paths_of(model)},
       renderer_(model, [&] {
           Settings own = settings;
@@ -334,7 +334,7 @@ Json Studio::pick(const Request& request) {
             {{"in", distance(overlap.in)}, {"out", distance(overlap.out)}, {"regions", overlap.regions}});
     const Vec3 &o = pick.ray.origin, &d = pick.ray.direction;
     std::string ray;
-    for (const double value : {o.x, o.y, o.z, d.x, d.y, d.z}) ray += (ray.empty() ? "" : " ") + decimal(value);
+    for (const double value : {o.x, o.y, o.z, d.x, d.y, d.z}) ray += (ray.empty() ? "" : " ") + shortest(value);
     answer.update({{"ray", {{"origin", to_json(o)}, {"direction", to_json(d)}}},
                    {"partitions", std::move(partitions)},
                    {"overlaps", std::move(overlaps)},
@@ -343,7 +343,9 @@ Json Studio::pick(const Request& request) {
 }
 
 std::string Studio::picture_command(const Asked& asked) const {
-    return "csgrt " + options_.command + methods_ + command_options(asked);
+    View written = asked.view;
+    written.every_partition = true;  // the option chooses what is computed, which the file's type does in a command
+    return "csgrt " + options_.command + methods_ + drawing_options(written, asked.looks);
 }
 
 Json Studio::command(const Request& request) const {

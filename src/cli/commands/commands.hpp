@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -28,14 +29,10 @@ struct SceneArguments {
 struct RenderArguments : SceneArguments {
     std::vector<std::string> outputs;  ///< "-" is standard output
     std::string format;                ///< of "-": "exr" or "png"; empty: not given
-    int width = 1024, height = 1024;
-    std::optional<double> azimuth, elevation, perspective, view_size;  ///< absent: the scene's
-    std::optional<Vec3> center, eye, look_at, up;
-    std::string view;  ///< file of a saved view; empty: none
-    std::vector<Plane> clip;
+    View picture;                      ///< of its camera what `given` has; the rest is the scene's
+    std::set<std::string> given;       ///< the camera's options
+    std::string view;                  ///< file of a saved view; empty: none
     std::vector<Look> looks;
-    int samples = 1;  ///< a pixel
-    bool first_hit = false, transparent = false;
     std::string stats;  ///< file, "-" or empty
     int repeat = 1;
 };

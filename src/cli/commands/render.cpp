@@ -1,5 +1,6 @@
 // csgrt SCENE: one or more frames, written as pictures and figures.
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include <unistd.h>
@@ -8,15 +9,14 @@
 #include <csgrt/scene_io.hpp>
 
 #include "base/clock.hpp"
-#include "base/method_options.hpp"
 #include "commands.hpp"
 #include "cli/held_renderer.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
-#include "cli/text/partitions.hpp"
 #include "cli/progress.hpp"
 #include "cli/text/scene.hpp"
 #include "cli/text/statistics.hpp"
+#include "form/written_back.hpp"
 
 namespace csgrt::cli {
 
@@ -31,22 +31,17 @@ bool has_no_format(const std::string& path) { return path == "-" || (!names_form
 
 /// Refuses options that set one thing twice.
 void check_view(const RenderArguments& arguments) {
-    const std::pair<const char*, bool> given[] = {{"--azimuth", arguments.azimuth.has_value()},
-                                                  {"--elevation", arguments.elevation.has_value()},
-                                                  {"--center", arguments.center.has_value()},
-                                                  {"--look-at", arguments.look_at.has_value()},
-                                                  {"--view-size", arguments.view_size.has_value()},
-                                                  {"--eye", arguments.eye.has_value()},
-                                                  {"--up", arguments.up.has_value()}};
-    for (const auto& [option, is_given] : given)
-        if (is_given && !arguments.view.empty())
-            refuse(option, "cannot be combined with --view", "the saved view has the eye and what it sees");
-    if (arguments.eye && (arguments.azimuth || arguments.elevation))
-        refuse("--eye", std::string("cannot be combined with ") + (arguments.azimuth ? "--azimuth" : "--elevation"),
-               "the eye and what it looks at give the direction");
-    if (arguments.look_at && arguments.center)
-        refuse("--look-at", "cannot be combined with --center", "they are one point, the middle of the picture");
-    if (arguments.eye && arguments.view_size && arguments.perspective.value_or(0) > 0)
+    const auto is_given = [&](const char* option) { return arguments.given.contains(option); };
+    const auto exclude = [&](const char* option, std::initializer_list<const char*> others, const char* reason) {
+        for (const char* other : others)
+            if (is_given(option) && is_given(other)) refuse(option, std::string("cannot be combined with ") + other, reason);
+    };
+    for (const std::string& option : arguments.given)
+        if (option != "--perspective" && !arguments.view.empty())
+            refuse(option.c_str(), "cannot be combined with --view", "the saved view has the eye and what it sees");
+    exclude("--eye", {"--azimuth", "--elevation"}, "the eye and what it looks at give the direction");
+    exclude("--look-at", {"--center"}, "they are one point, the middle of the picture");
+    if (is_given("--eye") && is_given("--view-size") && arguments.picture.camera.perspective > 0)
         refuse("--view-size", "cannot be combined with --eye and --perspective", "these two give the size of the view");
 }
 
@@ -80,76 +75,22 @@ void check(const RenderArguments& arguments) {
 }
 
 Camera camera_of(const Scene& scene, const RenderArguments& arguments) {
+    const auto is_given = [&](const char* option) { return arguments.given.contains(option); };
     Camera camera = arguments.view.empty() ? scene.camera : load_view(arguments.view);
-    camera.perspective = arguments.perspective.value_or(camera.perspective);
-    if (arguments.azimuth || arguments.elevation) {  // in place of the scene's eye, and upright
-        camera.eye.reset();
-        camera.up.reset();
+    if (is_given("--azimuth") || is_given("--elevation")) camera.eye.reset();  // and upright
+    if (!camera.eye || is_given("--eye")) {
+        if (is_given("--azimuth") || is_given("--elevation") || is_given("--eye")) camera.up.reset();
     }
-    camera.azimuth = arguments.azimuth.value_or(camera.azimuth);
-    camera.elevation = arguments.elevation.value_or(camera.elevation);
-    if (arguments.eye) {
-        camera.eye = arguments.eye;
-        camera.up.reset();
+    if (is_given("--center") || is_given("--look-at")) {
+        camera.center.reset();
+        camera.look_at.reset();
     }
-    if (camera.eye && camera.perspective > 0) camera.view_size.reset();  // the scene's, or the saved view's
-    if (arguments.center || arguments.look_at) {
-        camera.center = arguments.center;
-        camera.look_at = arguments.look_at;
-    }
-    if (arguments.view_size) camera.view_size = arguments.view_size;
-    if (arguments.up) camera.up = arguments.up;
+    form::for_members(form::of<Camera>, [&](const auto& member) {
+        if (is_given(member.option.name)) camera.*member.at = arguments.picture.camera.*member.at;
+    });
+    if (camera.eye && camera.perspective > 0 && !is_given("--view-size")) camera.view_size.reset();  // the scene's
     return camera;
 }
-
-#ifdef CSGRT_HAVE_IMAGE
-/// The command that draws this picture, with the options that its pixels depend on. It is the same on every machine.
-std::string canonical_command(const RenderArguments& arguments, const Camera& camera, double tolerance) {
-    std::string text = "csgrt " + model_text(arguments) + " --size " + std::to_string(arguments.width) + "x" +
-                       std::to_string(arguments.height);
-    auto option = [&text](const char* name, double value) {
-        text += std::string(" ") + name + " ";
-        append_shortest(text, value);
-    };
-    auto vector = [&text](const char* name, const std::optional<Vec3>& v) {
-        if (!v) return;
-        text += std::string(" ") + name + " ";
-        append_shortest(text, v->x);
-        append_shortest(text += ",", v->y);
-        append_shortest(text += ",", v->z);
-    };
-    if (!camera.eye) {
-        option("--azimuth", camera.azimuth);
-        option("--elevation", camera.elevation);
-    }
-    option("--perspective", camera.perspective);
-    vector("--eye", camera.eye);
-    vector("--look-at", camera.look_at);
-    vector("--center", camera.center);
-    vector("--up", camera.up);
-    if (camera.view_size) option("--view-size", *camera.view_size);
-    option("--tolerance", tolerance);
-    text += method_options(arguments.settings) + model_options(arguments);
-    if (arguments.samples > 1) text += " --samples " + std::to_string(arguments.samples);
-    for (const Plane& plane : arguments.clip) {
-        vector("--clip", plane.normal);
-        append_shortest(text += ":", plane.distance);
-    }
-    for (const Look& look : arguments.looks) {
-        if (look.state) text += *look.state == State::hidden ? " --hide " : " --show ";
-        if (look.color) text += " --color ";
-        append_name(text, look.path);
-        if (!look.color) continue;
-        append_shortest(text += ":", look.color->x);
-        append_shortest(text += ",", look.color->y);
-        append_shortest(text += ",", look.color->z);
-    }
-    if (arguments.first_hit) text += " --first-hit";
-    if (arguments.transparent) text += " --transparent";
-    if (arguments.settings.display_shading) text += " --display-shading";
-    return text;
-}
-#endif
 
 /// Refuses a look of no region: the scene itself may have such looks, since regions come and go there.
 void check_looks(const std::vector<Look>& looks, const std::vector<RegionInfo>& regions) {
@@ -216,10 +157,9 @@ Status run(const RenderArguments& arguments) {
     prepare_devices(arguments.settings);
     Scene scene = load_with_progress(arguments.scene, arguments.load);
     double load = milliseconds_since(begin);
-    View view{arguments.width, arguments.height, camera_of(scene, arguments), !arguments.first_hit};
-    view.transparent = arguments.transparent;
-    view.clip = arguments.clip;
-    view.samples = arguments.samples;
+    View view = arguments.picture;
+    view.camera = camera_of(scene, arguments);
+    [[maybe_unused]] const View drawn = view;
     if (only_colors(arguments)) {
         view.every_partition = false;
         view.channels = channel::color;
@@ -228,7 +168,10 @@ Status run(const RenderArguments& arguments) {
     Statistics statistics = render_frames(scene, arguments, view, image);
     statistics.ms.load = load;
 #ifdef CSGRT_HAVE_IMAGE
-    image.attributes["csgrt:command"] = canonical_command(arguments, view.camera, statistics.tolerance);
+    image.attributes["csgrt:command"] = "csgrt " +
+        model_words(std::filesystem::path(arguments.scene).filename().string(), arguments.objects, arguments.load,
+                    arguments.settings, statistics.tolerance) +
+        drawing_options(drawn, arguments.looks);
     begin = Clock::now();
     for (const std::string& path : arguments.outputs) {
         write_image(image, path, arguments.format.empty() ? "exr" : arguments.format);

@@ -13,12 +13,11 @@
 #include <csgrt/viewer.hpp>
 
 #include "base/private_folder.hpp"
-#include "base/shell_word.hpp"
 #include "commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
-#include "cli/text/partitions.hpp"
 #include "cli/text/scene.hpp"
+#include "form/written_back.hpp"
 
 extern char** environ;
 
@@ -27,18 +26,6 @@ namespace csgrt::cli {
 namespace {
 
 #ifdef CSGRT_HAVE_VIEW
-/// The words behind `csgrt` that load the same model.
-std::string words_of(const ViewArguments& arguments) {
-    std::string text = shell_word(arguments.scene == "-" ? "SCENE" : arguments.scene);
-    for (const std::string& object : arguments.objects) text += " " + shell_word(object);
-    text += model_options(arguments);
-    if (arguments.settings.tolerance_rule != Tolerance::length)
-        text.append(" --tolerance ").append(name_of(tolerance_names, arguments.settings.tolerance_rule));
-    else if (arguments.settings.tolerance >= 0)
-        append_shortest(text += " --tolerance ", arguments.settings.tolerance);
-    return text;
-}
-
 void warn(const char* what) { std::fprintf(stderr, "csgrt: warning: %s\n", what); }
 
 /// The desktop's browser, and the file that it opens first: every user can read the arguments of a process, and the
@@ -96,7 +83,9 @@ Status run(const ViewArguments& arguments) {
     options.port = arguments.port;
     const bool is_input = arguments.scene == "-";
     options.name = is_input ? "standard input" : std::filesystem::path(arguments.scene).filename().string();
-    options.command = words_of(arguments);
+    Settings in_double = arguments.settings;  // as rays are shot; pictures have their precision besides
+    in_double.precision = Precision::double_;
+    options.command = model_words(is_input ? "SCENE" : arguments.scene, arguments.objects, arguments.load, in_double);
     if (!is_input) {
         options.file = arguments.scene;
         options.load = load_model;

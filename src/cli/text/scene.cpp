@@ -130,17 +130,6 @@ std::string model_text(const SceneArguments& arguments) {
     return text;
 }
 
-std::string model_options(const SceneArguments& arguments) {
-    std::string text;
-    if (arguments.settings.air) text += " --air";
-    if (arguments.load.strict) text += " --strict";
-    if (arguments.settings.max_instances > 0)
-        text += " --max-instances " + std::to_string(arguments.settings.max_instances);
-    if (arguments.settings.skip_unsupported) text += " --skip-unsupported";
-    for (const std::string& folder : arguments.load.file_folders) text += " --allow-files " + shell_word(folder);
-    return text;
-}
-
 std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*number)(double)) {
     std::size_t unbounded = 0;
     for (const RegionInfo& region : renderer.regions()) {

@@ -16,9 +16,6 @@ namespace csgrt::cli {
 /// (none: its top objects), blanks in names escaped.
 std::string model_text(const SceneArguments& arguments);
 
-/// The options on which the model depends, but for the tolerance: " --air --strict".
-std::string model_options(const SceneArguments& arguments);
-
 /// The box of the bounded regions, six numbers by `number`, with "to" and "mm" between and after them if `in_words`;
 /// "unbounded" or "empty" if there is none.
 std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*number)(double));

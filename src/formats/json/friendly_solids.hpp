@@ -9,7 +9,7 @@
 
 #include <csgrt/scene.hpp>
 
-#include "scene/solids/form.hpp"
+#include "form/form.hpp"
 
 namespace csgrt {
 

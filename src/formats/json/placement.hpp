@@ -6,7 +6,7 @@
 #include <csgrt/scene.hpp>
 
 #include "formats/json/node.hpp"
-#include "scene/solids/form.hpp"
+#include "form/form.hpp"
 
 namespace csgrt {
 

@@ -7,7 +7,7 @@
 
 #include "formats/json/lists.hpp"
 #include "formats/json/node.hpp"
-#include "scene/solids/form.hpp"
+#include "form/form.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "scene/solids/form.hpp"
+#include "form/requests.hpp"
 
 namespace csgrt {
 
@@ -81,24 +81,6 @@ inline constexpr auto of<Look> = Form{
              Other{R"({"oneOf": [{"$ref": "#/$defs/name", "description": "A name from 'materials'."},
                  {"$ref": "#/$defs/material"}]})"}),
     optional("state", nothing, states, "Whether pictures show them."),
-};
-
-template <>
-inline constexpr auto of<Camera> = Form{
-    plain("camera"),
-    optional("azimuth", &Camera::azimuth, number, "Degrees from +x about z."),
-    optional("elevation", &Camera::elevation, number, "Degrees upward."),
-    optional("perspective", &Camera::perspective, number,
-             Bounds{0, 180, true, false, "", "must be 0 (parallel), or an angle below 180 degrees"},
-             "Angle of view in degrees, across the height; 0 is parallel."),
-    optional("center", &Camera::center, lengths, "Centre of the picture; the centre of the model's box if not given."),
-    optional("size", &Camera::view_size, length, positive(),
-             "Height of the picture at its centre; the diagonal of the model's box if not given."),
-    optional("eye", &Camera::eye, lengths,
-             "Where the eye stands, in place of azimuth and elevation. With a perspective it gives the size, too; a "
-             "parallel view takes the direction from it."),
-    optional("look_at", &Camera::look_at, lengths, "Another name of center."),
-    optional("up", &Camera::up, axis, "What points upward in the picture; +z if not given."),
 };
 
 template <>

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "scene/solids/form.hpp"
+#include "form/form.hpp"
 
 namespace csgrt::form {
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/json/write/unit.hpp"
-#include "scene/solids/form.hpp"
+#include "form/form.hpp"
 #include "scene/vector.hpp"
 
 namespace csgrt {

@@ -1,6 +1,7 @@
-// How the members of a struct are described: once, for all that goes over them, which are JSON's reader and writer, the
-// schema and the checks. A description, form::of<S>, has a line a member: its keys, where it is in the struct,
-// its kind, what is allowed, and what it means.
+// How the members of a struct are described: once, for all that goes over them. Of a scene these are JSON's reader and
+// writer, the schema and the checks; of what a caller asks for (requests.hpp), the command's options, C's structs,
+// Python's attributes and the page's requests. A description, form::of<S>, has a line a member: its keys, where it is in
+// the struct, its kind, what is allowed, and what it means.
 #pragma once
 
 #include <array>
@@ -76,6 +77,22 @@ struct Cells {
 struct Placement {
     std::array<bool, 4> lengths;
 };
+/// A whole number of a type of its own, from `low` on, which stands for "not given" where it is 0 and `low` is not.
+struct Amount {
+    std::uint64_t low = 0, high = std::numeric_limits<std::uint64_t>::max();
+};
+struct Bytes {};  ///< of memory, which the command takes as "2G", too
+struct Texts {};
+struct Planes {};
+/// One of a table's values, which has a name (csgrt/method.hpp).
+template <class Names>
+struct Named {
+    const Names* names;
+};
+template <class Names>
+Named(const Names*) -> Named<Names>;
+/// What each interface has by hand.
+struct Special {};
 /// What only the schema is told; its reader is written by hand.
 struct Other {
     const char* schema;
@@ -93,6 +110,11 @@ inline constexpr Text text{};
 inline constexpr Name name{};
 inline constexpr Triangle triangle{};
 inline constexpr Direction direction{true}, normal{false};
+inline constexpr Amount amount{};
+inline constexpr Bytes bytes{};
+inline constexpr Texts texts{};
+inline constexpr Planes planes{};
+inline constexpr Special special{};
 inline constexpr Whole byte{0, 255};
 inline constexpr Whole integer{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 template <class S>
@@ -159,8 +181,31 @@ enum class Given : std::uint8_t {
 struct Key {
     std::string_view json;
     const char* brlcad = "";
+    std::string_view member = json;  ///< in C++, C and Python
     constexpr Key(std::string_view in_json) : json(in_json) {}
     constexpr Key(const char* in_json, const char* in_brlcad = "") : json(in_json), brlcad(in_brlcad) {}
+    constexpr Key(const char* in_json, const char* in_brlcad, const char* in_code)
+        : json(in_json), brlcad(in_brlcad), member(in_code) {}
+};
+
+/// What a member concerns: a command has the options of some of these groups.
+enum class Concern : std::uint8_t {
+    model,    ///< what the model is
+    work,     ///< who computes, and with how much
+    either,   ///< the same, of commands that compute on a device or on the reference
+    picture,  ///< what a picture shows
+};
+
+/// The command's option that sets a member. No name: there is none, or it is made by hand.
+struct Option {
+    Concern concern = Concern::picture;
+    const char* name = "";
+    const char* value = "";     ///< what its value is called; flags and choices need none
+    const char* absent = "";    ///< what holds "if not given"
+    const char* expected = "";  ///< what a wrong value is not; "": as the kind says
+    const char* excludes = "";  ///< another option's name
+    bool changes_answers = true;
+    bool is_off = false;  ///< a flag that sets false
 };
 
 /// `At`: a pointer to the member, or what is called with the struct.
@@ -172,6 +217,7 @@ struct Member {
     Kind kind;
     Rule rule;
     const char* help;
+    Option option = {};
 };
 
 /// No member: what goes over the members passes over it.
@@ -197,6 +243,15 @@ struct Maker {
     template <class At, class Kind>
     constexpr Member<given, At, Kind, Any> operator()(Key key, At at, Kind kind, const char* help = "") const {
         return {key, at, kind, {}, help};
+    }
+    template <class At, class Kind>
+    constexpr Member<given, At, Kind, Any> operator()(Key key, At at, Kind kind, const char* help, Option option) const {
+        return {key, at, kind, {}, help, option};
+    }
+    template <class At, class Kind, class Rule>
+    constexpr Member<given, At, Kind, Rule> operator()(Key key, At at, Kind kind, Rule rule, const char* help,
+                                                       Option option) const {
+        return {key, at, kind, rule, help, option};
     }
     template <class At, class Kind, class Rule>
     constexpr Member<given, At, Kind, Rule> operator()(Key key, At at, Kind kind, Rule rule,

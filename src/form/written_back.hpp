@@ -1,0 +1,115 @@
+// The command that draws a picture again, from what drew it: for pictures, the page and Python. Its options are those
+// that the descriptions have; what one option says about two members, or several options about one, is here.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/shell_word.hpp"
+#include "form/requests.hpp"
+
+namespace csgrt {
+
+/// The shortest decimal that is read as the same double.
+inline std::string shortest(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+inline std::string shortest(const Vec3& v) { return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z); }
+
+/// " --samples 4": one member's option, as the command reads it. `usual`: what needs no option.
+template <class Member, class Value>
+std::string option_text(const Member& member, const Value& value, const std::optional<Value>& usual = {}) {
+    const std::string name = std::string(" ") + member.option.name;
+    if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+        std::string text;
+        for (const std::string& one : value) text += name + " " + shell_word(one);
+        return text;
+    } else if constexpr (std::is_same_v<Value, std::vector<Plane>>) {
+        std::string text;
+        for (const Plane& plane : value) text += name + " " + shortest(plane.normal) + ":" + shortest(plane.distance);
+        return text;
+    } else {
+        if (usual && *usual == value) return {};
+        if constexpr (std::is_same_v<Value, bool>) {
+            return value == !member.option.is_off ? name : std::string();
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+            return name + " " + shell_word(value);
+        } else if constexpr (std::is_enum_v<Value>) {
+            return name + " " + std::string(name_of(*member.kind.names, value));
+        } else if constexpr (std::is_integral_v<Value>) {
+            return name + " " + std::to_string(value);
+        } else {
+            return name + " " + shortest(value);
+        }
+    }
+}
+
+/// The options for all that changes answers and is not as usual.
+template <class S>
+std::string options_text(const S& given) {
+    const S usual{};
+    std::string text;
+    form::for_members(form::of<S>, [&](const auto& member) {
+        if constexpr (std::is_member_object_pointer_v<decltype(member.at)>) {
+            using Value = std::remove_cvref_t<decltype(given.*member.at)>;
+            if constexpr (!std::is_same_v<Value, Camera> && !std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Special>) {
+                if (*member.option.name && member.option.changes_answers)
+                    text += option_text(member, given.*member.at, std::optional<Value>(usual.*member.at));
+            }
+        }
+    });
+    return text;
+}
+
+/// Whole, since a scene may have a camera of its own. An eye has no angles.
+inline std::string options_text(const Camera& camera) {
+    std::string text;
+    form::for_members(form::of<Camera>, [&](const auto& member) {
+        const auto& value = camera.*member.at;
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+            const bool is_angle_of_eye = &value != &camera.perspective;
+            if (!(camera.eye && is_angle_of_eye)) text += option_text(member, value);
+        } else if (value) {
+            text += option_text(member, *value);
+        }
+    });
+    return text;
+}
+
+inline std::string options_text(const std::vector<Look>& looks) {
+    std::string text;
+    for (const Look& look : looks) {
+        if (look.state) text += (*look.state == State::shown ? " --show " : " --hide ") + shell_word(look.path);
+        if (look.color) text += " --color " + shell_word(look.path + ":" + shortest(*look.color));
+    }
+    return text;
+}
+
+/// `tolerance`: millimetres; none: the settings' own rule.
+inline std::string tolerance_text(const Settings& settings, std::optional<double> tolerance = {}) {
+    if (tolerance) return " --tolerance " + shortest(*tolerance);
+    if (settings.tolerance_rule != Tolerance::length)
+        return " --tolerance " + std::string(name_of(tolerance_names, settings.tolerance_rule));
+    return settings.tolerance >= 0 ? " --tolerance " + shortest(settings.tolerance) : std::string();
+}
+
+/// What stands behind `csgrt` to load a model: a file, objects of it and options.
+inline std::string model_words(const std::string& scene, const std::vector<std::string>& objects,
+                               const LoadOptions& load, const Settings& settings,
+                               std::optional<double> tolerance = {}) {
+    std::string text = shell_word(scene);
+    for (const std::string& object : objects) text += " " + shell_word(object);
+    return text + options_text(load) + options_text(settings) + tolerance_text(settings, tolerance);
+}
+
+/// What stands behind that to draw.
+inline std::string drawing_options(const View& view, const std::vector<Look>& looks) {
+    return " --size " + std::to_string(view.width) + "x" + std::to_string(view.height) + options_text(view.camera) +
+           options_text(view) + options_text(looks);
+}
+
+}  // namespace csgrt
