@@ -41,8 +41,7 @@ it errs. Its distance errors are some 10<sup>8</sup> times as large.
 <li><b>To agree with BRL-CAD: <code>--tolerance 0.0005</code></b>, which its files contain. Thinner parts vanish.
 <li><b>To ignore a file's tolerance and use its numbers as they are: <code>--tolerance surfaces</code>.</b>
 <li><b>Never: <code>single-world</code>, <code>ferrari</code>, <code>bracketed-unshifted</code>,
-<code>--tolerance none</code>.</b> They are here to show their failures. Use <code>--contraction on</code> only if the
-bits of different devices need not agree.
+<code>--tolerance none</code>.</b> They are here to show their failures.
 </ul>"""
 
 HOW = """<p>Every method shoots the same rays: a grid of the default view of each model and scene, and the rays of the

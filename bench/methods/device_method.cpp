@@ -4,6 +4,7 @@
 #include <limits>
 #include <mutex>
 
+#include "base/laboratory.hpp"
 #include "compile/frame.hpp"
 #include "compile/lists/ray_list.hpp"
 #include "device/choice.hpp"
@@ -73,7 +74,7 @@ public:
     DeviceTracer(const Subject& subject, const TraceOptions& options, DeviceMethod method)
         : scene_(subject.compiled),
           method_(std::move(method)),
-          kernels_(make_kernels(scene_, Precision::double_, Quartic::bracketed)),
+          kernels_(make_kernels(scene_)),
           device_(compiling_device(method_.name, options.device)),
           scene_tables_(device_, scene_, kernels_->tables()),
           tables_(device_, "the method's tables", tables_of(scene_, method_)),
@@ -82,7 +83,7 @@ public:
           evaluation_{method_.kernel, source(),
                       [this](Kernel& kernel, const PartitionPass::Input& input, PartitionMemory& memory,
                              std::uint32_t segments) { return launch(kernel, input, memory, segments); }},
-          pass_(device_, scene_, *kernels_, Settings{}, &evaluation_) {
+          pass_(device_, scene_, *kernels_, with({.evaluation = &evaluation_})) {
         most_rays_ = batch_rays;
         if (method_.ray_words == 0) return;
         const std::uint64_t bytes = method_.ray_words * sizeof(std::uint32_t);
@@ -178,7 +179,7 @@ private:
     SceneTables scene_tables_;
     Buffer tables_, memory_;
     BatchBuffers batch_;
-    PartitionPass::Evaluation evaluation_;
+    Evaluation evaluation_;
     PartitionPass pass_;
     std::uint32_t most_rays_ = 0;
     PipelineCounts counts_;

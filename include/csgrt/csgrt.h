@@ -86,9 +86,8 @@ typedef struct csgrt_plane {
 /// Gets `user` and the done fraction, on the thread whose call it is. 0 ends the call (CSGRT_ERROR_INTERRUPTED).
 typedef int (*csgrt_progress)(void* user, double done);
 
-// Values of the members precision, quartic and tolerance_rule, as csgrt/method.hpp has them.
-enum { CSGRT_PRECISION_DOUBLE, CSGRT_PRECISION_SINGLE, CSGRT_PRECISION_SINGLE_WORLD, CSGRT_PRECISION_QUAD };
-enum { CSGRT_QUARTIC_BRACKETED, CSGRT_QUARTIC_BRACKETED_UNSHIFTED, CSGRT_QUARTIC_FERRARI, CSGRT_QUARTIC_YUKSEL };
+// Values of the members precision and tolerance_rule, as csgrt/method.hpp has them.
+enum { CSGRT_PRECISION_DOUBLE, CSGRT_PRECISION_SINGLE, CSGRT_PRECISION_QUAD };
 enum { CSGRT_TOLERANCE_LENGTH, CSGRT_TOLERANCE_SURFACES, CSGRT_TOLERANCE_RELATIVE, CSGRT_TOLERANCE_NONE };
 
 /// csgrt::Settings. NULL in place of a pointer to it: the defaults.
@@ -98,7 +97,7 @@ typedef struct csgrt_settings {
     int reference, wait_for_device;
     double device_timeout;  ///< seconds; negative: 60 for a GPU
     uint64_t max_memory, max_instances;
-    int precision, quartic, contraction, tolerance_rule;
+    int precision, tolerance_rule;
     double tolerance;  ///< millimetres; negative: the scene's
     int air, skip_unsupported, display_shading;
     unsigned check, threads;
@@ -589,7 +588,7 @@ CSGRT_API void csgrt_verification_init(csgrt_verification* verification);
 
 // clang-format off
 #define CSGRT_DIAGNOSTIC {sizeof(csgrt_diagnostic), "", "", "", "", "", 0, 0, -1, 1, 0}
-#define CSGRT_SETTINGS {sizeof(csgrt_settings), "", 0, 0, -1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, NULL, NULL}
+#define CSGRT_SETTINGS {sizeof(csgrt_settings), "", 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, NULL, NULL}
 #define CSGRT_DEVICE_INFO {sizeof(csgrt_device_info), "", "", "", "", "", 0, 0, 0, 0}
 #define CSGRT_LOAD_OPTIONS {sizeof(csgrt_load_options), 0, NULL, 0}
 #define CSGRT_OBJECT(object) {CSGRT_LEAF, 0, object, NULL, NULL}

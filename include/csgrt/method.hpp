@@ -1,5 +1,4 @@
-// The numerical methods that a scene can be rendered with, for comparisons between them. The default of each is the one
-// to use.
+// The numerical methods that a scene can be rendered with. The default of each is the one to use.
 #pragma once
 
 #include <cstddef>
@@ -8,20 +7,11 @@
 
 namespace csgrt {
 
-/// The number type in which rays are intersected with solids. Devices and the reference have the first three.
+/// The number type in which rays are intersected with solids. Devices and the reference have the first two.
 enum class Precision {
-    double_,       ///< 64-bit floats throughout
-    single,        ///< 32-bit floats relative to the eye: differences of doubles, rounded once
-    single_world,  ///< 32-bit floats throughout, in the model's coordinates
-    quad,          ///< 113 bits, on the reference only: shows the rounding errors of the others
-};
-
-/// How quartic equations are solved: those of tor, eto and cones with two tapers.
-enum class Quartic {
-    bracketed,            ///< origin at the ray's point closest to the solid; roots lie between the derivative's
-    bracketed_unshifted,  ///< the same with the ray's own origin
-    ferrari,              ///< closed form
-    yuksel,               ///< brackets and Newton's method to a stated error (Yuksel 2022)
+    double_,  ///< 64-bit floats throughout
+    single,   ///< 32-bit floats relative to the eye: differences of doubles, rounded once
+    quad,     ///< 113 bits, on the reference only: shows the rounding errors of the others
 };
 
 /// Which ends of segments along one ray count as the same point.
@@ -32,26 +22,15 @@ enum class Tolerance {
     none,      ///< ends at equal distances only
 };
 /// For Tolerance::relative: a share of the diameter of a sphere around the scene's bounded solids, without a unit.
-constexpr double relative_tolerance(Precision precision) {
-    return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-9;
-}
+constexpr double relative_tolerance(Precision precision) { return precision == Precision::single ? 1e-6 : 1e-9; }
 /// What rounding may separate where one surface is computed in two ways (a ball and the end of a part), as a share of
 /// the same diameter.
-constexpr double rounding_tolerance(Precision precision) {
-    return precision == Precision::single || precision == Precision::single_world ? 1e-6 : 1e-12;
-}
+constexpr double rounding_tolerance(Precision precision) { return precision == Precision::single ? 1e-6 : 1e-12; }
 
 /// The names in the command line and in figures.
 inline constexpr std::pair<std::string_view, Precision> precision_names[] = {
     {"double", Precision::double_},
     {"single", Precision::single},
-    {"single-world", Precision::single_world},
-};
-inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
-    {"bracketed", Quartic::bracketed},
-    {"bracketed-unshifted", Quartic::bracketed_unshifted},
-    {"ferrari", Quartic::ferrari},
-    {"yuksel", Quartic::yuksel},
 };
 inline constexpr std::pair<std::string_view, Tolerance> tolerance_names[] = {
     {"surfaces", Tolerance::surfaces},

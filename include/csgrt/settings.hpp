@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include <csgrt/method.hpp>
@@ -31,10 +32,6 @@ struct Settings {
     /// many as the scene's solids once each, if that is more. At most Limits::most_instances.
     std::uint64_t max_instances = 0;
     Precision precision = Precision::double_;  ///< Numbers of the geometry; single ones are relative to the eye.
-    Quartic quartic = Quartic::bracketed;
-    /// On a device only: its compiler may contract a product and a sum into one operation (fma). Results then differ
-    /// from the reference's.
-    bool contraction = false;
     Tolerance tolerance_rule = Tolerance::length;  ///< Which ends of segments along a ray count as one.
     double tolerance = -1;  ///< Millimetres along a ray, for the rule of a length; negative: the scene's.
     bool air = false;       ///< Regions of air are part of the model.
@@ -46,7 +43,7 @@ struct Settings {
     bool display_shading = false;
     /// The CPU reference traces the first batch of rays and every N-th after it as well, and a call whose bits differ
     /// fails. It throws Error (device_fault) that names the pixel and the channel, or the ray. 0: none. Batches are as
-    /// large as the device's memory and kind allow, and the reference is slower by far. Not with `contraction`.
+    /// large as the device's memory and kind allow, and the reference is slower by far.
     unsigned check = 0;
     /// Threads that work on processors at a time, for all calls together. They are those of the reference, a native
     /// device, the compilation of the scene and pixels on their way into a picture. 0: one for each processor.
@@ -57,6 +54,8 @@ struct Settings {
     /// that takes longer and for a driver that compiles kernels; on a GPU after the kernels that are queued. The answer
     /// to the last call changes nothing. It must not use the object whose call it reports.
     std::function<bool(double)> progress = {};
+    /// Empty. csgrt's own benchmarks compare methods by it; no public header makes one.
+    std::shared_ptr<const struct Laboratory> laboratory = {};
 };
 
 }  // namespace csgrt

@@ -15,10 +15,8 @@ struct Statistics {
     std::string awaited_device = {};
     std::string precision = {};  ///< as in precision_names, or "quad"
     std::string method = {};     ///< a few words
-    std::string quartic = {};    ///< as in quartic_names
     double tolerance = 0;        ///< millimetres: the one that Settings::tolerance_rule gave
-    bool contraction = false;
-    int width = 0, height = 0;  ///< of the picture, pixels; 0 for rays
+    int width = 0, height = 0;   ///< of the picture, pixels; 0 for rays
     std::uint64_t rays = 0;
     std::uint64_t ends = 0;      ///< of segments along all rays
     std::uint64_t segments = 0;  ///< intervals of rays inside single solids

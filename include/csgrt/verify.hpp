@@ -88,8 +88,7 @@ struct Verification {
 class CSGRT_API Verifier {
 public:
     /// As Renderer's. With `settings.reference` only the reference is verified. Throws what Renderer throws, and Error
-    /// (usage) for contraction, which changes bits on purpose, and for 113 bits, which are what others are compared
-    /// with.
+    /// (usage) for 113 bits, which are what others are compared with.
     explicit Verifier(const Scene& scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
     ~Verifier();
     Verifier(Verifier&&) noexcept;

@@ -108,10 +108,7 @@ public:
     template <class Call>
     void trace(std::size_t count, const Call& call) {
         constexpr std::size_t few = 64;
-        const Settings standard;
-        const bool has_model_s_bits = settings_.precision == standard.precision &&
-                                      settings_.quartic == standard.quartic &&
-                                      settings_.contraction == standard.contraction && settings_.check == 0;
+        const bool has_model_s_bits = settings_.precision == Settings().precision && settings_.check == 0;
         if (count > few || !has_model_s_bits || settings_.reference) return run(call);
         const Model few_rays = model();
         nb::gil_scoped_release unlocked;

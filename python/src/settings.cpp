@@ -41,10 +41,8 @@ void bind_settings(nb::module_& module) {
         .def_rw("tolerance", &Settings::tolerance, "Millimetres; negative: the scene's")
         .def_rw("air", &Settings::air, "Regions of air are part of the model")
         .def_rw("skip_unsupported", &Settings::skip_unsupported, "Solids of unknown types are left out, with a warning")
-        .def_rw("display_shading", &Settings::display_shading, "Shade display values, as BRL-CAD does")
-        .def_rw("contraction", &Settings::contraction, "A device may use fma; bits differ from the reference's");
-    named(settings, "precision", &Settings::precision, precision_names, "double, single or single-world");
-    named(settings, "quartic", &Settings::quartic, quartic_names, "How quartic equations are solved");
+        .def_rw("display_shading", &Settings::display_shading, "Shade display values, as BRL-CAD does");
+    named(settings, "precision", &Settings::precision, precision_names, "double or single");
     named(settings, "tolerance_rule", &Settings::tolerance_rule, tolerance_names, "surfaces, relative or none");
 
     nb::class_<Camera>(module, "Camera", "From where a picture is taken. Millimetres, degrees.")

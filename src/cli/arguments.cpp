@@ -15,7 +15,6 @@ namespace csgrt::cli {
 
 namespace {
 
-constexpr std::pair<std::string_view, bool> on_off[] = {{"on", true}, {"off", false}};
 constexpr const char* scene_help =
     "scene file: .json, .g or .asc; - is standard input, whose first bytes tell the format";
 constexpr std::pair<std::string_view, const char*> formats[] = {{"exr", "exr"}, {"png", "png"}};
@@ -55,15 +54,11 @@ void define_settings(Options& options, Settings& settings) {
         settings.tolerance_rule, parse_tolerance,
         "a length in millimetres, 0 or more, 'surfaces', 'relative' or 'none'");
     for (const auto& entry : tolerance_names) tolerance.words.push_back(entry.first);
-    options.choice("--quartic", {}, settings.quartic, quartic_names).for_comparison = true;
 }
 
 /// Of commands that compute either on a device or on the reference.
 void define_either(Options& options, Settings& settings) {
     define_settings(options, settings);
-    auto& contraction = options.choice("--contraction", {}, settings.contraction, on_off);
-    contraction.excludes = "--reference";
-    contraction.for_comparison = true;
     define_members(options, settings, form::Concern::either);
 }
 
@@ -216,9 +211,6 @@ void define(Options& options, CompareArguments& arguments) {
 
 void define(Options&, DevicesArguments&) {}
 
-/// `csgrt methods`, the only command that prints a text and nothing else.
-void define(Options&, TextArguments& arguments) { arguments.text = methods_notes + 1; }  // without the first line break
-
 void define(Options& options, InfoArguments& arguments) {
     define_scene(options, arguments);
     options.count("--depth", "levels of the tree to show; 2 if not given", arguments.depth, 0, Limits::nesting);
@@ -282,7 +274,6 @@ constexpr Entry entries[] = {
     entry<DevicesArguments>("devices", "csgrt devices", "list the devices", devices_notes),
     entry<InfoArguments>("info", "csgrt info SCENE [OBJECT...]", "show what a scene holds", info_notes),
     entry<ConvertArguments>("convert", "csgrt convert IN OUT.json", "rewrite a scene as JSON", convert_notes),
-    entry<TextArguments>("methods", "csgrt methods", "list the methods that are kept for comparison", methods_notes),
 };
 constexpr const Entry& render_entry = entries[0];  ///< its name may be left out
 

@@ -4,8 +4,6 @@
 namespace csgrt::cli {
 
 inline constexpr const char* render_notes = R"(
-Methods that are kept for comparison have options of their own: 'csgrt help methods'.
-
 Lengths are millimetres, whatever unit the scene's file has; angles are degrees.
 
 An EXR holds these channels, 32-bit floats:
@@ -26,8 +24,6 @@ A picture, and the partitions along one ray:
 )";
 
 inline constexpr const char* shoot_notes = R"(
-Methods that are kept for comparison have options of their own: 'csgrt help methods'.
-
 A ray is a line of six numbers, separated by blanks: ox oy oz dx dy dz. Blank lines are skipped, and
 # begins a comment.
   ox oy oz       origin, millimetres (whatever unit the scene's file has), each at most 1e18
@@ -81,8 +77,6 @@ nothing has no row.
 )";
 
 inline constexpr const char* sample_notes = R"(
-Methods that are kept for comparison have options of their own: 'csgrt help methods'.
-
 Lengths are millimetres. A region is given by its index as in 'csgrt info --json'; -1: no region
 holds the point; -2, of a pixel: several do, which overlap. Of regions that overlap at a point of
 --points the first counts. A plane is seen from the side to which its normal points, z up, or y
@@ -96,8 +90,6 @@ If any line of the points is wrong, all wrong lines are reported, and the exit s
 )";
 
 inline constexpr const char* verify_notes = R"(
-Methods that are kept for comparison have options of their own: 'csgrt help methods'.
-
 Rays and distances are as in 'csgrt help shoot'. Errors of distances are given in mm and in units of
 the last place. The exit status is 8 if any ray that rounding does not decide has wrong regions, or
 if device and reference differ in any bit.
@@ -111,33 +103,8 @@ something does.
 
 inline constexpr const char* devices_notes = R"(
 Each entry begins with the number that --device takes. Memory is in GiB (2^30 bytes). Native devices
-have kernels for the default method only, compiled ahead; the kernels of other devices are compiled
+have kernels for double precision only, compiled ahead; the kernels of other devices are compiled
 when they are first used. A note names a driver that cannot be used.
-)";
-
-/// Also what `csgrt methods` prints.
-inline constexpr const char* methods_notes = R"(
-The default method is the one to use: double precision, bracketed quartics, no contraction. The
-others are kept to be measured against it: bench/make_chart charts their times and errors. They need
-an OpenCL device or --reference. render and shoot take all options below, verify all but
---contraction.
-
-  Precision: the numbers in which rays meet solids.
-  --precision double             the default
-  --precision single             float, relative to the eye: rays and places of solids are double,
-                                 and their difference is rounded to float once
-  --precision single-world       float throughout, in the coordinates of the world
-
-  Quartics: how tor, eto and cones with two tapers are solved.
-  --quartic bracketed            the default: the origin is moved to the closest approach, and the
-                                 roots lie between those of the derivative
-  --quartic bracketed-unshifted  the same, but the origin stays where the ray starts
-  --quartic ferrari              closed form
-  --quartic yuksel               brackets and Newton, to a stated error (Yuksel 2022)
-
-  Contraction: whether a device may round a product and a sum as one.
-  --contraction off              the default: every device and the reference have the same bits
-  --contraction on               results differ from device to device; not with --reference
 )";
 
 inline constexpr const char* view_notes = R"(

@@ -181,8 +181,7 @@ std::string Options::help() const {
     for (const Argument& argument : arguments_) text += help_row(argument.name, argument.help);
     if (rest_) text += help_row(rest_name_ + "...", rest_help_);
     if (!text.empty()) text += "\n";
-    for (const Option& option : options_)
-        if (!option.for_comparison) text += help_row(head(option), option.help);
+    for (const Option& option : options_) text += help_row(head(option), option.help);
     return text + help_row("-h, --help", "print this");
 }
 

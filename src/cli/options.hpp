@@ -25,8 +25,7 @@ struct Option {
     std::vector<std::string_view> words;             ///< values that are names; the nearest is suggested
     std::function<bool(const std::string&)> accept;  ///< sets the target; false: the value is not what was expected
     bool repeatable = false, required = false, given = false;
-    bool for_comparison = false;  ///< the help page of methods has it, not that of the command
-    std::string excludes;         ///< name of another option
+    std::string excludes;  ///< name of another option
 };
 
 /// The options of one command. Targets must outlive it.

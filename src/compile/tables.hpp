@@ -1,6 +1,7 @@
 // A compiled scene's tables as the kernels' geometry takes them.
 #pragma once
 
+#include "base/laboratory.hpp"
 #include "compile/compiled_scene.hpp"
 #include "kernel_host/geometry.hpp"
 

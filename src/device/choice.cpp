@@ -5,6 +5,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "base/laboratory.hpp"
 #include "base/letters.hpp"
 #include "scene/nearest.hpp"
 
@@ -50,21 +51,19 @@ std::string nearest_device(const std::vector<DeviceInfo>& devices, const std::st
     throw Error(Status::no_device, std::vector<Diagnostic>{finding});
 }
 
-/// Of a method that native devices have no kernels for.
+/// Of numbers, or of a method, that native devices have no kernels for.
 [[noreturn]] void refuse_native(const std::vector<DeviceInfo>& devices) {
-    refuse(devices,
-           "native devices have the kernels of the default method alone: double precision, bracketed quartics, no "
-           "contraction",
-           {},
-           "An OpenCL device has those of every method: on Debian and Ubuntu the package pocl-opencl-icd brings one "
-           "that runs on the processor. The CPU reference (--reference) has all but contraction.");
+    refuse(devices, "native devices have the kernels of double precision alone", {},
+           "An OpenCL device has those of single precision: on Debian and Ubuntu the package pocl-opencl-icd brings "
+           "one that runs on the processor. The CPU reference (--reference) has them, too.");
 }
 
 }  // namespace
 
 Kernels kernels_for(const Settings& settings) {
+    const Laboratory& methods = laboratory(settings);
     const bool is_default =
-        settings.precision == Precision::double_ && settings.quartic == Quartic::bracketed && !settings.contraction;
+        settings.precision == Precision::double_ && methods.quartic == Quartic::bracketed && !methods.contraction;
     return is_default ? Kernels::any : Kernels::compiled_by_device;
 }
 

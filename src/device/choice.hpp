@@ -8,8 +8,8 @@
 
 namespace csgrt {
 
-/// Whose kernels: any device's, or only those of a device that compiles them itself, as methods other than the default
-/// need (is_native).
+/// Whose kernels: any device's, or only those of a device that compiles them itself, as other methods than the
+/// default need, and single precision (is_native).
 enum class Kernels { any, compiled_by_device };
 Kernels kernels_for(const Settings& settings);
 

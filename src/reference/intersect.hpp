@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/laboratory.hpp"
 #include "compile/compiled_scene.hpp"
 
 namespace csgrt {

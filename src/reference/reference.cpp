@@ -43,19 +43,19 @@ struct Reference::Claims {
     std::size_t first_seen = SIZE_MAX;  ///< of `partitions`: the first one that ends behind t_min
 };
 
-std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Precision precision, Quartic quartic) {
-    if (precision == Precision::single) return make_single_kernels(scene, quartic);
-    if (precision == Precision::single_world) return make_single_world_kernels(scene, quartic);
-    if (precision == Precision::quad) return make_quad_kernels(scene, quartic);
-    return make_double_kernels(scene, quartic);
+std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, const Settings& settings) {
+    const Laboratory& methods = laboratory(settings);
+    if (settings.precision == Precision::single)
+        return (methods.single_world ? make_single_world_kernels : make_single_kernels)(scene, methods.quartic);
+    return (settings.precision == Precision::quad ? make_quad_kernels : make_double_kernels)(scene, methods.quartic);
 }
 
-std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, Precision precision,
-                                                      Quartic quartic) {
+std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, const Settings& settings) {
 #ifdef CSGRT_DOUBLE_FMA
-    if (precision == Precision::double_ && __builtin_cpu_supports("fma")) return make_fused_kernels(scene, quartic);
+    if (settings.precision == Precision::double_ && __builtin_cpu_supports("fma"))
+        return make_fused_kernels(scene, laboratory(settings).quartic);
 #endif
-    return make_kernels(scene, precision, quartic);
+    return make_kernels(scene, settings);
 }
 
 Ray ReferenceKernels::camera_ray(const kernel::Frame& frame, std::uint32_t x, std::uint32_t y) const {

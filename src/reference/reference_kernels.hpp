@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/laboratory.hpp"
 #include "compile/host_kernels.hpp"
 #include "compile/lists/rows.hpp"
 #include "reference/near_solids.hpp"
@@ -41,10 +42,10 @@ public:
                                     const kernel::End& end, bool leaves) const = 0;
 };
 
-/// `scene` must outlive the result. Precision::quad is on the host only.
-std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, Precision precision, Quartic quartic);
+/// By the settings' precision and methods. `scene` must outlive the result. Precision::quad is on the host only.
+std::unique_ptr<ReferenceKernels> make_kernels(const CompiledScene& scene, const Settings& settings = {});
 /// The same for a reference, which computes with them: by the instructions that this processor has. The same bits.
-std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, Precision precision, Quartic quartic);
+std::unique_ptr<ReferenceKernels> make_kernels_to_run(const CompiledScene& scene, const Settings& settings = {});
 
 std::unique_ptr<ReferenceKernels> make_double_kernels(const CompiledScene& scene, Quartic quartic);
 std::unique_ptr<ReferenceKernels> make_fused_kernels(const CompiledScene& scene, Quartic quartic);

@@ -127,7 +127,7 @@ const NativeTracer* CallerTracer::native() const {
 
 const Reference& CallerTracer::reference() const {
     std::call_once(has_reference_, [this] {
-        kernels_ = make_kernels_to_run(scene_, Precision::double_, Quartic::bracketed);
+        kernels_ = make_kernels_to_run(scene_);
         reference_.emplace(scene_, *kernels_);
     });
     return *reference_;

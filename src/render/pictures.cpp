@@ -217,8 +217,7 @@ void Renderer::Impl::render(const View& view, Framebuffer& framebuffer, const st
     image.attributes["csgrt:version"] = version();
     image.attributes["csgrt:title"] = model.impl_->source.scene->title;
     image.attributes["csgrt:precision"] = statistics.precision;
-    image.attributes["csgrt:method"] =
-        statistics.method + ", quartics " + statistics.quartic + (settings.contraction ? ", contraction" : "");
+    image.attributes["csgrt:method"] = statistics.method;
     image.attributes["csgrt:shading"] = settings.display_shading ? "display values" : "linear light";
     image.attributes["csgrt:scene_hash"] = hexadecimal(model.impl_->of(Claims::shown).hash);
     if (!scene().warnings.empty()) image.attributes["csgrt:warnings"] = warnings_attribute(scene().warnings);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/laboratory.hpp"
 #include "base/thread.hpp"
 #include "compile/lists/along_rays.hpp"
 #include "device/choice.hpp"
@@ -19,10 +20,8 @@ const Settings& checked(const Settings& settings) {
     check_numbers(settings);
     if (settings.precision == Precision::quad && !settings.reference)
         throw Error(Status::usage, "113-bit precision is on the reference only: no device has it");
-    if (settings.contraction && settings.reference)
+    if (laboratory(settings).contraction && settings.reference)
         throw Error(Status::usage, "contraction is on a device only: the reference rounds every operation");
-    if (settings.contraction && settings.check > 0)
-        throw Error(Status::usage, "contraction changes the last digits, which a check by the reference compares");
     return settings;
 }
 
@@ -46,8 +45,6 @@ Renderer::Renderer(Model model, const Settings& settings) : impl_(new Impl(std::
     prepare_devices(settings);
     impl.statistics.precision = name_of(precision_names, settings.precision);
     if (settings.precision == Precision::quad) impl.statistics.precision = "quad";
-    impl.statistics.contraction = settings.contraction;
-    impl.statistics.quartic = name_of(quartic_names, settings.quartic);
     impl.use_model(settings.reference);
     settings.reference ? impl.use_reference() : impl.set_up_devices();
     impl.statistics.device = impl.backend->name();
@@ -71,10 +68,8 @@ std::shared_ptr<const ModelInUse> Renderer::Impl::used(Claims claims, bool is_re
     if (&scene == &compiled->scene) claims = Claims::all;
     std::shared_ptr<const ModelInUse>& use = in_use[static_cast<std::size_t>(claims)];
     if (!use)
-        use = std::make_shared<ModelInUse>(
-            ModelInUse{compiled, scene,
-                       is_reference ? make_kernels_to_run(scene, settings.precision, settings.quartic)
-                                    : make_kernels(scene, settings.precision, settings.quartic)});
+        use = std::make_shared<ModelInUse>(ModelInUse{
+            compiled, scene, is_reference ? make_kernels_to_run(scene, settings) : make_kernels(scene, settings)});
     return use;
 }
 
@@ -142,9 +137,7 @@ void Renderer::Impl::start_call(std::uint64_t rays, bool every_partition, int wi
     fresh.device = statistics.device;
     fresh.precision = statistics.precision;
     fresh.method = backend->method(every_partition);
-    fresh.quartic = statistics.quartic;
     fresh.tolerance = tolerance;
-    fresh.contraction = statistics.contraction;
     fresh.ms.compile = statistics.ms.compile;
     fresh.ms.build = statistics.ms.build;
     fresh.rays = rays;

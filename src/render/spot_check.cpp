@@ -24,7 +24,7 @@ std::string text_of(float value) {
 
 const Reference& SpotCheck::reference(const CompiledScene& scene) {
     if (!reference_) {
-        kernels_ = make_kernels_to_run(scene, settings_.precision, settings_.quartic);
+        kernels_ = make_kernels_to_run(scene, settings_);
         reference_.emplace(scene, *kernels_);
     }
     return *reference_;

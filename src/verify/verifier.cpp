@@ -37,7 +37,7 @@ Settings on_reference(Settings settings) {
 Settings exact(const Settings& settings, double tolerance) {
     Settings result = on_reference(settings);
     result.precision = Precision::quad;
-    result.quartic = Quartic::bracketed;
+    result.laboratory = {};
     result.tolerance_rule = Tolerance::length;
     result.tolerance = tolerance;
     return result;
@@ -199,7 +199,6 @@ void Verifier::Impl::measure(const std::vector<Partition>& found, const Judged& 
 Verifier::Verifier(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
     : impl_(std::make_unique<Impl>()) {
     const FloatingPoint own_state;
-    if (settings.contraction) throw Error(Status::usage, "contraction changes the bits that a verification compares");
     if (settings.precision == Precision::quad)
         throw Error(Status::usage, "113-bit precision is what the others are judged by");
     Impl& impl = *impl_;

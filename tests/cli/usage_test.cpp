@@ -1,9 +1,4 @@
 // Every message about the command line itself: exit status 2, the option named, the nearest one suggested.
-#include <set>
-#include <sstream>
-
-#include <csgrt/method.hpp>
-
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 
@@ -52,21 +47,15 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{scene, "--tolerance", "-1", "--stats", "-"}, "--tolerance: '-1'"},
         {{scene, "--tolerance", "surfces", "--stats", "-"}, "did you mean 'surfaces'?"},
         {{scene, "--precision", "dubble", "--stats", "-"}, "did you mean 'double'?"},
-        {{scene, "--quartic", "ferari", "--stats", "-"}, "did you mean 'ferrari'?"},
         {{scene, "-o", "-", "--format", "epng"}, "did you mean 'png'?"},
         {{scene, "--tolerance", "some", "--stats", "-"}, "--tolerance: 'some' is not a length in millimetres"},
-        {{scene, "--precision", "quad", "--stats", "-"},
-         "--precision: 'quad' is not one of double|single|single-world"},
-        {{scene, "--contraction", "maybe", "--stats", "-"}, "--contraction: 'maybe' is not one of on|off"},
-        {{scene, "--contraction", "on", "--reference", "--stats", "-"},
-         "--contraction: cannot be combined with --reference"},
-        {{scene, "--quartic", "cardano", "--stats", "-"}, "--quartic: 'cardano' is not one of bracketed|"},
+        {{scene, "--precision", "quad", "--stats", "-"}, "--precision: 'quad' is not one of double|single"},
         {{scene, "--repeat", "0", "--stats", "-"}, "--repeat: '0'"},
         {{scene, "--threads", "0", "--stats", "-"}, "--threads: '0'"},
         {{scene, "--device", "cpu", "--reference", "--stats", "-"}, "--device: cannot be combined with --reference"},
         {{scene, "--air=yes", "--stats", "-"}, "--air: takes no value"},
         {{scene, "--siez", "4", "--stats", "-"}, "--siez: no such option\n  did you mean '--size'?"},
-        {{"render", scene, "--quartik", "ferrari"}, "--quartik: no such option\n  did you mean '--quartic'?"},
+        {{"render", scene, "--sampels", "4"}, "--sampels: no such option\n  did you mean '--samples'?"},
         {{scene, "-azimuth", "4", "--stats", "-"}, "did you mean '--azimuth'?"},
         {{scene, "--persp", "4", "--stats", "-"}, "did you mean '--perspective'?"},
         {{scene, "--azimuth", "1e400", "--stats", "-"}, "--azimuth: '1e400' is not an angle"},
@@ -86,7 +75,6 @@ TEST_CASE("a wrong command line is refused with what is wrong") {
         {{"verify", scene, "--rays", "10000001"}, "--rays: '10000001' is not a number"},
         {{"verify", scene, "--seed", "-1"}, "--seed: '-1'"},
         {{"verify", scene, "--precision", "quad"}, "--precision: 'quad' is not one of"},
-        {{"verify", scene, "--contraction", "on"}, "--contraction: no such option"},
         {{"compare", scene}, "B: missing"},
         {{"info", scene, "--depth", "many"}, "--depth: 'many'"},
         {{"convert", scene}, "OUT: missing"},
@@ -246,43 +234,12 @@ TEST_CASE("the name of the command render may be left out") {
     CHECK(run({"-h"}).out == all.out);
     CHECK(run({"help"}).out == all.out);
     for (const char* command :
-         {"render", "view", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "methods", "help"}) {
+         {"render", "view", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "help"}) {
         CAPTURE(command);
         CHECK(contains(all.out, std::string(command) + (command == std::string("render") ? "] " : " ")));
     }
     CHECK(refusal({"render", "scene.json", "--stats", "-"}).empty());
     CHECK(contains(refusal({"render", "--stats", "-"}), "SCENE: missing"));
-}
-
-TEST_CASE("csgrt methods lists the methods that are kept for comparison; help pages of commands do not") {
-    NEEDS_COMMAND();
-    const Result methods = run({"methods"});
-    CHECK(methods.status == 0);
-    std::set<std::string> expected = {"--contraction on", "--contraction off"}, listed;
-    for (const auto& entry : csgrt::precision_names) expected.insert("--precision " + std::string(entry.first));
-    for (const auto& entry : csgrt::quartic_names) expected.insert("--quartic " + std::string(entry.first));
-    std::istringstream lines(methods.out);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string option, value;
-        if (words >> option >> value && option.starts_with("--")) listed.insert(option + " " + value);
-    }
-    CHECK(listed == expected);
-    for (const std::string& method : expected) {
-        const std::size_t blank = method.find(' ');
-        CAPTURE(method);
-        CHECK(refusal({"scene.json", method.substr(0, blank), method.substr(blank + 1)}).empty());
-    }
-    CHECK(contains(run({"help", "methods"}).out, methods.out));
-    for (const char* command : {"render", "shoot", "sample", "verify"}) {
-        const std::string page = run({"help", command}).out;
-        CAPTURE(command);
-        CHECK(contains(page, "'csgrt help methods'"));
-        for (const char* word : {"--quartic", "--contraction", "single-world", "ferrari"}) {
-            CAPTURE(word);
-            CHECK(!contains(page, word));
-        }
-    }
 }
 
 TEST_CASE("--version prints one line") {

@@ -42,8 +42,7 @@ TEST_CASE("help says the units of each command, and one example of a picture and
     const std::pair<const char*, const char*> units[] = {
         {"verify", "in mm"}, {"compare", "mm for Z"}, {"devices", "GiB"}, {"info", "millimetres"}, {"convert", "unit"}};
     for (const auto& [command, unit] : units) CHECK(contains(run({"help", command}).out, unit));
-    for (const char* command :
-         {"", "view", "shoot", "sample", "verify", "compare", "devices", "info", "convert", "methods"}) {
+    for (const char* command : {"", "view", "shoot", "sample", "verify", "compare", "devices", "info", "convert"}) {
         const Result help = *command ? run({"help", command}) : all;
         std::istringstream lines(help.out);
         for (std::string line; std::getline(lines, line);) {

@@ -62,12 +62,13 @@ View random_view(std::mt19937& random, const Vec3& center, double size) {
 }  // namespace
 
 TEST_CASE("no ray outside of the screen meets anything") {
-    const Precision precision = GENERATE(Precision::double_, Precision::single, Precision::single_world);
+    const Settings settings =
+        GENERATE(Settings{}, Settings{.precision = Precision::single}, with({.single_world = true}));
     const double away = GENERATE(0.0, 3e6);  // millimetres
     const Scene scene = moved_by(bench::scene_of_parts(30), away);
     const CompiledScene compiled = compile(scene, {});
     const double size = 2 * compiled.radius;
-    const auto kernels = make_kernels(compiled, precision, Quartic::bracketed);
+    const auto kernels = make_kernels(compiled, settings);
     std::mt19937 random(7);
     std::size_t missed = 0, small = 0;
     constexpr int views = test::sanitized ? 2 : 24;

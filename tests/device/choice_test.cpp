@@ -105,7 +105,7 @@ TEST_CASE("without a driver there are native devices alone, and that is no failu
           std::string("/dev/null/none"));  // the environment is the program's, not the library's
 }
 
-TEST_CASE("native devices have the default method's kernels alone, and come before other processors", "[device]") {
+TEST_CASE("native devices have double precision's kernels alone, and come before other processors", "[device]") {
     DeviceInfo native = made_up("native-level", "cpu", true);
     native.platform = "csgrt";
     const std::vector<DeviceInfo> all = {several[1], native, several[0]};
@@ -117,10 +117,10 @@ TEST_CASE("native devices have the default method's kernels alone, and come befo
     for (const char* choice : {"native", "1"}) {
         INFO(choice);
         CHECK_THROWS_WITH(choose_device(all, choice, Kernels::compiled_by_device),
-                          ContainsSubstring("the default method alone"));
+                          ContainsSubstring("double precision alone"));
     }
     CHECK_THROWS_WITH(choose_device({native}, "", Kernels::compiled_by_device),
-                      ContainsSubstring("the default method alone"));
+                      ContainsSubstring("double precision alone"));
     DeviceInfo pocl = several[0];
     pocl.version = "OpenCL 3.0 PoCL HSTR";
     CHECK(choose_device({native, several[0], pocl}, "pocl") == 2);

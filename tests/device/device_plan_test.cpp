@@ -121,7 +121,7 @@ TEST_CASE("a processor that is named draws itself, and a name that is none is re
     Settings single = with_device("native");
     single.precision = Precision::single;
     CHECK_THROWS_WITH(plan_devices(single),
-                      ContainsSubstring("the default method alone") && ContainsSubstring("--reference"));
+                      ContainsSubstring("double precision alone") && ContainsSubstring("--reference"));
 }
 
 TEST_CASE("without native devices OpenCL draws by default, and the reference where there is none", "[device]") {

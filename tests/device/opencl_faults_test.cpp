@@ -165,7 +165,7 @@ std::vector<Case> asynchronous_cases(FaultyOpenCl& faulty) {
                 Scene scene;
                 Renderer renderer;
                 CompiledScene compiled = compile(scene, {});
-                std::unique_ptr<HostKernels> kernels = make_kernels(compiled, Precision::double_, Quartic::bracketed);
+                std::unique_ptr<HostKernels> kernels = make_kernels(compiled);
                 std::unique_ptr<DeviceGroup> group = nullptr;
             };
             Settings reference;

@@ -6,6 +6,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "base/laboratory.hpp"
 #include "integration/every_type.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/scene_of_kinds.hpp"
@@ -15,15 +16,17 @@ using namespace csgrt;
 
 namespace {
 
-Settings in(Precision precision) {
+Settings in_single() {
     Settings settings = test::on_device();
-    settings.precision = precision;
+    settings.precision = Precision::single;
     return settings;
 }
 
+Settings in_world() { return with({.single_world = true}, test::on_device()); }
+
 // By default every third of our scenes, all in one program, since what an OpenCL compiler takes for each is most of the
 // time here. `all`: each in its own.
-void require_scenes(Precision precision, bool all) {
+void require_scenes(const Settings& settings, bool all) {
     const std::vector<std::string> files = test::scene_files();
     if (files.empty()) WARN("CSGRT_SCENES names no folder of scenes: nothing compared");
     for (std::size_t i = 0; i < files.size(); i += all ? 1 : 3) {
@@ -31,11 +34,11 @@ void require_scenes(Precision precision, bool all) {
         std::vector<std::string> objects;
         Scene scene = load_scene(files[i]);
         if (!all) scene = test::with_every_type(std::move(scene), objects);
-        test::require_agreement(scene, objects, 64, 200, in(precision));
+        test::require_agreement(scene, objects, 64, 200, settings);
     }
 }
 
-void require_models(Precision precision) {
+void require_models(const Settings& settings) {
     const std::string folder = test::folder("CSGRT_BRLCAD");
     if (folder.empty()) {
         WARN("CSGRT_BRLCAD names no folder of models: nothing compared");
@@ -44,48 +47,48 @@ void require_models(Precision precision) {
     for (const test::Model& model : test::models()) {
         if (!model.main) continue;
         INFO(model.file);
-        test::require_agreement(load_scene(folder + "/" + model.file), model.objects, 64, 100, in(precision));
+        test::require_agreement(load_scene(folder + "/" + model.file), model.objects, 64, 100, settings);
     }
 }
 
-void require_hard_rays(Precision precision) {
+void require_hard_rays(Settings settings) {
     using oracle::Kind;
     std::vector<Ray> rays;
     std::vector<std::string> objects = {"all"};
     const Scene scene = test::with_every_type(
         test::scene_of({Kind::tgc, Kind::tor, Kind::ehy, Kind::eto, Kind::hyp, Kind::superell, Kind::metaball}, rays),
         objects);
-    Settings settings = in(precision);
+    const bool is_world = laboratory(settings).single_world;
     Renderer device(scene, objects, settings);
     settings.reference = true;
     settings.device.clear();
     Renderer reference(scene, objects, settings);
     // From afar, coordinates of the world in float put solids outside their boxes: the device's hierarchy does not see
     // those there.
-    const std::vector<Ray> some = precision == Precision::single ? rays : test::near_only(rays);
+    const std::vector<Ray> some = is_world ? test::near_only(rays) : rays;
     test::require_same(device.shoot(some), reference.shoot(some));
 }
 
 }  // namespace
 
 TEST_CASE("device and reference agree in single precision on our scenes", "[agreement]") {
-    require_scenes(Precision::single, false);
+    require_scenes(in_single(), false);
 }
 
 TEST_CASE("device and reference agree in single precision on rays that methods fail on", "[agreement]") {
-    require_hard_rays(Precision::single);
+    require_hard_rays(in_single());
 }
 
 TEST_CASE("device and reference agree in single precision of the world's coordinates", "[.pocl][agreement]") {
-    require_scenes(Precision::single_world, false);
-    require_hard_rays(Precision::single_world);
+    require_scenes(in_world(), false);
+    require_hard_rays(in_world());
 }
 
 TEST_CASE("device and reference agree in both single precisions, each scene with its own program",
           "[.long][agreement]") {
-    for (const Precision precision : {Precision::single, Precision::single_world}) {
-        require_scenes(precision, true);
-        require_models(precision);
+    for (const Settings& settings : {in_single(), in_world()}) {
+        require_scenes(settings, true);
+        require_models(settings);
     }
 }
 
@@ -93,13 +96,9 @@ TEST_CASE("contraction changes last digits and no region", "[agreement]") {
     const std::string folder = test::folder("CSGRT_SCENES");
     if (folder.empty()) return;
     const Scene scene = load_scene(folder + "/solids.json");
-    Settings settings = test::on_device();
-    Renderer plain(scene, {}, settings);
-    settings.contraction = true;
-    Renderer contracted(scene, {}, settings);
+    Renderer plain(scene, {}, test::on_device()), contracted(scene, {}, with({.contraction = true}, test::on_device()));
     const std::vector<Ray> rays = test::random_rays(plain.bounds(), 2000);
     const auto a = plain.shoot(rays), b = contracted.shoot(rays);
-    CHECK(contracted.statistics().contraction);
     std::size_t other_regions = 0;
     double farthest = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

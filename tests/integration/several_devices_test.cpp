@@ -102,7 +102,7 @@ TEST_CASE("two devices read a picture back asynchronously", "[.two_devices]") {
     Renderer one(scene, {}, settings);
     settings.device = both_pocls();
     const CompiledScene compiled = compile(scene, {});
-    const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    const auto kernels = make_kernels(compiled, settings);
     DeviceGroup two(plan_devices(settings).first, compiled, *kernels, settings, Readback::asynchronous);
     View view;
     view.width = 301;

@@ -14,7 +14,7 @@ using namespace csgrt;
 
 namespace {
 
-void require_own_declarations(const std::vector<Precision>& precisions) {
+void require_own_declarations(const std::vector<Settings>& all) {
     const std::vector<FoundDevice> found = find_devices().devices;
     Device device(found[choose_device(infos_of(found), "cpu", Kernels::compiled_by_device)]);
     if (test::sanitized) return;  // it is PoCL that works here: three programs of all types of solids
@@ -27,11 +27,9 @@ void require_own_declarations(const std::vector<Precision>& precisions) {
     own.objects.push_back(Solid{"ball", Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}});
     own.top = {"ball"};
     const CompiledScene scene = compile(test::with_every_type(own, objects), objects);
-    for (const Precision precision : precisions) {
-        INFO(name_of(precision_names, precision));
-        Settings settings;
-        settings.precision = precision;
-        const bool is_single = precision != Precision::double_;
+    for (const Settings& settings : all) {
+        const bool is_single = settings.precision != Precision::double_;
+        INFO((is_single ? "single" : "double"));
         std::vector<std::string> defines = program_options(device, ProgramNeeds(scene), settings);
         CHECK(std::erase(defines, "CSGRT_PACKETS") == !is_single);  // with them last
         const auto require_own = [&](const std::vector<std::string>& files) {
@@ -58,12 +56,10 @@ void require_own_declarations(const std::vector<Precision>& precisions) {
 
 }  // namespace
 
-TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") {
-    require_own_declarations({Precision::double_});
-}
+TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") { require_own_declarations({Settings{}}); }
 
 TEST_CASE("kernels in single precision use no function of OpenCL C that builtins.h lacks", "[.pocl]") {
-    require_own_declarations({Precision::single, Precision::single_world});
+    require_own_declarations({{.precision = Precision::single}, with({.single_world = true})});
 }
 
 TEST_CASE("a source with a function that builtins.h lacks is built with the driver's declarations") {

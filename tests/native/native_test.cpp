@@ -5,6 +5,7 @@
 
 #include <csgrt/csgrt.hpp>
 
+#include "base/laboratory.hpp"
 #include "bench/parts.hpp"
 #include "catch.hpp"
 #include "device/program.hpp"
@@ -68,12 +69,8 @@ TEST_CASE("the native device's sums are those of one entry after the other", "[d
 TEST_CASE("the native device has the kernels of the default method and says so of others", "[device]") {
     if (!have_native()) return;
     Device device("native");
-    std::vector<Settings> others(4);
-    others[0].contraction = true;
-    others[1].precision = Precision::single;
-    others[2].precision = Precision::single_world;
-    others[3].quartic = Quartic::ferrari;
-    for (const Settings& other : others)
+    for (const Settings& other : {with({.contraction = true}), Settings{.precision = Precision::single},
+                                  with({.single_world = true}), with({.quartic = Quartic::ferrari})})
         CHECK_THROWS_WITH(Program(device, program_source(device.info(), other, "partitions", {})),
                           ContainsSubstring("the kernels that were compiled with csgrt, no others"));
     const Program program(device, "partitions");

@@ -22,13 +22,8 @@ using oracle::QVec;
 
 namespace {
 
-Settings on_reference(Precision precision) {
-    Settings settings;
-    settings.reference = true;
-    settings.threads = 1;
-    settings.precision = precision;
-    return settings;
-}
+const Settings in_double{}, in_single{.precision = Precision::single}, in_world = with({.single_world = true}),
+                                                                       in_quad{.precision = Precision::quad};
 
 /// Rays through a box from `away` times its diagonal.
 std::vector<Ray> rays_from(double away, const Box& box, std::size_t count) {
@@ -48,9 +43,11 @@ struct Score {
 };
 
 /// How often the sequence of regions along a ray is not the oracle's, on rays that it can decide.
-Score score(const Scene& scene, Precision precision, double away) {
+Score score(const Scene& scene, Settings settings, double away) {
     const oracle::SceneOracle judge(scene);
-    Renderer renderer(scene, {}, on_reference(precision));
+    settings.reference = true;
+    settings.threads = 1;
+    Renderer renderer(scene, {}, settings);
     const std::vector<Ray> rays = rays_from(away, renderer.bounds(), 800);
     const std::vector<RayPartitions> found = renderer.shoot(rays);
     Score score;
@@ -71,8 +68,7 @@ Score score(const Scene& scene, Precision precision, double away) {
         ++score.decided;
         score.wrong += seen != expected;
     }
-    INFO(name_of(precision_names, precision)
-         << " from " << away << ": " << score.wrong << " wrong of " << score.decided);
+    INFO("from " << away << ": " << score.wrong << " wrong of " << score.decided);
     CHECK(score.decided > 200);
     return score;
 }
@@ -90,15 +86,15 @@ TEST_CASE(
     const Scene scene = load_scene(folder + "/gear.json");
     for (const double away : {3.0, 1e5}) {
         INFO("from " << away << " sizes");
-        CHECK(score(scene, Precision::double_, away).wrong == 0);
-        CHECK(score(scene, Precision::single, away).wrong == 0);
-        const Score world = score(scene, Precision::single_world, away);
+        CHECK(score(scene, in_double, away).wrong == 0);
+        CHECK(score(scene, in_single, away).wrong == 0);
+        const Score world = score(scene, in_world, away);
         if (away > 100) CHECK(world.wrong * 100 > world.decided);
     }
     // The model far from the world's origin, the eye near it.
     const Scene far = load_scene(folder + "/far_origin.json");
-    CHECK(score(far, Precision::single, 3).wrong == 0);
-    CHECK(score(far, Precision::single_world, 3).wrong > 0);
+    CHECK(score(far, in_single, 3).wrong == 0);
+    CHECK(score(far, in_world, 3).wrong > 0);
 }
 
 TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]") {
@@ -116,8 +112,8 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
         oracle::Random random(3);
         oracle::RayMaker maker(shape, solid, random);
         // In units of the last place of where the end lies; the worst, and how many were looked at.
-        const auto worst = [&](Precision precision, const std::vector<Ray>& rays, std::size_t& ends_seen) {
-            const auto kernels = make_kernels(compiled, precision, Quartic::bracketed);
+        const auto worst = [&](const Settings& settings, const std::vector<Ray>& rays, std::size_t& ends_seen) {
+            const auto kernels = make_kernels(compiled, settings);
             double most = 0;
             for (const Ray& ray : rays) {
                 const oracle::Answer answer = oracle::intersect(solid, ray);
@@ -138,7 +134,7 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
         std::vector<Ray> rays;
         for (int i = 0; i < 200; ++i) rays.push_back(maker.make(oracle::RayFamily::ordinary));
         std::size_t ends = 0;
-        const double by_quad = worst(Precision::quad, rays, ends), by_double = worst(Precision::double_, rays, ends);
+        const double by_quad = worst(in_quad, rays, ends), by_double = worst(in_double, rays, ends);
         INFO(name << ": worst error in ulps, 113 bits " << by_quad << ", double " << by_double);
         CHECK(ends > 300);
         CHECK(by_quad == 0);
@@ -147,8 +143,6 @@ TEST_CASE("113 bits give the true ends to the last bit of a double", "[geometry]
 }
 
 TEST_CASE("a precision where it is not is refused", "[pipeline]") {
-    Settings settings;
-    settings.precision = Precision::quad;
     const auto refusal = [](const Settings& wanted) {
         try {
             Scene scene;
@@ -159,13 +153,12 @@ TEST_CASE("a precision where it is not is refused", "[pipeline]") {
         }
         return std::string();
     };
-    CHECK(refusal(settings).find("113-bit precision is on the reference only") != std::string::npos);
-    settings = {};
-    settings.reference = settings.contraction = true;
-    CHECK(refusal(settings).find("contraction is on a device only") != std::string::npos);
+    CHECK(refusal(in_quad).find("113-bit precision is on the reference only") != std::string::npos);
+    CHECK(refusal(with({.contraction = true}, {.reference = true})).find("contraction is on a device only") !=
+          std::string::npos);
 
     const CompiledScene compiled = compile_alone(Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, identity);
     const std::vector<kernel::RayRecord> faint = {{-9, 0, 0, 1e-40, 0, 0, 0, 1}};
-    CHECK_THROWS_AS(make_kernels(compiled, Precision::single_world, Quartic::bracketed)->check(faint, 0), Error);
-    CHECK_NOTHROW(make_kernels(compiled, Precision::single, Quartic::bracketed)->check(faint, 0));
+    CHECK_THROWS_AS(make_kernels(compiled, in_world)->check(faint, 0), Error);
+    CHECK_NOTHROW(make_kernels(compiled, in_single)->check(faint, 0));
 }

@@ -51,7 +51,7 @@ struct Compiled {
     Scene scene = bench::scene_of_parts(20);
     CompiledScene compiled = compile(scene, {});
     Settings settings;
-    std::unique_ptr<ReferenceKernels> kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    std::unique_ptr<ReferenceKernels> kernels = make_kernels(compiled, settings);
 
     DevicePlan plan(std::function<std::vector<FoundDevice>()> find_next, bool is_default = true) const {
         DevicePlan made;

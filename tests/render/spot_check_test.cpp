@@ -84,9 +84,3 @@ TEST_CASE("a bit that a device gets wrong is found where the batch is checked, a
     INFO(text);
     CHECK(text.find(" computed wrongly: the partitions of ray 0 ") != text.npos);
 }
-
-TEST_CASE("a check compares bits, which contraction changes") {
-    Settings settings = checked(1);
-    settings.contraction = true;
-    CHECK_THROWS_WITH(Renderer(bench::scene_of_parts(3), {}, settings), ContainsSubstring("contraction"));
-}

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/laboratory.hpp"
 #include "catch.hpp"
 #include "compile/model.hpp"
 
@@ -55,8 +56,7 @@ TEST_CASE("what ends where the ray starts may be there or not") {
 
 TEST_CASE("what is shot in parts adds up") {
     const Scene scene = ball({7e7 + 0.3, -7e7 - 0.7, 1e7});
-    Settings settings = on_reference();
-    settings.precision = Precision::single_world;
+    const Settings settings = with({.single_world = true}, on_reference());
     Verifier whole(scene, {}, settings), parts(scene, {}, settings);
     const std::vector<Ray> rays = whole.sample(scene.camera, 200);
     whole.shoot(rays);
@@ -105,9 +105,6 @@ TEST_CASE("what cannot be judged is refused, and progress can stop it") {
     const Scene scene = ball({0, 0, 0});
     Settings settings = on_reference();
     settings.precision = Precision::quad;
-    CHECK_THROWS_AS(Verifier(scene, {}, settings), Error);
-    settings = {};
-    settings.contraction = true;
     CHECK_THROWS_AS(Verifier(scene, {}, settings), Error);
 
     settings = on_reference();

@@ -85,7 +85,7 @@ struct ConvertArguments {
     LoadOptions load;
 };
 
-/// --help, --version and methods: a text that is printed.
+/// --help and --version: a text that is printed.
 struct TextArguments {
     std::string text;
 };

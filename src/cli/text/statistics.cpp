@@ -70,9 +70,8 @@ std::string to_json(const Statistics& s) {
         return std::string("  \"") + name + "\": " + json_text(value) + ",\n";
     };
     std::string out = "{\n" + text("device", s.device) + text("awaited_device", s.awaited_device) +
-                      text("precision", s.precision) + text("method", s.method) + text("quartic", s.quartic) +
-                      "  \"tolerance\": " + shortest(s.tolerance) +
-                      ",\n  \"contraction\": " + (s.contraction ? "true" : "false") + ",\n";
+                      text("precision", s.precision) + text("method", s.method) +
+                      "  \"tolerance\": " + shortest(s.tolerance) + ",\n";
     out += "  \"size\": [" + std::to_string(s.width) + ", " + std::to_string(s.height) + "],\n";
     out += count("rays", s.rays) + count("ends", s.ends) + count("segments", s.segments);
     out += "  \"partitions\": {\"used\": " + std::to_string(s.partitions_used) +

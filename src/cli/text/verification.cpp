@@ -142,7 +142,6 @@ std::string to_json(const Verification& result, const Renderer& judged) {
     const Statistics& how = judged.statistics();
     std::string text = "{\n  \"device\": " + (result.device.empty() ? "null" : json_text(result.device)) +
                        ",\n  \"precision\": " + json_text(how.precision) +
-                       ",\n  \"quartic\": " + json_text(how.quartic) +
                        ",\n  \"tolerance\": " + json_number(how.tolerance);
     const std::pair<const char*, std::uint64_t> counts[] = {
         {"rays", result.rays},       {"hits", result.hits},

@@ -22,26 +22,25 @@ std::vector<std::string> files_of(bool packets, bool rays_in_faces) {
 }
 
 // Another evaluation takes all rays: none is deep. Bit arrays of more segments have more words than can be counted.
-std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings,
-                                     bool other) {
+std::vector<std::string> options_for(const Device& device, const CompiledScene& scene, const Settings& settings) {
     std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
-    if (other) options.push_back("DEEP_SEGMENTS=0x3ffffu");
+    if (laboratory(settings).evaluation) options.push_back("DEEP_SEGMENTS=0x3ffffu");
     return options;
 }
 
 }  // namespace
 
 PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels,
-                             const Settings& settings, const Evaluation* other)
+                             const Settings& settings)
     : device_(device),
       scene_(&scene),
       kernels_(&kernels),
-      other_evaluation_(other),
+      other_evaluation_(laboratory(settings).evaluation),
       program_(device,
                program_source(device.info(), settings, "partitions",
                               files_of(traces_packets(device, settings), has_flat_faced(scene))) +
-                   (other ? other->source : ""),
-               options_for(device, scene, settings, other != nullptr), settings.precision != Precision::double_),
+                   (other_evaluation_ ? other_evaluation_->source : ""),
+               options_for(device, scene, settings), settings.precision != Precision::double_),
       cull_(device, program_),
       make_rays_(program_.kernel("make_rays")),
       find_candidates_(program_.kernel("find_candidates")),
@@ -53,7 +52,7 @@ PartitionPass::PartitionPass(Device& device, const CompiledScene& scene, const H
       store_segments_(program_.kernel("store_segments")),
       order_ends_(program_.kernel("order_ends")),
       weave_(program_.kernel("weave")),
-      evaluate_(program_.kernel(other ? other->name : "evaluate")),
+      evaluate_(program_.kernel(other_evaluation_ ? other_evaluation_->name : "evaluate")),
       shade_(program_.kernel("shade")),
       memory_(device, kernels),
       deep_rays_(device, program_, scene),

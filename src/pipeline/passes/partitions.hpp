@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/laboratory.hpp"
 #include "device/queued.hpp"
 #include "pipeline/counts.hpp"
 #include "pipeline/passes/cull.hpp"
@@ -31,16 +32,9 @@ public:
         Work work;
         std::uint32_t rays;
     };
-    /// A kernel in place of kernel 4, for the laboratory of methods (bench/methods).
-    struct Evaluation {
-        std::string name, source;  ///< the source stands behind all kernels', and may use theirs
-        /// Queues it for the rays' `segments`.
-        std::function<Event(Kernel&, const Input&, PartitionMemory&, std::uint32_t segments)> launch;
-    };
 
-    /// Compiles its kernels. `other`: in place of kernel 4; it must outlive the pass. Throws Error (device_fault).
-    PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings,
-                  const Evaluation* other = nullptr);
+    /// Compiles its kernels. Throws Error (device_fault).
+    PartitionPass(Device& device, const CompiledScene& scene, const HostKernels& kernels, const Settings& settings);
 
     /// From now on rays meet another scene, which the pass's programs draw (see draws()). Both must outlive this.
     void set_scene(const CompiledScene& scene, const HostKernels& kernels);
@@ -143,6 +137,13 @@ private:
     Average average_, average_before_;  ///< of the last rays whose sizes are known, and of those before
     std::size_t tally_count_ = 0;       ///< of sums
     QueuedRead read_, read_total_;
+};
+
+/// A kernel in place of kernel 4, for the laboratory of methods (bench/methods). It takes deep rays, too.
+struct Evaluation {
+    std::string name, source;  ///< the source stands behind all kernels', and may use theirs
+    /// Queues it for the rays' `segments`.
+    std::function<Event(Kernel&, const PartitionPass::Input&, PartitionMemory&, std::uint32_t segments)> launch;
 };
 
 }  // namespace csgrt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/laboratory.hpp"
 #include "device/discovery.hpp"
 
 namespace csgrt {
@@ -32,10 +33,11 @@ bool draws(const Device& device, const ProgramNeeds& one, const ProgramNeeds& ot
 }
 
 std::vector<std::string> program_options(const Device& device, const ProgramNeeds& needs, const Settings& settings) {
+    const Laboratory& methods = laboratory(settings);
     std::vector<std::string> options = {"CSGRT_SOLIDS=" + std::to_string(needs.solid_types) + "u",
-                                        "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(settings.quartic))};
-    if (settings.precision == Precision::single) options.push_back("CSGRT_EYE_RELATIVE");
-    if (settings.contraction) options.push_back("CSGRT_CONTRACT");
+                                        "CSGRT_QUARTIC=" + std::to_string(static_cast<int>(methods.quartic))};
+    if (settings.precision == Precision::single && !methods.single_world) options.push_back("CSGRT_EYE_RELATIVE");
+    if (methods.contraction) options.push_back("CSGRT_CONTRACT");
     if (traces_packets(device, settings)) options.push_back("CSGRT_PACKETS");
     if (needs.large_terms) options.push_back("CSGRT_LARGE_TERMS");
     if (needs.shaped_lights) options.push_back("CSGRT_SHAPED_LIGHTS");

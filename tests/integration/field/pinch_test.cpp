@@ -1,6 +1,7 @@
 // Pinches, tips and poles before the oracle (bench/stress/pinch.cpp), each kind of solid by itself.
 #include <cstdio>
 
+#include "base/laboratory.hpp"
 #include "bench/chart/accuracy.hpp"
 #include "bench/chart/truth.hpp"
 #include "integration/field/judge.hpp"
@@ -146,8 +147,7 @@ TEST_CASE("pinches, every way to solve a quartic", "[.long]") {
     for (const auto& [name, quartic] : quartic_names) {
         for (const std::size_t kind : {0u, 1u, 2u, 5u, 6u}) {
             INFO(name << ", " << kinds[kind]);
-            Settings settings = on_reference();
-            settings.quartic = quartic;
+            const Settings settings = with({.quartic = quartic}, on_reference());
             FieldTally tally;
             for (std::uint64_t round = 0; round < 12; ++round)
                 judge_on_reference(scene_of(kind, round, 10), settings, tally);

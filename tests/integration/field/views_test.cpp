@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/laboratory.hpp"
 #include "formats/brlcad/brlcad_asc_text.hpp"
 #include "formats/json/reader.hpp"
 #include "formats/json/write/writer.hpp"
@@ -273,10 +274,8 @@ Scene lamp_in_block() {
     return parse_brlcad_asc(TextSource("lit.asc", lit_block({lamp})));
 }
 
-void require_lamp_on_device(Precision precision) {
+void require_lamp_on_device(Settings settings) {
     if (devices().empty()) return;
-    Settings settings;
-    settings.precision = precision;
     Renderer device(lamp_in_block(), {}, settings);
     settings.reference = true;
     Renderer reference(lamp_in_block(), {}, settings);
@@ -291,11 +290,12 @@ void require_lamp_on_device(Precision precision) {
 }  // namespace
 
 TEST_CASE("views: a light that is not visible, in single precision", "[.pocl]") {
-    for (const Precision precision : {Precision::single, Precision::single_world}) require_lamp_on_device(precision);
+    require_lamp_on_device({.precision = Precision::single});
+    require_lamp_on_device(with({.single_world = true}));
 }
 
 TEST_CASE("views: a light that is not visible is not drawn, yields to what stands in it, and is met by rays") {
-    require_lamp_on_device(Precision::double_);
+    require_lamp_on_device({});
     Scene scene = lamp_in_block();
     const View view = from_x(16, 16);
     const Image image = Renderer(scene, {}, test::on_reference()).render(view);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdio>
 
+#include "base/laboratory.hpp"
 #include "catch.hpp"
 #include "kernels/geometry/kernel_answer.hpp"
 #include "oracle/random.hpp"

@@ -38,7 +38,7 @@ Culled lists_of(std::vector<unsigned char> costs, std::span<const kernel::TileNo
 
 Culled cull_on_device(const CompiledScene& compiled, const kernel::Frame& frame) {
     const Settings settings = test::on_compiling_device();
-    const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    const auto kernels = make_kernels(compiled, settings);
     Device device(settings.device);
     const SceneTables scene(device, compiled, kernels->tables());
     const Program program(device, assemble_program({CullPass::file}),

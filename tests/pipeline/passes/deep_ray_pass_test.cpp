@@ -27,7 +27,7 @@ struct Shot {
     PartitionPass::Input input() { return {on.tables, on.batch, Work::rays, count()}; }
     std::vector<RayPartitions> answers() { return test::answers_of(pass, input()); }
     std::vector<RayPartitions> expected() {
-        const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
+        const auto to_run = make_kernels_to_run(on.compiled, on.settings);
         ReferenceCounts counts;
         return test::answers_of(Reference(on.compiled, *to_run), prepared.frame, rays, counts);
     }

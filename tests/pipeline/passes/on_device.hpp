@@ -12,7 +12,7 @@ namespace csgrt::test {
 struct OnDevice {
     explicit OnDevice(const Scene& scene, View view = {})
         : compiled(compile(scene, {})),
-          kernels(make_kernels(compiled, settings.precision, settings.quartic)),
+          kernels(make_kernels(compiled, settings)),
           device(settings.device),
           tables(device, compiled, kernels->tables()),
           prepared(prepare_frame(compiled, view)),
@@ -30,7 +30,7 @@ struct OnDevice {
     }
     /// What the reference sees through each pixel, row by row from the top left.
     std::vector<kernel::Pixel> expected() const {
-        const auto to_run = make_kernels_to_run(compiled, settings.precision, settings.quartic);
+        const auto to_run = make_kernels_to_run(compiled, settings);
         ReferenceCounts counts;
         return Reference(compiled, *to_run).render(prepared, nullptr, counts);
     }

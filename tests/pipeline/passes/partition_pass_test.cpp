@@ -54,7 +54,7 @@ TEST_CASE("the partition pass answers rays as they come") {
     TimedKernels timed;
     const PartitionPass::Input input{on.tables, on.batch, Work::rays, 200};
     REQUIRE(pass.trace_counted(input, timed));
-    const auto to_run = make_kernels_to_run(on.compiled, on.settings.precision, on.settings.quartic);
+    const auto to_run = make_kernels_to_run(on.compiled, on.settings);
     ReferenceCounts counts;
     test::require_same(test::answers_of(pass, input),
                        test::answers_of(Reference(on.compiled, *to_run), prepared.frame, rays, counts));

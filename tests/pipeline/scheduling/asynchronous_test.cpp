@@ -56,7 +56,7 @@ TEST_CASE("asynchronous: the picture is made, whatever was there before and howe
     const Settings settings = test::on_compiling_device();
     Renderer renderer(scene, {}, settings);
     const CompiledScene compiled = compile(scene, {});
-    const auto kernels = make_kernels(compiled, settings.precision, settings.quartic);
+    const auto kernels = make_kernels(compiled, settings);
     Device first(settings.device);
     const Pipeline needs(first, compiled, *kernels, settings);
     Device device(settings.device, room ? first.allocated() + room : 0);
@@ -130,7 +130,7 @@ struct Lined {
                    Readback readback = Readback::asynchronous)
         : renderer(scene, {}, settings),
           compiled(compile(scene, {})),
-          kernels(make_kernels(compiled, settings.precision, settings.quartic)),
+          kernels(make_kernels(compiled, settings)),
           device(settings.device, room ? bytes_of_scene() + room : 0),
           pipeline(device, compiled, *kernels, settings, readback, most_rays) {}
 

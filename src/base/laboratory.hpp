@@ -1,0 +1,45 @@
+// Methods that are kept to be measured against the default ones. Benchmarks and tests alone ask for them, by
+// Settings::laboratory: they need an OpenCL device or the reference, which has no contraction.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <csgrt/settings.hpp>
+
+namespace csgrt {
+
+/// How quartic equations are solved: those of tor, eto and cones with two tapers.
+enum class Quartic {
+    bracketed,            ///< origin at the ray's point closest to the solid; roots lie between the derivative's
+    bracketed_unshifted,  ///< the same with the ray's own origin
+    ferrari,              ///< closed form
+    yuksel,               ///< brackets and Newton's method to a stated error (Yuksel 2022)
+};
+inline constexpr std::pair<std::string_view, Quartic> quartic_names[] = {
+    {"bracketed", Quartic::bracketed},
+    {"bracketed-unshifted", Quartic::bracketed_unshifted},
+    {"ferrari", Quartic::ferrari},
+    {"yuksel", Quartic::yuksel},
+};
+
+struct Laboratory {
+    Quartic quartic = Quartic::bracketed;
+    bool contraction = false;   ///< the device's compiler may round a product and a sum as one (fma)
+    bool single_world = false;  ///< Precision::single in the model's coordinates, all of it
+    const struct Evaluation* evaluation = nullptr;  ///< in place of kernel 4 (pipeline/passes/partitions.hpp)
+};
+
+inline const Laboratory& laboratory(const Settings& settings) {
+    static const Laboratory defaults;
+    return settings.laboratory ? *settings.laboratory : defaults;
+}
+/// The settings with these methods.
+inline Settings with(const Laboratory& methods, Settings settings = {}) {
+    if (methods.single_world) settings.precision = Precision::single;
+    settings.laboratory = std::make_shared<const Laboratory>(methods);
+    return settings;
+}
+
+}  // namespace csgrt
