@@ -1,5 +1,5 @@
 # Keeps the layers: who may include what. cmake -DROOT=... -P layers_test.cmake
-#     cli -> render -> pipeline, reference -> compile, device -> native -> scene, formats -> kernel_host, base
+#     cli -> render -> pipeline, reference -> compile, device -> native -> scene, formats -> form, kernel_host, base
 # A file includes its own folder and what stands to the right. kernels/ never includes src/. Public headers include
 # the standard library and each other. Each outside library is used in its own folders alone.
 cmake_minimum_required(VERSION 3.25)
@@ -100,7 +100,7 @@ foreach(file IN LISTS files)
         elseif(included MATCHES "^pipeline/[a-z]+/" AND NOT room IN_LIST may_rooms)
             list(APPEND findings
                 "${file}: \"${included}\": data goes from scheduling to passes to readback, never back")
-        elseif(NOT target STREQUAL layer AND NOT target MATCHES "^(base|kernel_host|kernels)$"
+        elseif(NOT target STREQUAL layer AND NOT target MATCHES "^(base|form|kernel_host|kernels)$"
                AND NOT target IN_LIST may_${layer})
             list(APPEND findings "${file}: \"${included}\": ${layer} must not include ${target}")
         endif()

@@ -27,14 +27,14 @@ inline std::vector<Variant> variants() {
     };
     add("default");
     add("single").precision = Precision::single;
-    add("single-world") = with({.single_world = true});
+    add("single-world") = with_methods({.single_world = true});
     for (const auto& [name, quartic] : quartic_names)
-        if (quartic != Quartic::bracketed) add(name) = with({.quartic = quartic});
+        if (quartic != Quartic::bracketed) add(name) = with_methods({.quartic = quartic});
     add("tolerance 0.0005 mm").tolerance = 0.0005;  // BRL-CAD's
     add("tolerance surfaces").tolerance_rule = Tolerance::surfaces;
     add("tolerance relative").tolerance_rule = Tolerance::relative;
     add("tolerance none").tolerance_rule = Tolerance::none;
-    add("contraction") = with({.contraction = true});
+    add("contraction") = with_methods({.contraction = true});
     add("reference").reference = true;
     Settings& quad = add("113 bits");
     quad.reference = true;

@@ -83,7 +83,7 @@ public:
           evaluation_{method_.kernel, source(),
                       [this](Kernel& kernel, const PartitionPass::Input& input, PartitionMemory& memory,
                              std::uint32_t segments) { return launch(kernel, input, memory, segments); }},
-          pass_(device_, scene_, *kernels_, with({.evaluation = &evaluation_})) {
+          pass_(device_, scene_, *kernels_, with_methods({.evaluation = &evaluation_})) {
         most_rays_ = batch_rays;
         if (method_.ray_words == 0) return;
         const std::uint64_t bytes = method_.ray_words * sizeof(std::uint32_t);

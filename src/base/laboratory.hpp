@@ -36,7 +36,7 @@ inline const Laboratory& laboratory(const Settings& settings) {
     return settings.laboratory ? *settings.laboratory : defaults;
 }
 /// The settings with these methods.
-inline Settings with(const Laboratory& methods, Settings settings = {}) {
+inline Settings with_methods(const Laboratory& methods, Settings settings = {}) {
     if (methods.single_world) settings.precision = Precision::single;
     settings.laboratory = std::make_shared<const Laboratory>(methods);
     return settings;

@@ -491,7 +491,7 @@ TEST_CASE("a variant: first hits and every partition, its times, and its faults"
     rows = rows_of();
     CHECK(rows[0].accuracy.wrong == 0);
     CHECK(rows[1].accuracy.wrong > 100);
-    variant.settings = with({.contraction = true}, variant.settings);  // which the reference has not
+    variant.settings = with_methods({.contraction = true}, variant.settings);  // which the reference has not
     rows = rows_of();
     CHECK(rows[0].error.find("contraction") != std::string::npos);
     CHECK(rows[0].accuracy.rays == 0);

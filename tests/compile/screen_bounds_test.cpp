@@ -63,7 +63,7 @@ View random_view(std::mt19937& random, const Vec3& center, double size) {
 
 TEST_CASE("no ray outside of the screen meets anything") {
     const Settings settings =
-        GENERATE(Settings{}, Settings{.precision = Precision::single}, with({.single_world = true}));
+        GENERATE(Settings{}, Settings{.precision = Precision::single}, with_methods({.single_world = true}));
     const double away = GENERATE(0.0, 3e6);  // millimetres
     const Scene scene = moved_by(bench::scene_of_parts(30), away);
     const CompiledScene compiled = compile(scene, {});

@@ -22,7 +22,7 @@ Settings in_single() {
     return settings;
 }
 
-Settings in_world() { return with({.single_world = true}, test::on_device()); }
+Settings in_world() { return with_methods({.single_world = true}, test::on_device()); }
 
 // By default every third of our scenes, all in one program, since what an OpenCL compiler takes for each is most of the
 // time here. `all`: each in its own.
@@ -96,7 +96,8 @@ TEST_CASE("contraction changes last digits and no region", "[agreement]") {
     const std::string folder = test::folder("CSGRT_SCENES");
     if (folder.empty()) return;
     const Scene scene = load_scene(folder + "/solids.json");
-    Renderer plain(scene, {}, test::on_device()), contracted(scene, {}, with({.contraction = true}, test::on_device()));
+    Renderer plain(scene, {}, test::on_device()),
+        contracted(scene, {}, with_methods({.contraction = true}, test::on_device()));
     const std::vector<Ray> rays = test::random_rays(plain.bounds(), 2000);
     const auto a = plain.shoot(rays), b = contracted.shoot(rays);
     std::size_t other_regions = 0;

@@ -18,7 +18,7 @@ TEST_CASE("device and reference agree however quartics are solved", "[.pocl][agr
     const Scene scene = test::scene_of({Kind::tor, Kind::eto, Kind::tgc}, rays);
     for (const auto& [name, quartic] : quartic_names) {
         INFO(name);
-        Settings settings = with({.quartic = quartic}, test::on_device());
+        Settings settings = with_methods({.quartic = quartic}, test::on_device());
         Renderer device(scene, {"all"}, settings);
         settings.reference = true;
         settings.device.clear();

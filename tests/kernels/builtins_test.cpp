@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/laboratory.hpp"
 #include "catch.hpp"
 #include "device/choice.hpp"
 #include "device/program.hpp"
@@ -59,7 +60,7 @@ void require_own_declarations(const std::vector<Settings>& all) {
 TEST_CASE("kernels use no function of OpenCL C that builtins.h lacks") { require_own_declarations({Settings{}}); }
 
 TEST_CASE("kernels in single precision use no function of OpenCL C that builtins.h lacks", "[.pocl]") {
-    require_own_declarations({{.precision = Precision::single}, with({.single_world = true})});
+    require_own_declarations({{.precision = Precision::single}, with_methods({.single_world = true})});
 }
 
 TEST_CASE("a source with a function that builtins.h lacks is built with the driver's declarations") {

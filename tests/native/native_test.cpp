@@ -69,8 +69,8 @@ TEST_CASE("the native device's sums are those of one entry after the other", "[d
 TEST_CASE("the native device has the kernels of the default method and says so of others", "[device]") {
     if (!have_native()) return;
     Device device("native");
-    for (const Settings& other : {with({.contraction = true}), Settings{.precision = Precision::single},
-                                  with({.single_world = true}), with({.quartic = Quartic::ferrari})})
+    for (const Settings& other : {with_methods({.contraction = true}), Settings{.precision = Precision::single},
+                                  with_methods({.single_world = true}), with_methods({.quartic = Quartic::ferrari})})
         CHECK_THROWS_WITH(Program(device, program_source(device.info(), other, "partitions", {})),
                           ContainsSubstring("the kernels that were compiled with csgrt, no others"));
     const Program program(device, "partitions");

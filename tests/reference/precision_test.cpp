@@ -22,7 +22,7 @@ using oracle::QVec;
 
 namespace {
 
-const Settings in_double{}, in_single{.precision = Precision::single}, in_world = with({.single_world = true}),
+const Settings in_double{}, in_single{.precision = Precision::single}, in_world = with_methods({.single_world = true}),
                                                                        in_quad{.precision = Precision::quad};
 
 /// Rays through a box from `away` times its diagonal.
@@ -154,7 +154,7 @@ TEST_CASE("a precision where it is not is refused", "[pipeline]") {
         return std::string();
     };
     CHECK(refusal(in_quad).find("113-bit precision is on the reference only") != std::string::npos);
-    CHECK(refusal(with({.contraction = true}, {.reference = true})).find("contraction is on a device only") !=
+    CHECK(refusal(with_methods({.contraction = true}, {.reference = true})).find("contraction is on a device only") !=
           std::string::npos);
 
     const CompiledScene compiled = compile_alone(Ell{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, identity);

@@ -56,7 +56,7 @@ TEST_CASE("what ends where the ray starts may be there or not") {
 
 TEST_CASE("what is shot in parts adds up") {
     const Scene scene = ball({7e7 + 0.3, -7e7 - 0.7, 1e7});
-    const Settings settings = with({.single_world = true}, on_reference());
+    const Settings settings = with_methods({.single_world = true}, on_reference());
     Verifier whole(scene, {}, settings), parts(scene, {}, settings);
     const std::vector<Ray> rays = whole.sample(scene.camera, 200);
     whole.shoot(rays);

@@ -147,7 +147,7 @@ TEST_CASE("pinches, every way to solve a quartic", "[.long]") {
     for (const auto& [name, quartic] : quartic_names) {
         for (const std::size_t kind : {0u, 1u, 2u, 5u, 6u}) {
             INFO(name << ", " << kinds[kind]);
-            const Settings settings = with({.quartic = quartic}, on_reference());
+            const Settings settings = with_methods({.quartic = quartic}, on_reference());
             FieldTally tally;
             for (std::uint64_t round = 0; round < 12; ++round)
                 judge_on_reference(scene_of(kind, round, 10), settings, tally);

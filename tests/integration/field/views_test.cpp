@@ -291,7 +291,7 @@ void require_lamp_on_device(Settings settings) {
 
 TEST_CASE("views: a light that is not visible, in single precision", "[.pocl]") {
     require_lamp_on_device({.precision = Precision::single});
-    require_lamp_on_device(with({.single_world = true}));
+    require_lamp_on_device(with_methods({.single_world = true}));
 }
 
 TEST_CASE("views: a light that is not visible is not drawn, yields to what stands in it, and is met by rays") {
