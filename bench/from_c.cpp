@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
 
     csgrt::Renderer cpp(csgrt::load_scene(argv[1]), {argv[2]});
     csgrt::Partitions answer;
-    const std::vector<csgrt::Ray> list = cpp.rays_of({.width = side, .height = side});
+    const std::vector<csgrt::Ray> list = cpp.model().grid_of({.width = side, .height = side}).rays();
     csgrt_rays rays = CSGRT_RAYS;
     rays.list = reinterpret_cast<const csgrt_ray*>(list.data());
     rays.count = list.size();

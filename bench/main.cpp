@@ -190,8 +190,8 @@ Figures measure(const Workload& workload, Renderer& renderer, const Task& task, 
     f.size = options.size;
     f.frames = count;
     f.orbit = options.orbit;
-    f.solids = renderer.solids().size();
-    f.regions = renderer.regions().size();
+    f.solids = renderer.model().solids().size();
+    f.regions = renderer.model().regions().size();
     f.segments = s.segments;
     f.partitions_used = s.partitions_used;
     f.partitions_allocated = s.partitions_allocated;

@@ -45,12 +45,12 @@ struct Viewer {
     void draw() { renderer.render(view, window); }
     /// The height of the picture at its centre, in millimetres.
     double height() const {
-        const csgrt::Box& box = renderer.bounds();
+        const csgrt::Box box = renderer.model().bounds();
         const csgrt::Vec3 size = sum(box.high, -1, box.low);
         return view.camera.view_size.value_or(std::hypot(size.x, size.y, size.z));
     }
     csgrt::Vec3 center() const {
-        const csgrt::Box& box = renderer.bounds();
+        const csgrt::Box box = renderer.model().bounds();
         return view.camera.center.value_or(sum(sum({}, 0.5, box.low), 0.5, box.high));
     }
     /// What the pixel in the middle of the window, or beside it, shows.
@@ -143,7 +143,7 @@ int main(int argc, char** argv) try {
     }
     impatient.join();
     std::printf("device: %s, %zu regions, %zu solids\n", v.renderer.statistics().device.c_str(),
-                v.renderer.regions().size(), v.renderer.solids().size());
+                v.renderer.model().regions().size(), v.renderer.model().solids().size());
     return 0;
 } catch (const csgrt::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

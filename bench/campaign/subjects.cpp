@@ -70,12 +70,12 @@ public:
     const Scene& scene() const override { return scene_; }
     const std::vector<std::string>& objects() const override { return objects_; }
     void prepare(const Renderer& renderer, std::size_t) override {
-        regions_ = renderer.regions();
+        regions_ = renderer.model().regions();
         slack_ = renderer.statistics().tolerance;
         oracle_.emplace(scene_, objects_, true, true);
         judge_.emplace(*oracle_, regions_, slack_);
         if (!judge_->unknown_regions().empty()) throw Error(Status::scene, judge_->unknown_regions());
-        box_ = renderer.bounds();
+        box_ = renderer.model().bounds();
         if (!(box_.low.x <= box_.high.x && std::isfinite(box_.high.x - box_.low.x))) box_ = {{-1, -1, -1}, {1, 1, 1}};
     }
     std::vector<Ray> rays(std::size_t count) override {

@@ -52,7 +52,7 @@ struct Judge::Impl {
     Impl(const Scene& scene, const std::vector<std::string>& objects, const Settings& settings)
         : judge(scene, objects, settings),
           coarse(scene, objects, with_length(settings, 4 * judge.statistics().tolerance)),
-          far(reach(judge.bounds())) {
+          far(reach(judge.model().bounds())) {
         if (scene.tolerance > 0) by_rule.emplace(scene, objects, with_length(settings, -1));
     }
     static Settings with_length(Settings settings, double tolerance) {

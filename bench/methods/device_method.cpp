@@ -6,6 +6,7 @@
 
 #include "base/laboratory.hpp"
 #include "compile/frame.hpp"
+#include "compile/lists/along_rays.hpp"
 #include "compile/lists/ray_list.hpp"
 #include "device/choice.hpp"
 #include "pipeline/passes/batch_buffers.hpp"
@@ -148,7 +149,7 @@ private:
         frame.candidate_capacity = frame.segment_capacity = frame.word_capacity = COUNT_MAX;
         batch_.frame = Buffer(device_, "frame", kernels_->frame(frame));
         std::vector<kernel::RayRecord> records(rays.size());
-        RayList(rays).fill(0, records);
+        RayList(rays, {.all = whole_line}).fill(0, records);
         batch_.rays = Buffer(device_, "list of rays", kernels_->rays(records));
         TimedKernels timed;
         if (!pass_.trace_counted({scene_tables_, batch_, Work::rays, count}, timed)) return false;

@@ -141,10 +141,7 @@ Job job_of(const Arguments& arguments) {
         View view;
         view.camera = job.scene.camera;
         view.width = view.height = arguments.size ? arguments.size : 256;
-        Settings settings;
-        settings.reference = true;  // no device is needed to make rays
-        settings.air = job.air;
-        job.rays = Renderer(job.scene, job.objects, settings).rays_of(view);
+        job.rays = Model(job.scene, job.objects, {.air = job.air}).grid_of(view).rays();
     }
     return job;
 }

@@ -436,9 +436,10 @@ typedef struct csgrt_statistics {
     double ms_compile, ms_build, ms_kernels, ms_frame;
 } csgrt_statistics;
 CSGRT_API csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_statistics* statistics);
-/// The model's warnings, then those about devices.
-CSGRT_API csgrt_status csgrt_renderer_warning_count(const csgrt_renderer* renderer, size_t* count);
-CSGRT_API csgrt_status csgrt_renderer_warning(const csgrt_renderer* renderer, size_t index, csgrt_diagnostic* warning);
+/// csgrt::Renderer::device_warnings(), beside those of the model (csgrt_model_warning).
+CSGRT_API csgrt_status csgrt_renderer_device_warning_count(const csgrt_renderer* renderer, size_t* count);
+CSGRT_API csgrt_status csgrt_renderer_device_warning(const csgrt_renderer* renderer, size_t index,
+                                                     csgrt_diagnostic* warning);
 
 // ---- Pictures ----
 

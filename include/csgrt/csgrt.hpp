@@ -4,12 +4,13 @@
 //
 //     int main() {
 //         csgrt::Scene scene = csgrt::load_scene("scenes/operators.json");
-//         csgrt::Renderer renderer(scene);
+//         csgrt::Model model(scene);
+//         csgrt::Renderer renderer(model);
 //         csgrt::Image image = renderer.render({.width = 512, .height = 512, .camera = scene.camera});
 //         csgrt::write_image(image, "operators.exr");  // component csgrt::image
 //         auto rays = renderer.shoot({{{0, -9e3, 0}, {0, 1, 0}}});
 //         for (auto& p : rays[0].partitions)
-//             std::printf("%s %g %g\n", renderer.regions()[p.region].path.c_str(), p.in, p.out);
+//             std::printf("%s %g %g\n", model.regions()[p.region].path.c_str(), p.in, p.out);
 //     }
 //
 // What holds everywhere unless a comment says otherwise:

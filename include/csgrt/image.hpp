@@ -78,7 +78,7 @@ private:
 ///     Z               distance along the ray in millimetres, infinity where it hits nothing; from the eye, or in an
 ///                     orthographic view from the plane on which its rays start (see the matrix worldToCamera)
 ///     N.X N.Y N.Z     unit normal of the surface, outward from the region, in the model's coordinates
-///     region solid    ids: index into Renderer::regions() or Renderer::solids(), plus 1; 0 where the ray hits nothing
+///     region solid    ids: index into Model::regions() or Model::solids(), plus 1; 0 where the ray hits nothing
 ///     depth           number of segments along the ray: its intervals inside single solids
 ///     partitions      number of intervals between neighbouring ends of segments that are inside any solid
 ///     overlap         number of those that several regions claim (see Overlap)

@@ -53,15 +53,15 @@ public:
     const std::vector<RegionInfo>& regions() const;
     /// By the index that Partitions::in_solids has.
     const std::vector<SolidInfo>& solids() const;
-    /// What the scene's reader tolerated, what was left out and other notes, each once per object and reason.
+    /// What the scene's reader tolerated, what was left out and other notes, each once per object and reason. Pictures
+    /// have the first of them in their attribute csgrt:warnings.
     const std::vector<Warning>& warnings() const;
     /// Millimetres, in double precision by the settings' rule.
     double tolerance() const;
     /// What a Model compiled anew would be made of: the scene with all edits.
     Scene scene() const;
 
-    /// The rays of a whole view, one a pixel, as Renderer::rays_of() lists them in double precision. Throws Error
-    /// (usage).
+    /// The rays of a whole view in double precision, one a pixel. Throws Error (usage).
     RayGrid grid_of(const View& view) const;
     /// The one of a pixel of the picture, counted from its top left. Throws Error (usage).
     Ray ray_of(const View& view, int column, int row) const {

@@ -18,8 +18,8 @@ namespace csgrt {
 struct Partition {
     double in = 0, out = 0;                     ///< distances t along the ray; in may be negative, both infinite
     Vec3 in_normal = {}, out_normal = {};       ///< unit vectors, outward from the region
-    std::uint32_t region = 0;                   ///< index into Renderer::regions()
-    std::uint32_t in_solid = 0, out_solid = 0;  ///< whose surfaces these are: index into Renderer::solids()
+    std::uint32_t region = 0;                   ///< index into Model::regions()
+    std::uint32_t in_solid = 0, out_solid = 0;  ///< whose surfaces these are: index into Model::solids()
 };
 
 /// A part of a ray that several regions of the same rank claim. Ranks are, from the first: solid regions, FASTGEN's
@@ -27,7 +27,7 @@ struct Partition {
 /// regions of the same rank the first in the model gets the partition.
 struct Overlap {
     double in = 0, out = 0;                   ///< as in Partition
-    std::vector<std::uint32_t> regions = {};  ///< indices into Renderer::regions(), ascending
+    std::vector<std::uint32_t> regions = {};  ///< indices into Model::regions(), ascending
 };
 
 /// Everything along one ray, in the order of distance, but for what ends at a t below 0. Neighbouring partitions of one
@@ -99,9 +99,9 @@ private:
 /// is one point, the row is there that begins or goes on at it, and not the one that ends.
 struct Partitions {
     Array<std::int64_t> ray_splits = {};                  ///< (rays + 1)
-    Array<std::int32_t> region_ids = {};                  ///< (rows), indices into Renderer::regions()
+    Array<std::int32_t> region_ids = {};                  ///< (rows), indices into Model::regions()
     Array<double> t_in = {}, t_out = {};                  ///< (rows), distances in lengths of the ray's direction
-    Array<std::int32_t> in_solids = {}, out_solids = {};  ///< (rows), if asked for: indices into Renderer::solids()
+    Array<std::int32_t> in_solids = {}, out_solids = {};  ///< (rows), if asked for: indices into Model::solids()
     Array<Vec3> in_normals = {}, out_normals = {};  ///< (rows), if asked for: unit vectors, outward from the region
     // If asked for: parts of rays that several regions of one rank claim (see Overlap), in the same way.
     Array<std::int64_t> overlap_splits = {};              ///< (rays + 1)
@@ -122,8 +122,8 @@ struct Pick {
 /// Where a list of rays first meets a region: of each ray the first row that Partitions would have.
 struct Hits {
     Array<double> t_hit = {};             ///< (rays), distances in lengths of the ray's direction; infinity: a miss
-    Array<std::int32_t> region_ids = {};  ///< (rays), indices into Renderer::regions(); -1: a miss
-    /// (rays), if asked for: whose surface it is, index into Renderer::solids(); -1: a miss, or the range begins inside
+    Array<std::int32_t> region_ids = {};  ///< (rays), indices into Model::regions(); -1: a miss
+    /// (rays), if asked for: whose surface it is, index into Model::solids(); -1: a miss, or the range begins inside
     /// the region.
     Array<std::int32_t> solid_ids = {};
     Array<Vec3> normals = {};  ///< (rays), if asked for: unit vectors, outward from the region; zeros where solid is -1

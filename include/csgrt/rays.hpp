@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include <csgrt/error.hpp>
 #include <csgrt/vector.hpp>
@@ -45,6 +46,8 @@ struct CSGRT_API RayGrid {
     std::uint64_t size() const { return std::uint64_t(columns) * std::uint64_t(rows); }
     /// Throws Error (usage) if the grid has no such ray.
     Ray ray(int column, int row) const;
+    /// All, by their numbers. Throws Error (usage) for a grid that no device takes.
+    std::vector<Ray> rays() const;
 };
 
 enum class Axis { x, y, z };

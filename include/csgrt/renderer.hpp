@@ -32,7 +32,7 @@ public:
     /// Opens devices and copies the model to them. Of the settings those of the scene have no part in it (see
     /// Model::Model). Throws Error: usage (settings that exclude each other), no_device, out_of_memory, device_fault.
     /// If a GPU was asked for by name and fails while it is made ready, the next call throws (device_fault,
-    /// out_of_memory); if it was chosen by default, warnings() says so.
+    /// out_of_memory); if it was chosen by default, device_warnings() says so.
     explicit Renderer(Model model, const Settings& settings = {});
     /// Of a Model that it makes of the scene, while it looks for devices. Throws as both do.
     explicit Renderer(Scene scene, const std::vector<std::string>& objects = {}, const Settings& settings = {});
@@ -45,7 +45,7 @@ public:
 
     // Any thread may call the next two, also while the Renderer works for another thread.
 
-    /// As set_model() had it last.
+    /// As set_model() had it last. It tells the regions, solids, bounds and warnings, and the rays of a view.
     Model model() const;
     /// The next calls are about this model, which the first of them copies to the devices, but for the tables that the
     /// last one has, too. A call that works keeps its model. Programs that know the model's types of solids stay, and
@@ -60,11 +60,9 @@ public:
     /// and all, none twice: it is called behind the first three with 8, 4 and 2, the size of squares of one colour that
     /// the framebuffer shows, and returns false to leave it at that. Throws as the other does.
     void render(const View& view, Framebuffer& framebuffer, const std::function<bool(int)>& coarse = {});
-    /// Everything along each ray, one element a ray. Throws Error: usage (a ray that Limits excludes; the message has
-    /// its index), out_of_memory, device_fault, interrupted.
-    std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
-    // Lists in arrays, whose memory is used again. All throw as shoot().
+    // Lists in arrays, whose memory is used again. All throw Error: usage (a ray that Limits excludes; the message has
+    // its index), out_of_memory, device_fault, interrupted.
 
     /// Everything along each ray, within its range: the arrays that `fields` asks for.
     void partitions(const Rays& rays, Partitions& answer, Fields fields = {}, const RayRanges& ranges = {});
@@ -84,25 +82,22 @@ public:
     /// several, which overlap.
     void slice(const Slice& slice, Array<std::int32_t>& answer);
 
-    /// The rays of a picture, one a pixel, row by row from the top left. Throws Error (usage).
-    std::vector<Ray> rays_of(const View& view) const;
+    /// For few rays: what partitions() gives of the whole lines, with all fields, as an object a ray, less what ends at
+    /// a t below 0. To make the objects of many rays takes 17 to 54 times as long as to trace them.
+    std::vector<RayPartitions> shoot(const std::vector<Ray>& rays);
 
     /// Adds the meaning of the numbers in the channels `region` and `solid` to a picture's header: the attributes
     /// csgrt:regions and csgrt:solids, JSON texts such as {"17": "/all.g/x.r"}, of the numbers that occur in the
     /// picture.
     void name_pixels(Image& image) const;
 
-    // The references are valid until the first call after set_model().
+    // The references are valid as long as the Renderer.
 
-    const Box& bounds() const;                       ///< the model's
-    const std::vector<RegionInfo>& regions() const;  ///< by the index that Partition::region has
-    const std::vector<SolidInfo>& solids() const;    ///< by the index that Partition::in_solid has
     /// Of the last call; before the first call, of the constructor.
     const Statistics& statistics() const;
-    /// The model's warnings; pictures have the first of these in their attribute csgrt:warnings. Then what is about
-    /// devices: that the reference computes since there is no device, or that a GPU cannot be used. Calls may append to
-    /// those.
-    const std::vector<Warning>& warnings() const;
+    /// What is about devices, beside the model's own warnings: that the reference computes since there is no device, or
+    /// that a GPU cannot be used. Calls may append to it.
+    const std::vector<Warning>& device_warnings() const;
 
 private:
     struct Impl;
@@ -110,7 +105,6 @@ private:
         void operator()(Impl* impl) const;
     };
     Impl& impl() const;
-    Impl& latest() const;
 
     std::unique_ptr<Impl, Delete> impl_;
 };

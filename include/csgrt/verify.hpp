@@ -29,7 +29,7 @@
 namespace csgrt {
 
 /// Where two sequences of regions differ, without what they share before and after that. Indices into
-/// Renderer::regions().
+/// Model::regions().
 struct RegionDifference {
     std::vector<std::uint32_t> exact = {}, found = {};
     bool operator==(const RegionDifference&) const = default;
@@ -58,7 +58,7 @@ struct EndError : NumberedRay {
     double millimetres = 0;    ///< along the ray, from the 113-bit distance rounded to double
     double ulps = 0;           ///< the same, in units of 2^-53 x (|o| + |distance| + size) / cos
     double distance = 0;       ///< from the ray's origin to the end, millimetres
-    std::uint32_t region = 0;  ///< whose partition it is: index into Renderer::regions()
+    std::uint32_t region = 0;  ///< whose partition it is: index into Model::regions()
 };
 
 /// The result for all rays that a Verifier shot.

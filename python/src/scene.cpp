@@ -176,7 +176,10 @@ Rows solid_rows(const LiveScene& scene) {
 
 Rows warning_rows(LiveScene& scene) {
     std::vector<Warning> warnings;
-    scene.run([&](Renderer& renderer) { warnings = renderer.warnings(); });
+    scene.run([&](Renderer& renderer) {
+        warnings = renderer.model().warnings();
+        warnings.insert(warnings.end(), renderer.device_warnings().begin(), renderer.device_warnings().end());
+    });
     Rows rows;
     for (const Warning& w : warnings)
         rows.append(nb::make_tuple(w.object, place_row(w.place), w.reason, w.count, w.appearance, format(w)));
@@ -274,7 +277,7 @@ Numpy<std::int32_t> slice(LiveScene& scene, const Vec3& normal, double offset, s
     auto answer = std::make_unique<Array<std::int32_t>>();
     csgrt::Slice cut;
     scene.run([&](Renderer& renderer) {
-        cut = slice_of(renderer.bounds(), normal, offset, pixels.first, pixels.second);
+        cut = slice_of(renderer.model().bounds(), normal, offset, pixels.first, pixels.second);
         cut.hidden = hidden;
         renderer.slice(cut, *answer);
     });
@@ -304,7 +307,7 @@ Row pick(LiveScene& scene, const View& view, int column, int row) {
 
 Numpy<double> rays_of(LiveScene& scene, const View& view) {
     auto rays = std::make_unique<std::vector<Ray>>();
-    scene.run([&](Renderer& renderer) { *rays = renderer.rays_of(view); });
+    scene.run([&](Renderer& renderer) { *rays = renderer.model().grid_of(view).rays(); });
     Ray* const data = rays->data();
     return array(data, {std::size_t(view.height), std::size_t(view.width)}, keeper(rays));
 }

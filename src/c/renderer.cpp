@@ -64,13 +64,13 @@ csgrt_status csgrt_renderer_statistics(const csgrt_renderer* renderer, csgrt_sta
     });
 }
 
-csgrt_status csgrt_renderer_warning_count(const csgrt_renderer* renderer, size_t* count) {
-    return call([&] { CSGRT_NEED(count) = CSGRT_NEED(renderer).renderer.warnings().size(); });
+csgrt_status csgrt_renderer_device_warning_count(const csgrt_renderer* renderer, size_t* count) {
+    return call([&] { CSGRT_NEED(count) = CSGRT_NEED(renderer).renderer.device_warnings().size(); });
 }
 
-csgrt_status csgrt_renderer_warning(const csgrt_renderer* renderer, size_t index, csgrt_diagnostic* warning) {
+csgrt_status csgrt_renderer_device_warning(const csgrt_renderer* renderer, size_t index, csgrt_diagnostic* warning) {
     return call(
-        [&] { fill(warning, diagnostic_of(item(CSGRT_NEED(renderer).renderer.warnings(), index)), "warning"); });
+        [&] { fill(warning, diagnostic_of(item(CSGRT_NEED(renderer).renderer.device_warnings(), index)), "warning"); });
 }
 
 // ---- Pictures ----

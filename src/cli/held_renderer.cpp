@@ -24,9 +24,10 @@ HeldRenderer::~HeldRenderer() {
 }
 
 std::vector<Warning> HeldRenderer::new_warnings() {
-    const std::vector<Warning>& all = renderer_.warnings();
-    const std::size_t first = std::exchange(returned_, all.size());
-    return {all.begin() + static_cast<std::ptrdiff_t>(first), all.end()};
+    std::vector<Warning> all = renderer_.model().warnings();
+    all.insert(all.end(), renderer_.device_warnings().begin(), renderer_.device_warnings().end());
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::exchange(returned_, all.size())));
+    return all;
 }
 
 int end_process(int status) {

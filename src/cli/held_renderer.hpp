@@ -20,7 +20,7 @@ public:
 
     Renderer& operator*() noexcept { return renderer_; }
     Renderer* operator->() noexcept { return &renderer_; }
-    /// Those that no earlier call has returned.
+    /// The model's and the devices', but for those that an earlier call has returned.
     std::vector<Warning> new_warnings();
 
 private:

@@ -101,7 +101,7 @@ struct CompiledScene : Space, Logic, Shapes, Looks {
     std::shared_ptr<LateStatusTree> status_tree;  ///< made for the first deep ray of all
     std::uint64_t geometry_hash = 0;              ///< FNV-1a over all that looks do not change
     std::uint64_t hash = 0;         ///< FNV-1a over everything that crosses the bus: the same scene, the same number
-    std::vector<Warning> warnings;  ///< see Renderer::warnings
+    std::vector<Warning> warnings;  ///< see Model::warnings
 };
 
 struct CompileOptions {

@@ -35,8 +35,9 @@ void describe(Image& image, const char* channel, const char* attribute, const In
 
 void Renderer::name_pixels(Image& image) const {
     const FloatingPoint own;
-    describe(image, "region", "csgrt:regions", regions(), [](const RegionInfo& region) { return region.path; });
-    describe(image, "solid", "csgrt:solids", solids(), [](const SolidInfo& solid) { return solid.name; });
+    const Model model = this->model();
+    describe(image, "region", "csgrt:regions", model.regions(), [](const RegionInfo& region) { return region.path; });
+    describe(image, "solid", "csgrt:solids", model.solids(), [](const SolidInfo& solid) { return solid.name; });
 }
 
 }  // namespace csgrt

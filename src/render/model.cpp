@@ -162,10 +162,10 @@ Pick Model::pick(const View& view, int column, int row) const {
     const kernel::view_range range = kernel::range_in_view(&frame, {{o.x, o.y, o.z}, {d.x, d.y, d.z}});
     const std::uint32_t seen_end = impl_->scene.rank_ends[RANK_AIR];  // behind it: lights that no picture shows
     impl_->call([&](const TraceList& trace) {
-        RayList list(pick.ray);
+        RayList list(pick.ray, {.all = whole_line});
         const auto along = [&](Claims claims) {
             Partitions all;
-            RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, 1, 0);
+            RowSink sink(all, all_fields, 1);
             trace(list, sink, claims);
             return std::move(along_rays(all).front());
         };

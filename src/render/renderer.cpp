@@ -58,8 +58,6 @@ void Renderer::Impl::use_model(bool is_reference) {
     used(Claims::all, is_reference);
     statistics.tolerance = tolerance = tolerance_of(scene(), settings);
     statistics.ms.compile = model.impl_->compile_ms;
-    warnings = scene().warnings;
-    warnings.insert(warnings.end(), device_warnings.begin(), device_warnings.end());
 }
 
 std::shared_ptr<const ModelInUse> Renderer::Impl::used(Claims claims, bool is_reference) {
@@ -86,7 +84,6 @@ void Renderer::Impl::take_next() {
 
 void Renderer::Impl::warn(std::string reason) {
     device_warnings.push_back({.object = {}, .place = {}, .reason = std::move(reason)});
-    warnings.push_back(device_warnings.back());
 }
 
 Model Renderer::model() const {
@@ -184,16 +181,11 @@ void Renderer::Impl::call(const Work& work, std::uint64_t all) {
 }
 
 std::vector<RayPartitions> Renderer::shoot(const std::vector<Ray>& rays) {
-    std::vector<RayPartitions> answers;
-    impl().call([&](const TraceList& trace) {
-        const RayList list(rays);
-        Partitions all;
-        RowSink sink(all, {.solids = true, .normals = true, .overlaps = true}, list.size(), 0);
-        trace(list, sink, Claims::all);
-        list.restore_lengths(all);
-        answers = along_rays(all);
-    });
-    return answers;
+    Partitions all;
+    partitions(rays, all, all_fields, {.all = whole_line});
+    const FloatingPoint own;
+    const AllowedThreads allowed(impl().settings.threads);
+    return along_rays(all);
 }
 
 void Renderer::partitions(const Rays& rays, Partitions& answer, Fields fields, const RayRanges& ranges) {
@@ -245,29 +237,7 @@ void Renderer::Impl::trace(const RayList& list, RowTaker& taker, Claims claims, 
     end_call(start);
 }
 
-std::vector<Ray> Renderer::rays_of(const View& view) const {
-    const FloatingPoint own;
-    Impl& impl = latest();
-    const PreparedFrame prepared = prepare_frame(impl.scene(), view, impl.tolerance);
-    std::vector<Ray> rays;
-    rays.reserve(std::size_t{prepared.frame.width} * prepared.frame.height);
-    const auto use = impl.used(Claims::all, impl.backend->is_reference());
-    for (std::uint32_t y = 0; y < prepared.frame.height; ++y)
-        for (std::uint32_t x = 0; x < prepared.frame.width; ++x)
-            rays.push_back(use->kernels->camera_ray(prepared.frame, x, y));
-    return rays;
-}
-
-const Box& Renderer::bounds() const { return latest().scene().bounds; }
-const std::vector<RegionInfo>& Renderer::regions() const { return latest().scene().region_info; }
-const std::vector<SolidInfo>& Renderer::solids() const { return latest().scene().solid_info; }
-const std::vector<Warning>& Renderer::warnings() const { return latest().warnings; }
-
-Renderer::Impl& Renderer::latest() const {
-    Impl& impl = this->impl();
-    impl.take_next();
-    return impl;
-}
+const std::vector<Warning>& Renderer::device_warnings() const { return impl().device_warnings; }
 
 const Statistics& Renderer::statistics() const {
     Impl& impl = this->impl();

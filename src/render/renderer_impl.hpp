@@ -25,8 +25,7 @@ struct Renderer::Impl {
     double tolerance = 0;                                     ///< as kernels get it, in millimetres
     std::array<std::shared_ptr<const ModelInUse>, 3> in_use;  ///< by Claims; null: not needed yet
     std::unique_ptr<Backend> backend;
-    std::vector<Warning> warnings;         ///< the scene's, and then those of devices, which are not of the picture
-    std::vector<Warning> device_warnings;  ///< these alone
+    std::vector<Warning> device_warnings;
     Statistics statistics;
     Framebuffer beside;  ///< of rays beside the pixels' own
 

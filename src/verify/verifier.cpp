@@ -23,7 +23,7 @@ Vec3 operator*(double s, Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
 
 /// The model's box; one of two millimetres about the origin if nothing in it is bounded.
 Box box_of(const Renderer& renderer) {
-    const Box& box = renderer.bounds();
+    const Box box = renderer.model().bounds();
     return box.low.x <= box.high.x ? box : Box{{-1, -1, -1}, {1, 1, 1}};
 }
 
@@ -230,7 +230,7 @@ std::vector<Ray> Verifier::sample(const Camera& camera, std::size_t count, std::
     const FloatingPoint own;
     const int side = static_cast<int>(std::sqrt(static_cast<double>(count / 2)));
     std::vector<Ray> rays;
-    if (side > 0) rays = impl_->judge->rays_of({.width = side, .height = side, .camera = camera});
+    if (side > 0) rays = impl_->judge->model().grid_of({.width = side, .height = side, .camera = camera}).rays();
     std::mt19937_64 random(seed);
     const Box& box = impl_->box;
     const auto point = [&] {

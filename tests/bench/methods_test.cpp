@@ -71,7 +71,7 @@ Judged from_file(const std::string& name, int size) {
     view.width = view.height = size;
     Settings settings;
     settings.reference = true;
-    std::vector<Ray> rays = Renderer(scene, {}, settings).rays_of(view);
+    std::vector<Ray> rays = Renderer(scene, {}, settings).model().grid_of(view).rays();
     return judged(name, std::move(scene), {}, false, std::move(rays));
 }
 

@@ -57,7 +57,7 @@ void require_same(const csgrt_partitions* found, const Partitions& p) {
 }
 
 void require_same_rays(const csgrt_model* c_model, csgrt_renderer* c_renderer, Renderer& renderer) {
-    const std::vector<Ray> list = random_rays(renderer.bounds(), tries(200));
+    const std::vector<Ray> list = random_rays(renderer.model().bounds(), tries(200));
     const std::vector<RayRange> ranges = random_ranges(list.size());
     OwnedPartitions found;
     REQUIRE_OK(csgrt_partitions_create(&found));
@@ -112,7 +112,7 @@ void require_same_places(const csgrt_model* c_model, csgrt_renderer* c_renderer,
     csgrt_slice cut;
     REQUIRE_OK(csgrt_slice_of(&info.bounds, &normal, 1, 40, 30, &cut));
     Array<std::int32_t> expected;
-    renderer.slice(slice_of(renderer.bounds(), {0.2, -0.3, 1}, 1, 40, 30), expected);
+    renderer.slice(slice_of(renderer.model().bounds(), {0.2, -0.3, 1}, 1, 40, 30), expected);
     std::vector<std::int32_t> ids(1200);
     REQUIRE_OK(csgrt_renderer_slice(c_renderer, &cut, ids.data(), ids.size()));
     REQUIRE(same_bytes(ids.data(), ids.size(), expected));
@@ -120,7 +120,7 @@ void require_same_places(const csgrt_model* c_model, csgrt_renderer* c_renderer,
     REQUIRE(same_bytes(ids.data(), ids.size(), expected));
 
     std::vector<Vec3> points;
-    for (const Ray& ray : random_rays(renderer.bounds(), 100)) points.push_back(ray.origin);
+    for (const Ray& ray : random_rays(renderer.model().bounds(), 100)) points.push_back(ray.origin);
     renderer.region_at(points, expected);
     ids.resize(points.size());
     const auto* list = reinterpret_cast<const csgrt_vec3*>(points.data());
@@ -207,7 +207,7 @@ Answers answers_of(Renderer& renderer, const std::vector<Ray>& rays, const Camer
     Partitions& p = answers.rows;
     renderer.partitions(rays, p, {.solids = true, .normals = true, .overlaps = true});
     Array<std::int32_t> cut;
-    renderer.slice(slice_of(renderer.bounds(), {0, 0, 1}, 2.5, 40, 30), cut);
+    renderer.slice(slice_of(renderer.model().bounds(), {0, 0, 1}, 2.5, 40, 30), cut);
     answers.bytes = {{"slice", bytes_of(cut)},
                      {"ray_splits", bytes_of(p.ray_splits)},
                      {"region_ids", bytes_of(p.region_ids)},
@@ -439,15 +439,15 @@ TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have th
     require_same_pictures(c_scene, latest, c_renderer, renderer, scene.camera);
     csgrt_model_info info = CSGRT_MODEL_INFO;
     REQUIRE_OK(csgrt_model_get_info(latest, &info));
-    REQUIRE(info.region_count == renderer.regions().size());
+    REQUIRE(info.region_count == renderer.model().regions().size());
     for (std::size_t i = 0; i < info.region_count; ++i) {
         csgrt_region_info region = CSGRT_REGION_INFO;
         REQUIRE_OK(csgrt_model_region(latest, i, &region));
-        CHECK(region.path == renderer.regions()[i].path);
-        CHECK(region.state == static_cast<int>(renderer.regions()[i].state));
+        CHECK(region.path == renderer.model().regions()[i].path);
+        CHECK(region.state == static_cast<int>(renderer.model().regions()[i].state));
         csgrt_finish finish = CSGRT_FINISH;
         REQUIRE_OK(csgrt_model_finish(latest, i, &finish));
-        CHECK(finish.specular == renderer.regions()[i].finish.specular);
+        CHECK(finish.specular == renderer.model().regions()[i].finish.specular);
     }
 
     const Folder folder;
@@ -456,7 +456,7 @@ TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have th
     REQUIRE_OK(csgrt_save_scene(edited, file.c_str()));
     save_scene(renderer.model().scene(), folder / "edited_by_cpp.json");
     CHECK((read_file(file) == read_file(folder / "edited_by_cpp.json")));
-    const std::vector<Ray> rays = random_rays(renderer.bounds(), 200);
+    const std::vector<Ray> rays = random_rays(renderer.model().bounds(), 200);
     require_same_librt(file, rays, renderer.shoot(rays));
     const Answers expected = answers_of(renderer, rays, scene.camera);
     CHECK(std::ranges::any_of(expected.rows.in_normals, [](const Vec3& n) { return n.x == 0 && std::signbit(n.x); }));
@@ -469,7 +469,7 @@ TEST_CASE("after 100 edits C++, C, librt's shape, the command and Python have th
     OwnedEdit c_edit;
     Edit edit(renderer.model());
     REQUIRE_OK(csgrt_edit_create(latest, &c_edit));
-    const std::string path = renderer.regions()[0].path;
+    const std::string path = renderer.model().regions()[0].path;
     const Matrix matrix = {1, 0, 0, 9, 0, 1, 0, -7, 0, 0, 1, 2, 0, 0, 0, 1};
     csgrt_light light = CSGRT_LIGHT;
     light.position = {50, 100, 100};

@@ -333,7 +333,7 @@ TEST_CASE("pictures and partitions of programs from the cache have the bits of t
     for (int i = 0; i < 2; ++i) {
         Renderer renderer(scene, {}, settings);
         pictures[i] = renderer.render(view);
-        shot[i] = renderer.shoot(test::random_rays(renderer.bounds(), 200));
+        shot[i] = renderer.shoot(test::random_rays(renderer.model().bounds(), 200));
         for (const fs::path& file : folder.files()) contents[i].push_back(content_of(file));
     }
     CHECK_FALSE(contents[0].empty());

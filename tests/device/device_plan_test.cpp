@@ -146,16 +146,16 @@ TEST_CASE("without any device the reference draws, and says so", "[.no_driver]")
     Renderer renderer(scene);
     CHECK(renderer.statistics().device == "reference");
     const Image image = renderer.render(view);
-    REQUIRE(!renderer.warnings().empty());
-    const std::string told = renderer.warnings().back().reason;
+    REQUIRE(renderer.device_warnings().size() == 1);
+    const std::string told = renderer.device_warnings().front().reason;
     CHECK(told.starts_with("no device draws but the CPU reference"));
     CHECK(told.ends_with("there is no OpenCL device with double precision"));
-    CHECK(image.attributes.count("csgrt:warnings") == (renderer.warnings().size() > 1));
+    CHECK(image.attributes.count("csgrt:warnings") == !renderer.model().warnings().empty());
     Settings settings;
     settings.reference = true;
     Renderer reference(scene, {}, settings);
     test::require_same(image, reference.render(view));
-    CHECK(reference.warnings().size() + 1 == renderer.warnings().size());
+    CHECK(reference.device_warnings().empty());
 
     settings = {};
     for (const char* choice : {"native", "pocl", "0", "gpu"}) {
@@ -174,6 +174,6 @@ TEST_CASE("a picture without a GPU is drawn by the native device, which awaits n
         renderer.render({.width = 16, .height = 16, .camera = {}});
         CHECK(renderer.statistics().device.starts_with("native"));
         CHECK(renderer.statistics().awaited_device.empty());
-        CHECK(renderer.warnings().empty());
+        CHECK(renderer.device_warnings().empty());
     }
 }

@@ -136,7 +136,7 @@ std::vector<Case> native_cases() {
         return [=](Renderer& renderer) { return Answer{renderer.render(view), {}}; };
     };
     const auto shoot = [](Renderer& renderer) {
-        return Answer{{}, renderer.shoot(test::random_rays(renderer.bounds(), 20))};
+        return Answer{{}, renderer.shoot(test::random_rays(renderer.model().bounds(), 20))};
     };
     return {{"every partition", on(small_scene(), draw(every))},
             {"first hits", on(small_scene(), draw(first_hits()))},

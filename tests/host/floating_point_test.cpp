@@ -50,7 +50,7 @@ Answer ask(const std::string& text, const std::string& name, const std::string& 
         append(answer.bytes, image.channels[c].data(), image.channels[c].size());
     for (const auto& [key, matrix] : image.matrices) append(answer.bytes, matrix.data(), matrix.size());
     for (const auto& [key, value] : image.attributes) answer.bytes += value;
-    const std::vector<Ray> rays = renderer.rays_of(small_view());
+    const std::vector<Ray> rays = renderer.model().grid_of(small_view()).rays();
     look();
     append(answer.bytes, rays.data(), rays.size());
     if (who != "pocl")  // kernels that take it seconds to compile

@@ -35,7 +35,7 @@ TEST_CASE("after a fork a new Renderer works in the child, and the parent's goes
             const Scene scene = small_scene();
             Renderer renderer = renderer_on(scene, on(who));
             const Image image = renderer.render(small_view());
-            const auto rays = renderer.rays_of(small_view());
+            const auto rays = renderer.model().grid_of(small_view()).rays();
             const auto answers = renderer.shoot(rays);
             std::atomic<bool> stop{false};
             std::thread other([&] {  // the fork may come at any time of another thread's calls
@@ -86,15 +86,12 @@ TEST_CASE("a Renderer that a child inherits refuses every call, and goes without
                         Image image;
                         require_refusal([&] { renderer.render(small_view()); });
                         require_refusal([&] { renderer.shoot({{{0, -9e3, 0}, {0, 1, 0}}}); });
-                        require_refusal([&] { renderer.rays_of(small_view()); });
                         require_refusal([&] { renderer.name_pixels(image); });
-                        require_refusal([&] { renderer.bounds(); });
-                        require_refusal([&] { renderer.regions(); });
-                        require_refusal([&] { renderer.solids(); });
+                        require_refusal([&] { renderer.model(); });
                         require_refusal([&] { renderer.statistics(); });
-                        require_refusal([&] { renderer.warnings(); });
+                        require_refusal([&] { renderer.device_warnings(); });
                         Renderer moved(std::move(renderer));
-                        require_refusal([&] { moved.bounds(); });
+                        require_refusal([&] { moved.model(); });
                         moved = Renderer(scene, {}, on("reference"));  // the one that was inherited goes
                         REQUIRE(moved.render(small_view()).width == 24);
                     }) == 0);

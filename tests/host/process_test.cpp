@@ -69,7 +69,7 @@ std::string texts(const std::string& folder) {
         "curves": [{"line": [0, 1]}, {"line": [1, 2]}, {"line": [2, 0]}]}}},
         "combinations": {"part": {"region": true, "tree": "turn"}}})";
     const Renderer turned(parse_scene(turn, "turn.json"), {}, on("reference"));
-    for (const Warning& warning : turned.warnings()) all += format(warning);
+    for (const Warning& warning : turned.model().warnings()) all += format(warning);
     say([&] { parse_scene(R"({"csgrt": 1.5, "solids": {"a": 1,5}})", "wrong.json"); });
     const Scene scene = small_scene();
     Settings settings = on("NATIVE");  // ı is no small I
@@ -217,26 +217,26 @@ TEST_CASE("a Renderer may go from thread to thread, and needs little of their st
                 bool missing = false;
             } call{who, {}, {}, false};
             // Made in one thread, used by another, gone in a third.
-            void* (*const steps[])(void*) = {[](void* given) -> void* {
-                                                 Call& c = *static_cast<Call*>(given);
-                                                 try {
-                                                     c.renderer.emplace(renderer_on(small_scene(), on(c.who)));
-                                                 } catch (const Skip&) {
-                                                     c.missing = true;
-                                                 }
-                                                 return nullptr;
-                                             },
-                                             [](void* given) -> void* {
-                                                 Call& c = *static_cast<Call*>(given);
-                                                 if (c.renderer)
-                                                     c.image = c.renderer->render({.width = 128, .height = 128});
-                                                 if (c.renderer) c.renderer->shoot(c.renderer->rays_of(small_view()));
-                                                 return nullptr;
-                                             },
-                                             [](void* given) -> void* {
-                                                 static_cast<Call*>(given)->renderer.reset();
-                                                 return nullptr;
-                                             }};
+            void* (*const steps[])(void*) = {
+                [](void* given) -> void* {
+                    Call& c = *static_cast<Call*>(given);
+                    try {
+                        c.renderer.emplace(renderer_on(small_scene(), on(c.who)));
+                    } catch (const Skip&) {
+                        c.missing = true;
+                    }
+                    return nullptr;
+                },
+                [](void* given) -> void* {
+                    Call& c = *static_cast<Call*>(given);
+                    if (c.renderer) c.image = c.renderer->render({.width = 128, .height = 128});
+                    if (c.renderer) c.renderer->shoot(c.renderer->model().grid_of(small_view()).rays());
+                    return nullptr;
+                },
+                [](void* given) -> void* {
+                    static_cast<Call*>(given)->renderer.reset();
+                    return nullptr;
+                }};
             for (const auto step : steps) {
                 pthread_attr_t small;
                 pthread_attr_init(&small);

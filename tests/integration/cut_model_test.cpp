@@ -56,7 +56,7 @@ std::map<std::string, double> lengths(Renderer& renderer, const std::vector<Ray>
         for (const Partition& p : answers[i].partitions) {
             const bool before = (rate > 0) == keeps_inside;
             const double in = before ? p.in : std::max(p.in, t), out = before ? std::min(p.out, t) : p.out;
-            const std::string& path = renderer.regions()[static_cast<std::size_t>(p.region)].path;
+            const std::string& path = renderer.model().regions()[static_cast<std::size_t>(p.region)].path;
             result[path.substr(path.rfind('/'))] += std::max(0.0, out - std::max(in, 0.0));
         }
     }
@@ -68,7 +68,7 @@ std::map<std::string, double> lengths(Renderer& renderer, const std::vector<Ray>
 TEST_CASE("a half-space cuts a whole model: the device has the reference's bits, and what is left is right") {
     Scene scene = model();
     Renderer whole(scene, {"all"}, test::on_device());
-    const std::vector<Ray> rays = test::random_rays(whole.bounds(), 2000);
+    const std::vector<Ray> rays = test::random_rays(whole.model().bounds(), 2000);
     for (const Plane& plane : {Plane{{1, 0, 0}, 0.5}, Plane{{0.48, 0.6, 0.64}, -1}, Plane{{0, 0, -1}, 40}}) {
         for (const Operator op : {Operator::intersection, Operator::difference}) {
             Scene cut = scene;
@@ -82,7 +82,7 @@ TEST_CASE("a half-space cuts a whole model: the device has the reference's bits,
             settings.reference = true;
             settings.device.clear();
             Renderer reference(cut, {"cut"}, settings);
-            CHECK(device.regions().size() == whole.regions().size());
+            CHECK(device.model().regions().size() == whole.model().regions().size());
             test::require_same(device.shoot(rays), reference.shoot(rays));
             View view;
             view.width = view.height = 64;

@@ -188,8 +188,8 @@ public:
     Renderer& reference() { return reference_; }
     Renderer& device() { return device_; }
     /// The region's name, without a slash.
-    std::string region(std::uint32_t index) const { return reference_.regions()[index].path.substr(1); }
-    std::string solid(std::uint32_t index) const { return reference_.solids()[index].name; }
+    std::string region(std::uint32_t index) const { return reference_.model().regions()[index].path.substr(1); }
+    std::string solid(std::uint32_t index) const { return reference_.model().solids()[index].name; }
 
 private:
     static Settings as_reference(Settings settings) {

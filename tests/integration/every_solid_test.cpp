@@ -37,9 +37,9 @@ TEST_CASE("every solid: regions are what the operators make of the solids' segme
         // Of each place: what its region has, or its two regions.
         std::map<std::string, Stretches> of_first, of_second, regions;
         for (const Partition& p : a[i].partitions)
-            of_first[firsts.regions()[p.region].path.substr(7)].push_back({p.in, p.out});
+            of_first[firsts.model().regions()[p.region].path.substr(7)].push_back({p.in, p.out});
         for (const Partition& p : b[i].partitions)
-            of_second[seconds.regions()[p.region].path.substr(8)].push_back({p.in, p.out});
+            of_second[seconds.model().regions()[p.region].path.substr(8)].push_back({p.in, p.out});
         for (const Partition& p : found[i].partitions) regions[both.region(p.region)].push_back({p.in, p.out});
         for (const Spot& place : model.places) {
             const std::string name = place.first.substr(6);
@@ -237,7 +237,7 @@ TEST_CASE("every solid: a picture shows the first partition of each of its rays,
         view.every_partition = true;
         const Image image = both.render(view);
         const std::uint64_t counted = both.device().statistics().overlaps;
-        const std::vector<Ray> rays = both.reference().rays_of(view);
+        const std::vector<Ray> rays = both.reference().model().grid_of(view).rays();
         const std::vector<RayPartitions> answers = both.shoot(rays);
         Faults faults;
         const auto at = [&](const char* name, std::size_t i) { return image.channel(name)[i]; };

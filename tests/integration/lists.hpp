@@ -19,10 +19,8 @@ struct ByOpenCl {
     const NativeTable table{&functions};
 };
 
-inline constexpr Fields all_fields{.solids = true, .normals = true, .overlaps = true};
-
 inline std::vector<kernel::RayRecord> records_of(const std::vector<Ray>& rays) {
-    const RayList list(rays);
+    const RayList list(rays, {.all = whole_line});
     std::vector<kernel::RayRecord> records(rays.size());
     list.fill(0, records);
     return records;
@@ -32,7 +30,7 @@ inline std::vector<RayPartitions> answers_of(const Reference& reference, const k
                                              const std::vector<Ray>& rays, ReferenceCounts& counts) {
     Partitions answer;
     RowSink sink(answer, all_fields, rays.size());
-    reference.trace(frame, RayList(rays), sink, nullptr, counts);
+    reference.trace(frame, RayList(rays, {.all = whole_line}), sink, nullptr, counts);
     return along_rays(answer);
 }
 

@@ -36,7 +36,7 @@ std::vector<Ray> along_x() { return {{{0, 0, 0}, {1, 0, 0}}, {{0, 5, 0}, {1, 0, 
 TEST_CASE("the rows of a ray stand in order, and a cut end has the bound, no solid and no normal") {
     Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     Partitions answer;
-    renderer.partitions(along_x(), answer, test::all_fields, {.all = {0, 1.25}});
+    renderer.partitions(along_x(), answer, all_fields, {.all = {0, 1.25}});
     REQUIRE(answer.ray_splits.size() == 4);
     CHECK((answer.ray_splits[1] == 1 && answer.ray_splits[2] == 1 && answer.ray_splits[3] == 3));
     CHECK((answer.region_ids[0] == 0 && answer.t_in[0] == 0 && answer.t_out[0] == 1.25));
@@ -69,13 +69,13 @@ TEST_CASE("a range of one point holds what begins or goes on there") {
 TEST_CASE("only the arrays that are asked for are filled, and their memory is used again") {
     Renderer renderer(balls(), {}, test::on_device());
     Partitions answer;
-    renderer.partitions(along_x(), answer, test::all_fields);
+    renderer.partitions(along_x(), answer, all_fields);
     const double* const memory = answer.t_in.data();
     renderer.partitions(along_x(), answer);
     CHECK(answer.t_in.data() == memory);
     CHECK(answer.t_in.size() == answer.region_ids.size());
     CHECK((answer.in_solids.empty() && answer.out_normals.empty() && answer.overlap_splits.empty()));
-    renderer.partitions({}, answer, test::all_fields);
+    renderer.partitions({}, answer, all_fields);
     CHECK((answer.ray_splits.size() == 1 && answer.region_ids.empty() && answer.overlap_splits.size() == 1));
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("a first hit is the range's begin where that is inside, and infinity w
     Renderer renderer(balls(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
     Hits hits;
     const RayRange ranges[] = {{0.5, 9}, {-9, 9}, {0, 0.25}};
-    renderer.cast_rays(along_x(), hits, test::all_fields, {.each = ranges});
+    renderer.cast_rays(along_x(), hits, all_fields, {.each = ranges});
     CHECK((hits.t_hit[0] == 0.5 && hits.region_ids[0] == 0 && hits.solid_ids[0] == -1 && hits.normals[0] == Vec3{}));
     CHECK((hits.t_hit[1] == HUGE_VAL && hits.region_ids[1] == -1 && hits.solid_ids[1] == -1));
     CHECK((hits.t_hit[2] == 0 && hits.region_ids[2] == 1));
@@ -138,9 +138,9 @@ TEST_CASE("batches come in order, hold the list's rows, and end when the host ha
             return true;
         };
     Renderer renderer(balls(), {}, settings);
-    const std::vector<Ray> rays = test::random_rays(renderer.bounds(), 1000);
+    const std::vector<Ray> rays = test::random_rays(renderer.model().bounds(), 1000);
     Partitions whole;
-    renderer.partitions(rays, whole, test::all_fields);
+    renderer.partitions(rays, whole, all_fields);
     told.clear();
     std::uint64_t next = 0;
     const auto take = [&](const Partitions& batch, std::uint64_t first) {
@@ -150,7 +150,7 @@ TEST_CASE("batches come in order, hold the list's rows, and end when the host ha
         next += batch.ray_splits.size() - 1;
         return next < 600 || rays.size() == next;
     };
-    renderer.partitions(rays, take, test::all_fields, {}, 300);
+    renderer.partitions(rays, take, all_fields, {}, 300);
     CHECK(next == 600);
     CHECK(std::is_sorted(told.begin(), told.end()));
     CHECK_THROWS_AS(renderer.partitions(rays, take, {}, {}, 0), Error);
@@ -169,23 +169,24 @@ TEST_CASE("a grid's rays are those of its list, whoever makes them") {
     const RayGrid grids[] = {compiled.grid_of(view), slanted, rays_parallel(compiled.bounds(), Axis::y, 40, 9),
                              rays_pinhole(50, {0, 0, 0}, {30, 40, 50}, {0, 0, 1}, 24, 16)};
     for (const RayGrid& grid : grids) {
-        std::vector<Ray> list;
-        for (int row = 0; row < grid.rows; ++row)
-            for (int column = 0; column < grid.columns; ++column) list.push_back(grid.ray(column, row));
+        const std::vector<Ray> list = grid.rays();
         REQUIRE(list.size() == grid.size());
+        const Ray one = grid.ray(3, 2);
+        const std::size_t number = 2 * static_cast<std::size_t>(grid.columns) + 3;
+        CHECK((one.origin == list[number].origin && one.direction == list[number].direction));
         Renderer reference(compiled, {.reference = true}), direct(compiled, test::on_device());
         const test::ByOpenCl functions;
         Renderer by_functions(compiled, test::on_native_device());
         Partitions expected, found;
-        reference.partitions(list, expected, test::all_fields);
+        reference.partitions(list, expected, all_fields);
         for (Renderer* const renderer : {&reference, &direct, &by_functions}) {
-            renderer->partitions(grid, found, test::all_fields);
+            renderer->partitions(grid, found, all_fields);
             test::require_same(found, expected);
             const std::vector<RayRange> ranges(list.size());
-            renderer->partitions(grid, found, test::all_fields, {.each = ranges});
+            renderer->partitions(grid, found, all_fields, {.each = ranges});
             test::require_same(found, expected);
         }
-        compiled.partitions(grid, found, test::all_fields);
+        compiled.partitions(grid, found, all_fields);
         test::require_same(found, expected);
         std::uint64_t rays = 0;
         direct.partitions(
@@ -195,10 +196,10 @@ TEST_CASE("a grid's rays are those of its list, whoever makes them") {
                     REQUIRE(same_rows(batch, i, expected, first + i));
                 return true;
             },
-            test::all_fields, {}, 100);
+            all_fields, {}, 100);
         CHECK(rays == grid.size());
     }
-    const std::vector<Ray> listed = Renderer(compiled, {.reference = true}).rays_of(view);
+    const std::vector<Ray> listed = compiled.grid_of(view).rays();
     const Ray ray = compiled.ray_of(view, 5, 20);
     CHECK((ray.origin == listed[20 * 37 + 5].origin && ray.direction == listed[20 * 37 + 5].direction));
     CHECK_THROWS_AS(compiled.ray_of(view, 37, 0), Error);
@@ -253,5 +254,5 @@ TEST_CASE("the number of threads changes no bit of a list") {
     three.threads = 3;
     Renderer expected(scene, {}, one), found(scene, {}, three);
     test::require_same_lists(expected, {&found},
-                             test::random_rays(expected.bounds(), test::sanitized ? 2'000 : 20'000));
+                             test::random_rays(expected.model().bounds(), test::sanitized ? 2'000 : 20'000));
 }

@@ -98,7 +98,7 @@ TEST_CASE("contraction changes last digits and no region", "[agreement]") {
     const Scene scene = load_scene(folder + "/solids.json");
     Renderer plain(scene, {}, test::on_device()),
         contracted(scene, {}, with_methods({.contraction = true}, test::on_device()));
-    const std::vector<Ray> rays = test::random_rays(plain.bounds(), 2000);
+    const std::vector<Ray> rays = test::random_rays(plain.model().bounds(), 2000);
     const auto a = plain.shoot(rays), b = contracted.shoot(rays);
     std::size_t other_regions = 0;
     double farthest = 0;

@@ -122,7 +122,7 @@ void require_scene(const Scene& scene, bool every_partition, bool judged, Tally&
     }
     ++tally.scenes;
     Renderer device(scene, {}, settings);
-    const Box& bounds = reference->bounds();
+    const Box& bounds = reference->model().bounds();
     const Box box = bounds.low.x > bounds.high.x ? Box{{-9, -9, -9}, {9, 9, 9}} : bounds;  // half-spaces alone
     const std::vector<Ray> rays = test::random_rays(box, 16);
     const std::vector<RayPartitions> answers = reference->shoot(rays);

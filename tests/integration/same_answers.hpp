@@ -248,7 +248,7 @@ inline void require_agreement(const Scene& scene, const std::vector<std::string>
             CHECK(std::memcmp(first.channels[c].data(), expected.channels[c].data(), first.channels[c].size() * 4) ==
                   0);
     }
-    const std::vector<Ray> list = random_rays(reference.bounds(), rays);
+    const std::vector<Ray> list = random_rays(reference.model().bounds(), rays);
     const auto expected = reference.shoot(list);
     require_same(device.shoot(list), expected);
     require_same(batched.shoot(list), expected);

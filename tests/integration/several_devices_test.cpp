@@ -52,7 +52,7 @@ TEST_CASE("two devices give what one gives", "[.two_devices]") {
             CHECK(one.statistics().partitions_used == two.statistics().partitions_used);
             CHECK(two.statistics().batches > 2);
         }
-        const std::vector<Ray> rays = test::random_rays(one.bounds(), 3000);
+        const std::vector<Ray> rays = test::random_rays(one.model().bounds(), 3000);
         test::require_same(one.shoot(rays), two.shoot(rays));
         CHECK(one.statistics().ends == two.statistics().ends);
     }

@@ -65,7 +65,7 @@ TEST_CASE("solid types: an oracle knows each and agrees with what is packed and 
         const Scene scene = scene_of(R"({"csgrt": 1, "solids": {"s": )" + std::string(sample.solid) + "}}");
         const oracle::SceneOracle oracle(scene);
         Renderer renderer(scene, {}, {.reference = true, .threads = 1});
-        const oracle::SceneJudge judge(oracle, renderer.regions(), renderer.statistics().tolerance);
+        const oracle::SceneJudge judge(oracle, renderer.model().regions(), renderer.statistics().tolerance);
         std::size_t hits = 0, ties = 0;
         for (int i = 0; i < 20; ++i) {
             const oracle::QVec d = random.direction(), through = oracle::quad(0.7) * random.in_cube();

@@ -58,7 +58,7 @@ TEST_CASE("a point belongs to the region that begins or goes on there along x") 
 
 TEST_CASE("a slice shows regions, overlaps and what is empty, row 0 on top") {
     Renderer renderer(boxes(), {}, GENERATE(test::on_device(), Settings{.reference = true}));
-    const Slice slice = slice_of(renderer.bounds(), {0, 0, 2}, 0.25, 8, 6);
+    const Slice slice = slice_of(renderer.model().bounds(), {0, 0, 2}, 0.25, 8, 6);
     CHECK((slice.center == Vec3{2, 0, 0.25} && slice.right == Vec3{0.5, 0, 0} && slice.up == Vec3{0, 0.5, 0}));
     Array<std::int32_t> found;
     renderer.slice(slice, found);
@@ -67,11 +67,11 @@ TEST_CASE("a slice shows regions, overlaps and what is empty, row 0 on top") {
     for (std::size_t row = 0; row < 6; ++row)
         CHECK(std::vector<std::int32_t>(found.begin() + 8 * row, found.begin() + 8 * row + 8) ==
               (row == 0 || row == 5 ? outside : inside));
-    CHECK(slice_of(renderer.bounds(), {1, 0, 0}, 0, 2, 2).right.y > 0);
-    CHECK(slice_of(renderer.bounds(), {0, 1, 0}, 0, 2, 2).right.x < 0);
-    CHECK(slice_of(renderer.bounds(), {0, -1, 0}, 0, 2, 2).up.z > 0);
-    CHECK_THROWS_AS(slice_of(renderer.bounds(), {}, 0, 2, 2), Error);
-    CHECK_THROWS_AS(slice_of(renderer.bounds(), {0, 0, 1}, HUGE_VAL, 2, 2), Error);
+    CHECK(slice_of(renderer.model().bounds(), {1, 0, 0}, 0, 2, 2).right.y > 0);
+    CHECK(slice_of(renderer.model().bounds(), {0, 1, 0}, 0, 2, 2).right.x < 0);
+    CHECK(slice_of(renderer.model().bounds(), {0, -1, 0}, 0, 2, 2).up.z > 0);
+    CHECK_THROWS_AS(slice_of(renderer.model().bounds(), {}, 0, 2, 2), Error);
+    CHECK_THROWS_AS(slice_of(renderer.model().bounds(), {0, 0, 1}, HUGE_VAL, 2, 2), Error);
     CHECK_THROWS_AS(renderer.slice(Slice{}, found), Error);
 }
 
@@ -112,8 +112,8 @@ static void judge_space(std::size_t points_a_scene, int pixels) {
         const Scene scene = load_scene(file);
         Renderer renderer(scene, {}, test::on_native_device()), reference(scene, {}, {.reference = true});
         const oracle::SceneOracle oracle(scene, {}, true, true);
-        const oracle::SceneJudge judge(oracle, renderer.regions(), renderer.statistics().tolerance);
-        const std::vector<Vec3> points = random_points(renderer.bounds(), points_a_scene);
+        const oracle::SceneJudge judge(oracle, renderer.model().regions(), renderer.statistics().tolerance);
+        const std::vector<Vec3> points = random_points(renderer.model().bounds(), points_a_scene);
         Array<std::int32_t> found, other;
         renderer.region_at(points, found);
         reference.region_at(points, other);
@@ -123,7 +123,7 @@ static void judge_space(std::size_t points_a_scene, int pixels) {
         Judged by_points(judge, false), by_pixels(judge, true);
         REQUIRE(by_points(points.size(), found, [&](std::size_t i) { return points[i]; }) == "");
         for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{0.3, -0.5, 0.8}}) {
-            const Box& box = renderer.bounds();
+            const Box& box = renderer.model().bounds();
             const Vec3 at = 0.53 * box.low + 0.47 * box.high;
             const Slice slice = slice_of(box, normal, dot(unit(normal), at), pixels, pixels);
             renderer.slice(slice, found);

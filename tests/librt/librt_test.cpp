@@ -144,9 +144,9 @@ TEST_CASE("rt_shootray and shoot_many give the partitions of Renderer::shoot, to
     for (const std::string& file : test::scene_files()) {
         const Opened rtip = open(file);
         Renderer renderer(rtip->scene, {}, test::on_native_device());
-        const std::vector<Ray> rays = test::random_rays(renderer.bounds(), 40);
+        const std::vector<Ray> rays = test::random_rays(renderer.model().bounds(), 40);
         const std::vector<RayPartitions> answers = renderer.shoot(rays);
-        CHECK(rtip->nregions == renderer.regions().size());
+        CHECK(rtip->nregions == renderer.model().regions().size());
         std::vector<xray> list;
         std::size_t hits = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {

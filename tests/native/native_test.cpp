@@ -90,7 +90,7 @@ TEST_CASE("the native device draws the same bits with any number of threads", "[
     settings.device = "native";
     settings.threads = 1;
     Renderer one(scene, {}, settings);
-    const std::vector<Ray> rays = test::random_rays(one.bounds(), 2000);
+    const std::vector<Ray> rays = test::random_rays(one.model().bounds(), 2000);
     settings.threads = GENERATE(2u, 5u);
     Renderer several(scene, {}, settings);
     for (const bool every : {false, true}) {

@@ -95,7 +95,7 @@ Answers ask(const Subject& subject, int size, bool reference) {
         answers.first_hits = hash_of(renderer.render(view));
     }
     view.width = view.height = size / 2;
-    answers.rays = hash_of(renderer.shoot(subject.rays.empty() ? renderer.rays_of(view) : subject.rays));
+    answers.rays = hash_of(renderer.shoot(subject.rays.empty() ? renderer.model().grid_of(view).rays() : subject.rays));
     return answers;
 }
 

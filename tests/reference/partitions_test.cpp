@@ -45,10 +45,10 @@ Settings on_reference() {
 void check_scene(const Scene& scene, const std::vector<std::string>& objects, std::size_t count, std::uint64_t seed) {
     const oracle::SceneOracle judge_of_geometry(scene, objects);
     Renderer renderer(scene, objects, on_reference());
-    const oracle::SceneJudge judge(judge_of_geometry, renderer.regions(), renderer.statistics().tolerance);
+    const oracle::SceneJudge judge(judge_of_geometry, renderer.model().regions(), renderer.statistics().tolerance);
     REQUIRE(judge.unknown_regions().empty());
     Random random(seed);
-    const std::vector<Ray> rays = rays_through(renderer.bounds(), count, random);
+    const std::vector<Ray> rays = rays_through(renderer.model().bounds(), count, random);
     const std::vector<RayPartitions> found = renderer.shoot(rays);
     REQUIRE(found.size() == rays.size());
     std::size_t ties = 0, failures = 0;
@@ -152,10 +152,10 @@ TEST_CASE("the oracle notices that a scene stands elsewhere by a thousandth", "[
         if (scene.objects.size() > 300) continue;
         const oracle::SceneOracle geometry(scene);
         Renderer renderer(scene, {}, on_reference());
-        const oracle::SceneJudge judge(geometry, renderer.regions(), renderer.statistics().tolerance);
+        const oracle::SceneJudge judge(geometry, renderer.model().regions(), renderer.statistics().tolerance);
         Random random(23);
-        const std::vector<Ray> rays = rays_through(renderer.bounds(), 60, random);
-        const QVec diagonal = QVec(renderer.bounds().high) - QVec(renderer.bounds().low);
+        const std::vector<Ray> rays = rays_through(renderer.model().bounds(), 60, random);
+        const QVec diagonal = QVec(renderer.model().bounds().high) - QVec(renderer.model().bounds().low);
         std::vector<Ray> moved = rays;
         for (Ray& ray : moved) ray.origin = oracle::to_vec3(QVec(ray.origin) + quad(1e-3) * diagonal);
         const std::vector<RayPartitions> found = renderer.shoot(moved);

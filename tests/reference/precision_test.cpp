@@ -48,7 +48,7 @@ Score score(const Scene& scene, Settings settings, double away) {
     settings.reference = true;
     settings.threads = 1;
     Renderer renderer(scene, {}, settings);
-    const std::vector<Ray> rays = rays_from(away, renderer.bounds(), 800);
+    const std::vector<Ray> rays = rays_from(away, renderer.model().bounds(), 800);
     const std::vector<RayPartitions> found = renderer.shoot(rays);
     Score score;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -64,7 +64,7 @@ Score score(const Scene& scene, Settings settings, double away) {
             end = piece.out;
         }
         if (!decided) continue;
-        for (const Partition& p : found[i].partitions) seen.push_back(renderer.regions()[p.region].path);
+        for (const Partition& p : found[i].partitions) seen.push_back(renderer.model().regions()[p.region].path);
         ++score.decided;
         score.wrong += seen != expected;
     }

@@ -37,7 +37,7 @@ TEST_CASE("a device that never answers ends the call in time, and its Renderer i
     const std::vector<std::function<void(Renderer&)>> calls = {
         [&](Renderer& renderer) { renderer.render(every); },
         [&](Renderer& renderer) { renderer.render(first); },
-        [&](Renderer& renderer) { renderer.shoot(test::random_rays(renderer.bounds(), 20)); },
+        [&](Renderer& renderer) { renderer.shoot(test::random_rays(renderer.model().bounds(), 20)); },
     };
     for (const auto& call : calls) {
         std::optional<Renderer> renderer(std::in_place, scene, std::vector<std::string>{}, settings);

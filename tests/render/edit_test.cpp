@@ -90,7 +90,7 @@ void require_same_models(const Model& edited, const Model& fresh) {
     const std::vector<Ray> rays = test::random_rays(fresh.bounds(), 60);
     for (const bool hidden : {true, false}) {
         Partitions one, other;
-        Fields fields = test::all_fields;
+        Fields fields = all_fields;
         fields.hidden = hidden;
         a.partitions(rays, one, fields);
         b.partitions(rays, other, fields);

@@ -13,7 +13,7 @@ namespace {
 
 /// From `azimuth`, moved aside by `shift` and seen `zoom` times as large.
 View view_of(const Renderer& renderer, int width, int height, double azimuth, double shift, double zoom) {
-    const Box& box = renderer.bounds();
+    const Box& box = renderer.model().bounds();
     const double size = box.high.x - box.low.x;
     View view;
     view.width = width;

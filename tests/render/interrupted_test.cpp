@@ -46,7 +46,7 @@ TEST_CASE("a frame and a list of rays: progress ends them before they begin, and
     View view = picture;
     view.every_partition = every;
     const Image expected = plain.render(view);
-    const std::vector<Ray> rays = plain.rays_of({.width = 40, .height = 30});
+    const std::vector<Ray> rays = plain.model().grid_of({.width = 40, .height = 30}).rays();
     const std::vector<RayPartitions> answers = plain.shoot(rays);
 
     Settings settings = settings_for(reference);

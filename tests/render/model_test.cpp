@@ -60,9 +60,9 @@ TEST_CASE("a renderer that takes model after model answers as one that is made f
             }
             const std::vector<Ray> rays = test::random_rays(model.bounds(), 100);
             test::require_same(one->shoot(rays), fresh.shoot(rays));
-            CHECK(one->regions().size() == model.regions().size());
+            CHECK(one->model().regions().size() == model.regions().size());
             CHECK(one->statistics().tolerance == fresh.statistics().tolerance);
-            CHECK(one->warnings().size() == model.warnings().size());
+            CHECK(one->device_warnings().empty());
         }
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("a pick is what the picture shows at the pixel, and what its ray meets
         view.camera.perspective = GENERATE(0.0, 40.0);
         const Image image = reference.render(view);
         const auto at = [&](const char* channel, std::size_t i) { return image.channel(channel)[i]; };
-        const std::vector<RayPartitions> along = reference.shoot(reference.rays_of(view));
+        const std::vector<RayPartitions> along = reference.shoot(reference.model().grid_of(view).rays());
         for (int row = 0; row < view.height; ++row)
             for (int column = 0; column < view.width; ++column) {
                 INFO("column " << column << " of row " << row);
@@ -147,17 +147,17 @@ TEST_CASE("a model answers rays on the threads that ask, with a renderer's bits"
         Renderer renderer(model, {.reference = true});
         Partitions expected;
         const std::vector<RayRange> ranges = test::random_ranges(rays.size());
-        renderer.partitions(rays, expected, test::all_fields, {.each = ranges});
+        renderer.partitions(rays, expected, all_fields, {.each = ranges});
         std::atomic<int> wrong{0};
         std::vector<std::thread> threads;
         for (std::size_t t = 0; t < 3; ++t)
             threads.emplace_back([&, t] {
                 Partitions one, all;
                 for (std::size_t i = t; i < rays.size(); i += 2) {  // two threads shoot each ray
-                    model.partitions(rays[i], one, test::all_fields, {.all = ranges[i]});
+                    model.partitions(rays[i], one, all_fields, {.all = ranges[i]});
                     if (!same_rows(one, 0, expected, i)) ++wrong;
                 }
-                model.partitions(rays, all, test::all_fields, {.each = ranges});
+                model.partitions(rays, all, all_fields, {.each = ranges});
                 for (std::size_t i = 0; i < rays.size(); ++i)
                     if (!same_rows(all, i, expected, i)) ++wrong;
             });

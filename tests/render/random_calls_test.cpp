@@ -46,8 +46,8 @@ public:
                 return move();
             default:
                 if (random_.below(4) == 0) begin_anew();
-                CHECK(renderer_->regions().size() == reference_->regions().size());
-                CHECK(renderer_->warnings().size() == reference_->warnings().size());
+                CHECK(renderer_->model().regions().size() == reference_->model().regions().size());
+                CHECK(renderer_->device_warnings().size() == reference_->device_warnings().size());
         }
     }
 
@@ -86,7 +86,6 @@ private:
         test::require_same(image, reference_->render(view));
         Image named = image;
         renderer_->name_pixels(named);
-        CHECK(renderer_->rays_of(view).size() == static_cast<std::size_t>(view.width * view.height));
     }
 
     void render_into(const View& view) {

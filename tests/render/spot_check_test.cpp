@@ -35,7 +35,7 @@ TEST_CASE("a device that draws right passes every check, with every solid") {
         INFO(file);
         Renderer renderer(load_scene(file), {}, checked(1));
         for (const bool every : {true, false}) CHECK_NOTHROW(renderer.render(view_of(every)));
-        CHECK_NOTHROW(renderer.shoot(test::random_rays(renderer.bounds(), 50)));
+        CHECK_NOTHROW(renderer.shoot(test::random_rays(renderer.model().bounds(), 50)));
     }
 }
 

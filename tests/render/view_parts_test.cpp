@@ -191,7 +191,7 @@ TEST_CASE("planes cut pictures open: a pixel shows the first partition of its ra
                 std::optional<Image>& same = first[view.every_partition];
                 if (same) return test::require_same(image, *same);
                 same = image;
-                const std::vector<Ray> rays = renderer.rays_of(view);
+                const std::vector<Ray> rays = renderer.model().grid_of(view).rays();
                 Partitions along;
                 renderer.partitions(rays, along, {.solids = true, .normals = true});
                 for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -40,7 +40,7 @@ View looking(double azimuth, double elevation, int width, int height) {
 
 /// The height that a picture shows of what stands across the middle of the view.
 double shown_height(const Renderer& renderer, View view) {
-    const std::vector<Ray> rays = renderer.rays_of(view);
+    const std::vector<Ray> rays = renderer.model().grid_of(view).rays();
     const auto width = static_cast<std::size_t>(view.width), height = static_cast<std::size_t>(view.height);
     return length(rays[0].origin - rays[width].origin) * static_cast<double>(height);
 }
@@ -66,7 +66,7 @@ TEST_CASE("rays of a view go through the centres of pixels, from the top left, s
             return middle + pixel * (static_cast<double>(column) - 1.5) * each.right +
                    pixel * (0.5 - static_cast<double>(row)) * each.up;
         };
-        std::vector<Ray> rays = renderer.rays_of(view);
+        std::vector<Ray> rays = renderer.model().grid_of(view).rays();
         REQUIRE(rays.size() == 8);
         for (std::size_t i = 0; i < 8; ++i) {
             CHECK(close(rays[i].direction, -1.0 * each.back));
@@ -76,7 +76,7 @@ TEST_CASE("rays of a view go through the centres of pixels, from the top left, s
         }
         // The angle of view is the vertical one, and the view is as high at the middle.
         view.camera.perspective = 60;
-        rays = renderer.rays_of(view);
+        rays = renderer.model().grid_of(view).rays();
         const Vec3 eye = middle + (pixel / std::tan(std::acos(-1.0) / 6)) * each.back;
         for (std::size_t i = 0; i < 8; ++i) {
             CHECK(close(rays[i].origin, eye));
@@ -121,7 +121,7 @@ TEST_CASE("a view shows the model's box, its sides moved outward to whole millim
 
 TEST_CASE("a picture has 1 to 32,768 pixels each way") {
     Renderer renderer(scene_of(ball({0, 0, 0}, 1)), {}, on_reference());
-    CHECK(renderer.rays_of(looking(0, 0, 32'768, 1)).size() == 32'768);
+    CHECK(renderer.model().grid_of(looking(0, 0, 32'768, 1)).rays().size() == 32'768);
     const Image image = renderer.render(looking(0, 0, 1, 1));
     CHECK(image.ids("region")[0] == 1);
     for (const auto& [width, height] : {std::pair{0, 1}, {1, 0}, {-1, 1}, {32'769, 1}, {1, 32'769}}) {

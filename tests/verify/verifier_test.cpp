@@ -32,7 +32,8 @@ TEST_CASE("a sample is half a view and half random, and the seed decides it") {
     const Verifier verifier(scene, {}, on_reference());
     const std::vector<Ray> rays = verifier.sample(scene.camera, 50, 7);
     REQUIRE(rays.size() == 50);
-    const std::vector<Ray> view = verifier.renderer().rays_of({.width = 5, .height = 5, .camera = scene.camera});
+    const std::vector<Ray> view =
+        verifier.renderer().model().grid_of({.width = 5, .height = 5, .camera = scene.camera}).rays();
     REQUIRE(view.size() == 25);
     for (std::size_t i = 0; i < view.size(); ++i) CHECK(same(rays[i], view[i]));
     const std::vector<Ray> again = verifier.sample(scene.camera, 50, 7), other = verifier.sample(scene.camera, 50, 8);

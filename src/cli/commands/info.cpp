@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "base/clock.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
@@ -51,41 +52,40 @@ std::string contents_text(const Scene& scene, const InfoArguments& arguments) {
 }
 
 struct Compiled {
-    std::optional<Renderer> renderer;  ///< none: nothing is left to render
-    std::string fault;                 ///< why
+    std::optional<Model> model;  ///< none: nothing is left to render
+    std::string fault;           ///< why
+    double milliseconds = 0;
     std::vector<Warning> warnings;
 };
 
 Compiled compile_what_is_left(const Scene& scene, const InfoArguments& arguments) try {
     Progress progress;
     progress.stage("compiling");
-    Settings settings = with_progress(arguments.settings, progress);
-    settings.reference = true;  // needs no device
-    Renderer renderer(scene, arguments.objects, settings);
+    const auto begin = Clock::now();
+    const Model model(scene, arguments.objects, arguments.settings);
     check_interrupt();
-    std::vector<Warning> warnings = renderer.warnings();
-    return {std::move(renderer), "", std::move(warnings)};  // it never draws, so it does not use `progress` again
+    return {model, "", milliseconds_since(begin), model.warnings()};
 } catch (const Error& error) {
     // If nothing is left to render, the parts that were left out are listed. An object that does not exist is an error.
     std::vector<Warning> warnings = scene.warnings;
     if (error.status() != Status::scene || !scene.lenient ||
         !validate(scene, arguments.objects, false, &warnings, arguments.settings.max_instances).empty())
         throw;
-    return {std::nullopt, error.diagnostics().front().message, std::move(warnings)};
+    return {std::nullopt, error.diagnostics().front().message, 0, std::move(warnings)};
 }
 
 std::string model_rows(const Compiled& compiled) {
     std::string text = "\n";
-    if (compiled.renderer) {
-        const Renderer& renderer = *compiled.renderer;
+    if (compiled.model) {
+        const Model& model = *compiled.model;
         std::map<std::string, std::size_t> types;
-        for (const SolidInfo& solid : renderer.solids())
+        for (const SolidInfo& solid : model.solids())
             if (solid.piece == 0) ++types[solid.type];
         text += row("solids", count_text(types));
-        text += row("regions", std::to_string(renderer.regions().size()));
-        text += row("bounds", bounds_text(renderer, true, decimal));
+        text += row("regions", std::to_string(model.regions().size()));
+        text += row("bounds", bounds_text(model, true, decimal));
         char compile[32];
-        std::snprintf(compile, sizeof compile, "%.3g ms", renderer.statistics().ms.compile);
+        std::snprintf(compile, sizeof compile, "%.3g ms", compiled.milliseconds);
         text += row("compiled", compile);
     } else {
         text += row("compiled", "no: " + compiled.fault);
@@ -133,11 +133,11 @@ std::string model_json(const Scene& scene, const Compiled& compiled) {
     std::string regions, warnings;
     std::size_t solids = 0;
     Box bounds{{1, 1, 1}, {0, 0, 0}};  // none
-    if (compiled.renderer) {
-        for (const SolidInfo& solid : compiled.renderer->solids()) solids += solid.piece == 0;
-        bounds = compiled.renderer->bounds();
-        for (std::size_t i = 0; i < compiled.renderer->regions().size(); ++i)
-            regions += (i > 0 ? between : "\n    ") + json_region(compiled.renderer->regions()[i], i);
+    if (compiled.model) {
+        for (const SolidInfo& solid : compiled.model->solids()) solids += solid.piece == 0;
+        bounds = compiled.model->bounds();
+        for (std::size_t i = 0; i < compiled.model->regions().size(); ++i)
+            regions += (i > 0 ? between : "\n    ") + json_region(compiled.model->regions()[i], i);
     }
     for (const Warning& warning : compiled.warnings)
         warnings += (warnings.empty() ? "\n    " : between) + json_warning(warning);

@@ -132,7 +132,7 @@ Statistics render_frames(Scene scene, const RenderArguments& arguments, const Vi
     progress.stage("compiling");
     HeldRenderer renderer(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
     report(renderer.new_warnings());
-    check_looks(arguments.looks, renderer->regions());
+    check_looks(arguments.looks, renderer->model().regions());
     check_interrupt();
 
     progress.stage("rendering");

@@ -46,9 +46,9 @@ void check(const SampleArguments& arguments) {
 }
 
 /// ",ID,PATH" and a line break; of no region, and of several, no path.
-void append_region(std::string& text, std::int32_t id, const Renderer& renderer) {
+void append_region(std::string& text, std::int32_t id, const Model& model) {
     text += ',' + std::to_string(id) + ',';
-    if (id >= 0) append_field(text, renderer.regions()[static_cast<std::size_t>(id)].path);
+    if (id >= 0) append_field(text, model.regions()[static_cast<std::size_t>(id)].path);
     text += '\n';
 }
 
@@ -57,6 +57,7 @@ void sample_points(PointReader& reader, bool is_npy, Renderer& renderer, Progres
     out.write(is_npy ? npy_header(sample_type, std::span(&total, 1)) : "x,y,z,region_id,path\n");
     std::vector<Vec3> points;
     Array<std::int32_t> ids;
+    const Model model = renderer.model();
     std::string text;
     for (std::uint64_t done = 0; reader.next(points, most_points); done += points.size()) {
         const auto part = [total](std::uint64_t of) { return static_cast<double>(of) / static_cast<double>(total); };
@@ -68,14 +69,14 @@ void sample_points(PointReader& reader, bool is_npy, Renderer& renderer, Progres
             append_shortest(text, points[i].x);
             append_shortest(text += ',', points[i].y);
             append_shortest(text += ',', points[i].z);
-            append_region(text, ids[i], renderer);
+            append_region(text, ids[i], model);
         }
         out.write(text);
         check_interrupt();
     }
 }
 
-void write_pixels(const Slice& slice, const Array<std::int32_t>& ids, bool is_npy, const Renderer& renderer,
+void write_pixels(const Slice& slice, const Array<std::int32_t>& ids, bool is_npy, const Model& model,
                   OutputFile& out) {
     const auto width = static_cast<std::size_t>(slice.width), height = static_cast<std::size_t>(slice.height);
     if (is_npy) {
@@ -92,7 +93,7 @@ void write_pixels(const Slice& slice, const Array<std::int32_t>& ids, bool is_np
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (ids[i] == -1) continue;
         text += std::to_string(i % width) + ',' + std::to_string(i / width);
-        append_region(text, ids[i], renderer);
+        append_region(text, ids[i], model);
         if (text.size() < most_sampled_text) continue;
         out.write(text);
         text.clear();
@@ -102,7 +103,7 @@ void write_pixels(const Slice& slice, const Array<std::int32_t>& ids, bool is_np
 
 #ifdef CSGRT_HAVE_IMAGE
 /// Regions in their colours, overlaps red, nothing transparent.
-Image picture_of(const Slice& slice, const Array<std::int32_t>& ids, const Renderer& renderer) {
+Image picture_of(const Slice& slice, const Array<std::int32_t>& ids, const Model& model) {
     constexpr float nothing[] = {0, 0, 0, 0};
     Image image;
     image.width = slice.width;
@@ -112,7 +113,7 @@ Image picture_of(const Slice& slice, const Array<std::int32_t>& ids, const Rende
     image.display_values = true;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (ids[i] == -1) continue;
-        const Vec3 color = ids[i] < 0 ? Vec3{1, 0, 0} : renderer.regions()[static_cast<std::size_t>(ids[i])].color;
+        const Vec3 color = ids[i] < 0 ? Vec3{1, 0, 0} : model.regions()[static_cast<std::size_t>(ids[i])].color;
         std::size_t channel = 0;
         for (const double value : {color.x, color.y, color.z, 1.0})
             image.channels[channel++][i] = static_cast<float>(value);
@@ -126,7 +127,7 @@ void sample(const SampleArguments& arguments, PointReader* points, Renderer& ren
     Array<std::int32_t> ids;
     Slice slice;
     if (!points) {
-        const Box& box = renderer.bounds();
+        const Box box = renderer.model().bounds();
         if (!(box.low.x <= box.high.x))
             refuse("--plane", "the model has no bounded region to cut", "name points with --points");
         slice = slice_of(box, arguments.plane->normal, arguments.plane->distance, arguments.width, arguments.height);
@@ -134,13 +135,13 @@ void sample(const SampleArguments& arguments, PointReader* points, Renderer& ren
         check_interrupt();
     }
 #ifdef CSGRT_HAVE_IMAGE
-    if (extension == ".png") return write_image(picture_of(slice, ids, renderer), arguments.output);
+    if (extension == ".png") return write_image(picture_of(slice, ids, renderer.model()), arguments.output);
 #endif
     OutputFile out(arguments.output);
     if (points)
         sample_points(*points, extension == ".npy", renderer, progress, out);
     else
-        write_pixels(slice, ids, extension == ".npy", renderer, out);
+        write_pixels(slice, ids, extension == ".npy", renderer.model(), out);
     out.commit();
 }
 

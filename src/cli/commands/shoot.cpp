@@ -92,9 +92,10 @@ void check(const ShootArguments& arguments) {
 }
 
 std::string header(const ShootArguments& arguments, const Renderer& renderer, std::uint64_t rays) {
+    const Model model = renderer.model();
     std::string text = std::string("# csgrt ") + version() + " model " + model_text(arguments) + "\n# rays " +
-                       std::to_string(rays) + " solids " + std::to_string(renderer.solids().size()) + " regions " +
-                       std::to_string(renderer.regions().size()) + " useair " + (arguments.settings.air ? "1" : "0") +
+                       std::to_string(rays) + " solids " + std::to_string(model.solids().size()) + " regions " +
+                       std::to_string(model.regions().size()) + " useair " + (arguments.settings.air ? "1" : "0") +
                        " tol.dist ";
     append_shortest(text, renderer.statistics().tolerance);
     const auto number = [](double value) {
@@ -102,7 +103,7 @@ std::string header(const ShootArguments& arguments, const Renderer& renderer, st
         append_shortest(digits, value);
         return digits;
     };
-    return text + "\n# box " + bounds_text(renderer, false, number) + "\n";
+    return text + "\n# box " + bounds_text(model, false, number) + "\n";
 }
 
 /// Calls shoot(rays, first) for chunks of rays; `first` is the number of the first one. It returns the size of the
@@ -124,7 +125,7 @@ void for_chunks_of_rays(Shooting& work, const Shoot& shoot) {
 
 void write_text(Shooting& work) {
     work.out.write(header(work.arguments, work.renderer, work.source.count()));
-    const PartitionWriter writer(work.renderer);
+    const PartitionWriter writer(work.renderer.model());
     const bool has_range = work.arguments.near || work.arguments.far;
     Partitions rows;
     std::string text;
@@ -164,7 +165,7 @@ void for_rows(Shooting& work, Fields fields, const Take& take) {
 }
 
 void write_table(Shooting& work) {
-    const RowTable table(work.renderer, work.arguments.format);
+    const RowTable table(work.renderer.model(), work.arguments.format);
     std::uint64_t count = 0, written = 0;
     if (work.arguments.format == RowFormat::npy) {  // which begins with the number of rows; a pipe does not go back
         work.progress.stage("counting");
@@ -206,7 +207,7 @@ Status run(const ShootArguments& arguments) {
     HeldRenderer held(Renderer(scene, arguments.objects, with_progress(arguments.settings, progress)));
     Renderer& renderer = *held;
     report(held.new_warnings(), false);
-    source.cover(renderer.bounds(), arguments);
+    source.cover(renderer.model().bounds(), arguments);
     check_interrupt();
 
     OutputFile out(arguments.output);

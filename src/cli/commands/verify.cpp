@@ -34,7 +34,7 @@ Status run(const VerifyArguments& arguments) {
         }
         progress.stage("compiling");
         Verifier verifier(scene, arguments.objects, with_progress(arguments.settings, progress));
-        report(verifier.renderer().warnings(), false);
+        report(verifier.renderer().model().warnings(), false);
         check_interrupt();
 
         std::vector<Ray> sample, rays;

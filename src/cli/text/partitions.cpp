@@ -53,9 +53,9 @@ void append_name(std::string& out, std::string_view name) {
     if (name.empty()) out += '-';  // no name is still a word
 }
 
-PartitionWriter::PartitionWriter(const Renderer& renderer) {
-    for (const RegionInfo& region : renderer.regions()) regions_.push_back(escaped(region.path));
-    for (const SolidInfo& solid : renderer.solids()) {
+PartitionWriter::PartitionWriter(const Model& model) {
+    for (const RegionInfo& region : model.regions()) regions_.push_back(escaped(region.path));
+    for (const SolidInfo& solid : model.solids()) {
         solids_.push_back(escaped(solid.name));
         types_.push_back(escaped(solid.type));
     }

@@ -21,7 +21,7 @@ namespace csgrt::cli {
 
 class PartitionWriter {
 public:
-    explicit PartitionWriter(const Renderer& renderer);
+    explicit PartitionWriter(const Model& model);
 
     /// Appends the lines of one ray to `out`. A solid that is none of the model's, where a range cuts a partition, and
     /// its type are -.

@@ -130,16 +130,16 @@ std::string model_text(const SceneArguments& arguments) {
     return text;
 }
 
-std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*number)(double)) {
+std::string bounds_text(const Model& model, bool in_words, std::string (*number)(double)) {
     std::size_t unbounded = 0;
-    for (const RegionInfo& region : renderer.regions()) {
+    for (const RegionInfo& region : model.regions()) {
         const Vec3 &low = region.bounds.low, &high = region.bounds.high;
         const bool empty = !(low.x <= high.x && low.y <= high.y && low.z <= high.z);
         const double sum = std::abs(low.x) + std::abs(low.y) + std::abs(low.z) + std::abs(high.x) + std::abs(high.y) +
                            std::abs(high.z);
         if (!empty && !std::isfinite(sum)) ++unbounded;
     }
-    const Vec3 &low = renderer.bounds().low, &high = renderer.bounds().high;
+    const Vec3 &low = model.bounds().low, &high = model.bounds().high;
     if (!(low.x <= high.x)) return unbounded > 0 ? "unbounded" : "empty";
     const auto point = [&](const Vec3& v) { return number(v.x) + " " + number(v.y) + " " + number(v.z); };
     if (!in_words) return point(low) + " " + point(high);

@@ -18,7 +18,7 @@ std::string model_text(const SceneArguments& arguments);
 
 /// The box of the bounded regions, six numbers by `number`, with "to" and "mm" between and after them if `in_words`;
 /// "unbounded" or "empty" if there is none.
-std::string bounds_text(const Renderer& renderer, bool in_words, std::string (*number)(double));
+std::string bounds_text(const Model& model, bool in_words, std::string (*number)(double));
 
 /// "3 (arb8 2, tor 1)", the most frequent first.
 std::string count_text(const std::map<std::string, std::size_t>& by_type);

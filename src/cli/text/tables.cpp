@@ -38,8 +38,8 @@ void append_field(std::string& out, std::string_view text) {
     out += '"';
 }
 
-RowTable::RowTable(const Renderer& renderer, RowFormat format) : format_(format) {
-    for (const RegionInfo& region : renderer.regions()) {
+RowTable::RowTable(const Model& model, RowFormat format) : format_(format) {
+    for (const RegionInfo& region : model.regions()) {
         std::string& name = names_.emplace_back();
         append_field(name, std::string_view(region.path).substr(region.path.rfind('/') + 1));
         append_field(name += ',', region.path);

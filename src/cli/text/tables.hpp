@@ -30,7 +30,7 @@ void append_field(std::string& out, std::string_view text);
 class RowTable {
 public:
     /// The format is not text.
-    RowTable(const Renderer& renderer, RowFormat format);
+    RowTable(const Model& model, RowFormat format);
 
     /// What stands before the rows, if there are `rows`; only npy needs the number.
     std::string header(std::uint64_t rows) const;

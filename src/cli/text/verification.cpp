@@ -45,7 +45,7 @@ std::string brief(double value) {
 
 std::string path(const Renderer& judged, std::uint32_t region) {
     std::string text;
-    append_name(text, judged.regions()[region].path);
+    append_name(text, judged.model().regions()[region].path);
     return text;
 }
 
@@ -87,7 +87,7 @@ std::string json_ray(const NumberedRay& ray) {
 std::string json_regions(const char* name, const std::vector<std::uint32_t>& regions, const Renderer& judged) {
     std::string text;
     for (const std::uint32_t region : regions)
-        text += (text.empty() ? "" : ", ") + json_text(judged.regions()[region].path);
+        text += (text.empty() ? "" : ", ") + json_text(judged.model().regions()[region].path);
     return std::string(", \"") + name + "\": [" + text + "]";
 }
 
@@ -107,7 +107,7 @@ std::string json_error(const char* name, const EndError& error, const Renderer& 
     if (!(error.millimetres > 0)) return text + "null";
     return text + "{\"millimetres\": " + json_number(error.millimetres) + ", \"ulps\": " + json_number(error.ulps) +
            ", \"distance\": " + json_number(error.distance) +
-           ", \"region\": " + json_text(judged.regions()[error.region].path) + ", " + json_ray(error) + "}";
+           ", \"region\": " + json_text(judged.model().regions()[error.region].path) + ", " + json_ray(error) + "}";
 }
 
 }  // namespace

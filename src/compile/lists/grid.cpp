@@ -106,6 +106,18 @@ Ray RayGrid::ray(int column, int row) const {
     return ray_of(kernel::view_ray(&frame, column, row));
 }
 
+std::vector<Ray> RayGrid::rays() const {
+    const FloatingPoint own;
+    check_grid(*this);
+    kernel::Frame frame{};
+    put_grid(*this, frame);
+    std::vector<Ray> all;
+    all.reserve(size());
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) all.push_back(ray_of(kernel::view_ray(&frame, column, row)));
+    return all;
+}
+
 RayGrid rays_parallel(const Box& box, Axis axis, int columns, int rows) {
     const FloatingPoint own;
     check_counts(columns, rows, "the grid of rays");

@@ -78,7 +78,7 @@ void check_pipe(const Pipe& pipe, std::uint32_t seed) {
     Renderer renderer(scene, {}, settings);
     std::mt19937_64 random(seed);
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-    const Box box = renderer.bounds();
+    const Box box = renderer.model().bounds();
     std::vector<Ray> rays;
     const auto point = [&] {
         return Vec3{between(box.low.x, box.high.x), between(box.low.y, box.high.y), between(box.low.z, box.high.z)};

@@ -64,11 +64,11 @@ TEST_CASE("an air region that the model lists first yields to what stands in it"
     const auto answer = renderer.shoot({{{5, -9, 5}, {0, 1, 0}}}).front();
     CHECK(answer.overlaps.empty());
     REQUIRE(answer.partitions.size() == 3);
-    CHECK(renderer.regions()[answer.partitions[0].region].air == 3);
-    CHECK(renderer.regions()[answer.partitions[1].region].air == 0);
+    CHECK(renderer.model().regions()[answer.partitions[0].region].air == 3);
+    CHECK(renderer.model().regions()[answer.partitions[1].region].air == 0);
     CHECK(answer.partitions[1].in == 13);
     CHECK(answer.partitions[1].out == 15);
-    CHECK(renderer.regions()[answer.partitions[2].region].air == 3);
+    CHECK(renderer.model().regions()[answer.partitions[2].region].air == 3);
 
     // A picture counts no overlap, either, on the device or on the reference.
     Renderer device(made.scene, made.objects, [] {

@@ -256,9 +256,9 @@ TEST_CASE("files: an object named by a path has the place and the attributes tha
     const auto check = [&](const std::string& path, const Ray& ray, double radius, const std::string& name, int id) {
         INFO(path);
         Renderer renderer(scene, {path}, test::on_reference());
-        REQUIRE(renderer.regions().size() == 1);
-        CHECK(renderer.regions()[0].path == name);
-        CHECK(renderer.regions()[0].region_id == id);
+        REQUIRE(renderer.model().regions().size() == 1);
+        CHECK(renderer.model().regions()[0].path == name);
+        CHECK(renderer.model().regions()[0].region_id == id);
         const RayPartitions found = renderer.shoot({ray}).front();
         REQUIRE(found.partitions.size() == 1);
         CHECK(std::abs(found.partitions[0].in - (50 - radius)) < 1e-9);
@@ -273,14 +273,14 @@ TEST_CASE("files: an object named by a path has the place and the attributes tha
     check("top/g/r/s", at(10, 100, 0), 1, "/top/g/r/s", 7);
     // Paths that csgrt prints are taken.
     const Renderer whole(scene, {"g"}, test::on_reference());
-    for (const RegionInfo& region : whole.regions())
-        CHECK(Renderer(scene, {region.path}, test::on_reference()).regions()[0].path == region.path);
-    CHECK(Renderer(scene, {"top/g/r"}, test::on_reference()).regions()[0].color == Vec3{1, 0, 0});
-    CHECK(Renderer(scene, {"air.g/r"}, test::on_reference()).regions()[0].color != Vec3{1, 0, 0});
+    for (const RegionInfo& region : whole.model().regions())
+        CHECK(Renderer(scene, {region.path}, test::on_reference()).model().regions()[0].path == region.path);
+    CHECK(Renderer(scene, {"top/g/r"}, test::on_reference()).model().regions()[0].color == Vec3{1, 0, 0});
+    CHECK(Renderer(scene, {"air.g/r"}, test::on_reference()).model().regions()[0].color != Vec3{1, 0, 0});
     CHECK_THROWS_AS(Renderer(scene, {"air.g/air.r/s"}, test::on_reference()), Error);  // air is left out
     // One region by two names.
     const Renderer twice(scene, {"g/r", "/g/r"}, test::on_reference());
-    CHECK(twice.regions().size() == 1);
+    CHECK(twice.model().regions().size() == 1);
 
     const auto fault = [&](const std::string& path, const std::string& message, const std::string& suggestion) {
         INFO(path);
@@ -325,7 +325,7 @@ TEST_CASE("files: points with a scale are balls", "[field]") {
     CHECK(ends(scene, "q") == std::vector<double>{-1, 1, 8, 12});
     CHECK(ends(scene, "f") == std::vector<double>{-4, 4});
     CHECK(ends(scene, "r") == std::vector<double>{4, 5, 18, 22});
-    CHECK(Renderer(scene, {"p"}, test::on_reference()).regions().size() == 1);
+    CHECK(Renderer(scene, {"p"}, test::on_reference()).model().regions().size() == 1);
     REQUIRE(scene.warnings.size() == 2);
     CHECK(scene.warnings[0].object == "q");
     CHECK(scene.warnings[1].object == "none");

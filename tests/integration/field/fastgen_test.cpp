@@ -42,10 +42,10 @@ TEST_CASE("a FASTGEN volume that the model lists first yields, and a note says w
     const auto answer = renderer.shoot({{{-9, 3, 3}, {1, 0, 0}}}).front();
     CHECK(answer.overlaps.empty());
     REQUIRE(answer.partitions.size() == 2);
-    CHECK(renderer.regions()[answer.partitions[0].region].fastgen == Fastgen::volume);
+    CHECK(renderer.model().regions()[answer.partitions[0].region].fastgen == Fastgen::volume);
     CHECK(answer.partitions[0].out == 13);
     CHECK(answer.partitions[1].out == 19);
-    REQUIRE(renderer.warnings().size() == 1);
-    CHECK(renderer.warnings()[0].reason.find("1 FASTGEN region, /r1 (volume): ") == 0);
-    CHECK(renderer.warnings()[0].reason.find("thickness along the ray are not followed") != std::string::npos);
+    REQUIRE(renderer.model().warnings().size() == 1);
+    CHECK(renderer.model().warnings()[0].reason.find("1 FASTGEN region, /r1 (volume): ") == 0);
+    CHECK(renderer.model().warnings()[0].reason.find("thickness along the ray are not followed") != std::string::npos);
 }

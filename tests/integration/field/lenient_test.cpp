@@ -204,7 +204,7 @@ void check_broken(const Broken& broken, const std::string& sound, Region region,
             test::require_same(shoot(scene), nothing ? other : both);
             std::size_t told = 0;
             const Renderer renderer(scene, {"part.r", "other.r"}, test::on_reference());
-            for (const Warning& warning : renderer.warnings())
+            for (const Warning& warning : renderer.model().warnings())
                 if (warning.reason.find(broken.reason) != std::string::npos) {
                     ++told;
                     CHECK_FALSE(warning.object.empty());
@@ -388,7 +388,8 @@ TEST_CASE("a missing object is told once, with its legs counted; so is one that 
                       region_v5("a.r", "ball.s", 'u', "gone.s") + region_v5("b.r", "bad.s", 'u', "gone.s") +
                       region_v5("c.r", "ball.s", '-', "bad.s"),
                   true);
-    const std::vector<Warning> warnings = Renderer(scene, {"a.r", "b.r", "c.r"}, test::on_reference()).warnings();
+    const std::vector<Warning> warnings =
+        Renderer(scene, {"a.r", "b.r", "c.r"}, test::on_reference()).model().warnings();
     REQUIRE(warnings.size() == 3);
     CHECK(warnings[0].object == "bad.s");
     CHECK(warnings[0].count == 2);
@@ -396,7 +397,7 @@ TEST_CASE("a missing object is told once, with its legs counted; so is one that 
     CHECK(warnings[1].count == 2);
     CHECK(warnings[1].place.line == 7);
     CHECK(format(warnings[2]) == "1 region without solids left out: /b.r");
-    CHECK(Renderer(scene, {"other.r"}, test::on_reference()).warnings().empty());  // nothing broken is in it
+    CHECK(Renderer(scene, {"other.r"}, test::on_reference()).model().warnings().empty());  // nothing broken is in it
 }
 
 TEST_CASE("a database with some bytes changed is drawn or refused", "[field]") {
@@ -426,7 +427,7 @@ TEST_CASE("a database with some bytes changed is drawn or refused", "[field]") {
             Renderer renderer(scene, {}, test::on_reference());
             renderer.shoot(rays);
             ++drawn;
-            if (renderer.warnings().size() > 1) ++told;  // of gone.s, there is one always
+            if (renderer.model().warnings().size() > 1) ++told;  // of gone.s, there is one always
         } catch (const Error& error) {
             REQUIRE(error.status() == Status::scene);
             REQUIRE_FALSE(error.diagnostics().empty());
@@ -450,10 +451,10 @@ TEST_CASE("every model of BRL-CAD draws, with nothing left out but what is empty
         CHECK(scene.lenient);
         Renderer renderer(scene, {}, test::on_reference());
         View view{.width = 16, .height = 16, .camera = scene.camera};
-        CHECK(renderer.render(view).attributes.contains("csgrt:warnings") == !renderer.warnings().empty());
+        CHECK(renderer.render(view).attributes.contains("csgrt:warnings") == !renderer.model().warnings().empty());
         CHECK(renderer.statistics().ends > 0);
         std::string told;
-        for (const Warning& warning : renderer.warnings()) told += "\n" + format(warning);
+        for (const Warning& warning : renderer.model().warnings()) told += "\n" + format(warning);
         INFO(told);
         for (std::size_t at = told.find(": left out: "); at != std::string::npos;
              at = told.find(": left out: ", at + 1))

@@ -217,7 +217,7 @@ TEST_CASE("a ray in the plane of a seam that closes meets both sides", "[field]"
         for (const char* angle : {"360", "359.99999999999994", "359.999999999999"}) {
             INFO(angle << (reference ? ", reference" : ""));
             Renderer renderer(scene(angle), {}, settings);
-            CHECK(renderer.warnings().empty());
+            CHECK(renderer.model().warnings().empty());
             const auto found = renderer.shoot(rays);
             REQUIRE(found[0].partitions.size() == 2);
             CHECK(found[0].partitions[0].in == 70);
@@ -232,9 +232,9 @@ TEST_CASE("a ray in the plane of a seam that closes meets both sides", "[field]"
         // Of a sliver of 2e-11 radians there is nothing, and that is said.
         Renderer empty(scene("1e-9"), {}, settings);
         for (const RayPartitions& ray : empty.shoot(rays)) CHECK(ray.partitions.empty());
-        REQUIRE(empty.warnings().size() == 1);
-        CHECK(empty.warnings()[0].object == "tube");
-        CHECK(empty.warnings()[0].reason.find("1e-10") != std::string::npos);
+        REQUIRE(empty.model().warnings().size() == 1);
+        CHECK(empty.model().warnings()[0].object == "tube");
+        CHECK(empty.model().warnings()[0].reason.find("1e-10") != std::string::npos);
         if (reference) settings.device.clear();
     }
 }

@@ -85,7 +85,7 @@ Told told_of(Shape shape, const Matrix& place, const Ray& ray) {
     told.met = !renderer.shoot({{moved_point(place, ray.origin), moved_direction(place, ray.direction)}})
                     .front()
                     .partitions.empty();
-    for (const std::string& text : test::texts(renderer.warnings()))
+    for (const std::string& text : test::texts(renderer.model().warnings()))
         told.noted = told.noted || text.find("nothing is left of it") != std::string::npos;
     return told;
 }

@@ -37,7 +37,7 @@ void compare_ranges(int scenes, int rays) {
         INFO("scene " << i);
         const Scene scene = thick_plates(random);
         Renderer reference(scene, {}, test::on_reference()), device(scene, {}, test::on_native_device());
-        test::require_same_lists(reference, {&device}, test::random_rays(reference.bounds(), rays));
+        test::require_same_lists(reference, {&device}, test::random_rays(reference.model().bounds(), rays));
     }
 }
 

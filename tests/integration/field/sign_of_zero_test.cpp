@@ -156,9 +156,10 @@ struct Tally {
             const Vec3 &o = list[i].origin, &d = list[i].direction;
             char text[200];
             std::snprintf(text, sizeof text, "%.17g %.17g %.17g  %.17g %.17g %.17g", o.x, o.y, o.z, d.x, d.y, d.z);
-            where += (expected[i].partitions.empty() ? std::string("?")
-                                                     : renderer.solids()[expected[i].partitions[0].in_solid].name) +
-                     ": " + text + "\n";
+            where +=
+                (expected[i].partitions.empty() ? std::string("?")
+                                                : renderer.model().solids()[expected[i].partitions[0].in_solid].name) +
+                ": " + text + "\n";
         }
     }
 };

@@ -91,7 +91,7 @@ TEST_CASE("a scene of every type answers the same, to the bit, 2^40 times as lar
         Settings device_settings = test::on_device();
         settings.tolerance_rule = device_settings.tolerance_rule = Tolerance::surfaces;
         Renderer as_it_is(scene, {}, settings);
-        const Box& box = as_it_is.bounds();
+        const Box& box = as_it_is.model().bounds();
         const Vec3 low = box.low, high = box.high;
         const double size = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
         stress::Random random(7);

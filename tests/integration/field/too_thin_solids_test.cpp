@@ -19,7 +19,7 @@ std::vector<std::string> notes_of(Shape shape, const Matrix& matrix = identity) 
     to.region(leaf(to.solid(box({0, 0, -0.5}, {100, 100, 0}))));
     const StressScene made = to.take();
     Renderer renderer(made.scene, made.objects, test::on_reference());
-    return test::texts(renderer.warnings());
+    return test::texts(renderer.model().warnings());
 }
 bool says(const std::vector<std::string>& notes, const std::string& part) {
     return notes.size() == 1 && notes.front().find(part) != std::string::npos;
@@ -61,8 +61,9 @@ TEST_CASE("what is noted as gone is met by no ray, and what is not noted is met"
         settings.tolerance_rule = Tolerance::surfaces;
         Renderer renderer(made.scene, made.objects, settings);
         const auto answer = renderer.shoot({{moved_point(turn, {50, 50, 10}), moved_direction(turn, {0, 0, -1})}});
-        CHECK(answer.front().partitions.empty() == says(test::texts(renderer.warnings()), "s0: nothing is left of it"));
-        ++(renderer.warnings().empty() ? there : gone);
+        CHECK(answer.front().partitions.empty() ==
+              says(test::texts(renderer.model().warnings()), "s0: nothing is left of it"));
+        ++(renderer.model().warnings().empty() ? there : gone);
     }
     CHECK(gone > 10);
     CHECK(there > 10);
@@ -73,7 +74,7 @@ TEST_CASE("of many films the first few are named, and the others counted", "[fie
     for (int i = 0; i < 9; ++i) to.region(leaf(to.solid(film(1e-9)), translation({0, 0, 3.0 * i})));
     const StressScene made = to.take();
     const std::vector<std::string> notes =
-        test::texts(Renderer(made.scene, made.objects, test::on_reference()).warnings());
+        test::texts(Renderer(made.scene, made.objects, test::on_reference()).model().warnings());
     REQUIRE(notes.size() == 6);
     CHECK(notes.back() == "nothing is left of 4 more such solids");
 }

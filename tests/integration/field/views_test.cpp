@@ -303,8 +303,8 @@ TEST_CASE("views: a light that is not visible is not drawn, yields to what stand
     Renderer renderer(scene, {}, test::on_reference());
     const auto answer = renderer.shoot({{{500, 1, 1}, {-1, 0, 0}}});
     REQUIRE(answer[0].partitions.size() == 2);
-    CHECK(renderer.regions()[answer[0].partitions[0].region].path == "/lamp0.r");
-    CHECK(renderer.regions()[answer[0].partitions[1].region].path == "/block.r");
+    CHECK(renderer.model().regions()[answer[0].partitions[0].region].path == "/lamp0.r");
+    CHECK(renderer.model().regions()[answer[0].partitions[1].region].path == "/block.r");
     CHECK_THAT(answer[0].partitions[1].in, Catch::Matchers::WithinAbs(400, 1e-9));
     CHECK(answer[0].overlaps.empty());
 

@@ -72,7 +72,7 @@ struct Shot {
 inline Shot shoot(const Scene& scene, const std::vector<std::string>& objects, const std::vector<std::string>& regions,
                   const std::vector<Ray>& rays, const Settings& settings) {
     Renderer renderer(scene, objects, settings);
-    const Box& b = renderer.bounds();
+    const Box& b = renderer.model().bounds();
     const double size = std::hypot(b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z);
     Shot shot{renderer.shoot(rays), size, renderer.statistics().tolerance};
     const Renumbering renumbering(renderer, regions);

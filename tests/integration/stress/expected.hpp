@@ -42,7 +42,7 @@ private:
 class Renumbering {
 public:
     Renumbering(const Renderer& renderer, const std::vector<std::string>& objects) {
-        for (const RegionInfo& region : renderer.regions()) {
+        for (const RegionInfo& region : renderer.model().regions()) {
             const std::string name = region.path.substr(region.path.rfind('/') + 1);
             const auto at = std::find(objects.begin(), objects.end(), name);
             number_.push_back(static_cast<std::uint32_t>(at - objects.begin()));

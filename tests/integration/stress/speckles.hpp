@@ -55,7 +55,7 @@ inline bool same_pictures(const Image& a, const Image& b) {
 inline Speckles look(const stress::StressScene& made, const Settings& settings) {
     Speckles found;
     const TrueScene truth(made.scene, made.objects);
-    Box box = Renderer(made.scene, made.objects, settings).bounds();
+    Box box = Renderer(made.scene, made.objects, settings).model().bounds();
     if (!std::isfinite(box.high.x - box.low.x)) box = {{-8, -8, -8}, {8, 8, 8}};  // half-spaces in every region
     const auto middle = [](double a, double b) { return 0.5 * (a + b); };
     for (const auto& [azimuth, elevation] : {std::array{35.0, 25.0}, std::array{0.0, 90.0}, std::array{215.0, -40.0}}) {

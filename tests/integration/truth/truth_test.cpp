@@ -113,9 +113,9 @@ std::vector<Stretches> stretches_of(const Renderer& renderer, const std::vector<
     for (const RayPartitions& along : answers) {
         Stretches ray;
         for (const Partition& p : along.partitions)
-            ray.push_back({last_name(test::without_numbers(renderer.regions()[p.region].path)), p.in, p.out,
-                           renderer.solids()[p.in_solid].name, renderer.solids()[p.out_solid].name,
-                           renderer.solids()[p.in_solid].type, renderer.solids()[p.out_solid].type});
+            ray.push_back({last_name(test::without_numbers(renderer.model().regions()[p.region].path)), p.in, p.out,
+                           renderer.model().solids()[p.in_solid].name, renderer.model().solids()[p.out_solid].name,
+                           renderer.model().solids()[p.in_solid].type, renderer.model().solids()[p.out_solid].type});
         rays.push_back(std::move(ray));
     }
     return rays;
@@ -126,7 +126,7 @@ std::size_t faults(const Scene& scene, const std::vector<std::string>& objects, 
                    const std::vector<Ray>& rays, const std::vector<RayPartitions>& answers,
                    const std::set<std::size_t>& which) {
     const oracle::SceneOracle geometry(scene, objects, true);
-    const oracle::SceneJudge judge(geometry, renderer.regions(), renderer.statistics().tolerance);
+    const oracle::SceneJudge judge(geometry, renderer.model().regions(), renderer.statistics().tolerance);
     std::size_t wrong = 0, ties = 0;
     for (const std::size_t i : which) {
         const std::string fault = judge.judge(rays[i], answers[i], ties);
@@ -178,12 +178,13 @@ void check_set(const Set& set, const std::string& rays_name, const Scene& scene,
     if (const char* choice = std::getenv("CSGRT_DEVICE")) settings.device = choice;
     Renderer renderer(scene, set.objects, settings);
     std::set<std::string> ours;
-    for (const RegionInfo& region : renderer.regions()) ours.insert(last_name(test::without_numbers(region.path)));
+    for (const RegionInfo& region : renderer.model().regions())
+        ours.insert(last_name(test::without_numbers(region.path)));
     const std::vector<RayPartitions> answers = renderer.shoot(file.rays);
     const std::vector<Stretches> found = stretches_of(renderer, answers);
     std::vector<double> lengths;
-    const std::vector<Stretches> back =
-        stretches_of(renderer, renderer.shoot(from_the_other_end(file.rays, found, renderer.bounds(), lengths)));
+    const std::vector<Stretches> back = stretches_of(
+        renderer, renderer.shoot(from_the_other_end(file.rays, found, renderer.model().bounds(), lengths)));
 
     const Demand demand = demand_of(rays_name);
     std::size_t rays = 0, left_out = 0, same = 0, near = 0, nearer = 0, same_back = 0, all = 0;

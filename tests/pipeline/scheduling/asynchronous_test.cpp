@@ -143,8 +143,9 @@ struct Lined {
     std::vector<RayPartitions> trace(const kernel::Frame& frame, const std::vector<Ray>& rays) {
         PipelineCounts counts;
         Partitions answer;
-        RowSink sink(answer, test::all_fields, rays.size());
-        pipeline.trace_list(frame, RayList(rays), ranges_of(rays.size(), rays.size()), sink, nullptr, counts);
+        RowSink sink(answer, all_fields, rays.size());
+        pipeline.trace_list(frame, RayList(rays, {.all = whole_line}), ranges_of(rays.size(), rays.size()), sink,
+                            nullptr, counts);
         return along_rays(answer);
     }
 
@@ -250,7 +251,7 @@ TEST_CASE("a picture in place after a list of rays, in little memory") {
     for (const std::uint64_t room : rooms(60'000, 3'000'000)) {
         INFO("room " << room);
         Lined lined(scene, room, Pipeline::most_rays_drawn, Readback::by_device);
-        const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 20'000);
+        const std::vector<Ray> rays = test::random_rays(lined.renderer.model().bounds(), 20'000);
         const PreparedFrame prepared = prepare_rays(lined.compiled, 20'000, lined.renderer.statistics().tolerance);
         lined.trace(prepared.frame, rays);
         lined.draw(300, 300, false, 1 << 20);
@@ -428,7 +429,7 @@ TEST_CASE("asynchronous: whole lines of a wide picture, in little memory and in 
         INFO("every partition: " << every_partition << ", room " << room);
         Lined lined(scene, room);
         lined.draw(1000, 24, every_partition, 1 << 20);
-        const std::vector<Ray> rays = test::random_rays(lined.renderer.bounds(), 300);
+        const std::vector<Ray> rays = test::random_rays(lined.renderer.model().bounds(), 300);
         const PreparedFrame prepared = prepare_rays(lined.compiled, 300, lined.renderer.statistics().tolerance);
         test::require_same(lined.trace(prepared.frame, rays), lined.renderer.shoot(rays));
     }
