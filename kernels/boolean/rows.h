@@ -9,8 +9,8 @@
 typedef struct {
     GLOBAL const End* ends;
     GLOBAL const PartitionNode* nodes;
-    u32 node;    // of the next partition; NONE: no more
-    u32 answer;  // see Frame
+    u32 node;       // of the next partition; NONE: no more
+    u32 first_row;  // see Frame
     wide near, far;
 #ifdef CSGRT_EYE_RELATIVE
     wide start, unit;  // a distance is (start + t) / unit
@@ -30,7 +30,7 @@ FN ray_rows rows_of(GLOBAL const Frame* f, RayRecord record, GLOBAL const End* e
     w.ends = ends;
     w.nodes = nodes;
     w.node = first_partition(nodes, segment_count);
-    w.answer = f->answer;
+    w.first_row = f->first_row;
     w.near = record.t_near;
     w.far = record.t_far;
 #ifdef CSGRT_EYE_RELATIVE
@@ -52,7 +52,6 @@ FN wide row_distance(ray_rows w, real t) {
 // Cuts it. 0: the range holds nothing of it. A range that is one point holds what begins there, not what ends there.
 FN int cut_row(ray_rows w, ray_row* row) {
     const wide in = row->in, out = row->out;
-    if (!(w.answer & ANSWER_CUT)) return !(out < w.near);
     if (in < w.near) {
         row->in = w.near;
         row->in_end = NONE;
@@ -86,15 +85,14 @@ FN int next_row(ray_rows* w, ray_row* row) {
         row->in = row_distance(*w, w->ends[row->in_end].t);
         row->out = row_distance(*w, w->ends[row->out_end].t);
         if (cut_row(*w, row)) {
-            if (w->answer & ANSWER_FIRST) w->node = NONE;
+            if (w->first_row) w->node = NONE;
             return 1;
         }
     }
     return 0;
 }
 
-// The next partition that several regions of the owner's rank claim; *node is its. 0: there is none. If the range cuts
-// nothing, the host joins neighbours before it leaves out what ends before t_near.
+// The next partition that several regions of the owner's rank claim; *node is its. 0: there is none.
 FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
     while (w->node != NONE) {
         const PartitionNode n = w->nodes[w->node];
@@ -103,7 +101,7 @@ FN int next_overlap(ray_rows* w, ray_row* row, u32* node) {
         if (!(n.owner & OVERLAP)) continue;
         row->in = row_distance(*w, w->ends[n.in_end].t);
         row->out = row_distance(*w, w->ends[n.out_end].t);
-        if (cut_row(*w, row) || !(w->answer & ANSWER_CUT)) return 1;
+        if (cut_row(*w, row)) return 1;
     }
     return 0;
 }

@@ -242,13 +242,10 @@ typedef struct {
     u32 rows;              // of the batch's picture if it is row-major; 0: it has a float a ray, in the rays' order
     u32 rank_ends[RANKS];  // the number behind the last region of each rank
     u32 candidate_capacity, segment_capacity, word_capacity;  // of the batch's buffers, see shared/capacity.h
-    u32 answer;                                               // to a list: ANSWER_x bits
+    u32 first_row;                                            // 1: of each ray of a list the first row alone
     u32 whole_lines;  // 1: a solid's segments may lie outside its box, so a ray's range says nothing of boxes
     u32 clip_count;
 } Frame;
-
-#define ANSWER_CUT 1u    // partitions are cut at the rays' ranges; else each that ends at t_near or later is whole
-#define ANSWER_FIRST 2u  // of each ray the first row alone
 
 // A float for each channel of a picture.
 #define MOST_CHANNELS 14

@@ -118,7 +118,7 @@ FN wide unit_of(world_ray w) {
 }
 
 // A listed ray's range, wider by the tolerance at least, so that ends near its bounds become one event with those that
-// they are one with on the whole line. What is not cut at the range may begin anywhere before it.
+// they are one with on the whole line.
 FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
     ray_range wanted;
 #ifdef CSGRT_EYE_RELATIVE
@@ -131,7 +131,6 @@ FN ray_range range_of(GLOBAL const Frame* f, RayRecord record, ray3 r) {
     wanted.t_min = record.t_near - slack;
     wanted.t_max = record.t_far + slack;
 #endif
-    if (!(f->answer & ANSWER_CUT)) wanted.t_min = -REAL_INFINITY;
     return wanted;
 }
 

@@ -135,7 +135,7 @@ const Reference& CallerTracer::reference() const {
 
 void CallerTracer::trace(const RayList& list, RowTaker& taker) const {
     kernel::Frame frame = prepare_rays(scene_, static_cast<std::uint32_t>(list.size()), tolerance_).frame;
-    frame.answer = taker.answer();
+    frame.first_row = taker.first_row();
     if (list.is_grid()) list.put_camera(frame);
     list.put_planes(frame);
     if (const NativeTracer* const tracer = native()) {

@@ -228,7 +228,7 @@ void Renderer::slice(const Slice& slice, Array<std::int32_t>& answer) {
 void Renderer::Impl::trace(const RayList& list, RowTaker& taker, Claims claims, Watch& watch) {
     const auto start = Clock::now();
     kernel::Frame frame = prepare_rays(scene(), static_cast<std::uint32_t>(list.size()), tolerance).frame;
-    frame.answer = taker.answer();
+    frame.first_row = taker.first_row();
     if (list.is_grid()) list.put_camera(frame);
     start_call(list.size(), true, 0, 0);
     prepare(true, claims);

@@ -40,8 +40,7 @@ void add(Array<To>& to, To value) {
 
 }  // namespace
 
-RowSink::RowSink(Partitions& rows, Fields fields, std::uint64_t rays, std::uint32_t answer)
-    : RowTaker(fields, answer), answer_(rows) {
+RowSink::RowSink(Partitions& rows, Fields fields, std::uint64_t rays) : RowTaker(fields), answer_(rows) {
     Partitions& a = rows;
     for (auto* ids : {&a.region_ids, &a.in_solids, &a.out_solids, &a.overlap_region_ids}) ids->resize(0);
     for (auto* reals : {&a.t_in, &a.t_out, &a.overlap_t_in, &a.overlap_t_out}) reals->resize(0);
@@ -114,8 +113,7 @@ bool RowSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) 
 }
 
 HitSink::HitSink(const HitArrays& arrays, std::uint64_t rays)
-    : RowTaker({.solids = arrays.solids != nullptr, .normals = arrays.normals != nullptr, .overlaps = false},
-               ANSWER_CUT | ANSWER_FIRST),
+    : RowTaker({.solids = arrays.solids != nullptr, .normals = arrays.normals != nullptr, .overlaps = false}, true),
       to_(arrays) {
     const auto fit = [rays](auto* array) {
         if (array) array->resize(rays);
@@ -152,7 +150,7 @@ bool HitSink::has(std::uint64_t ray, const Partitions& rows, std::size_t other) 
 }
 
 PixelSink::PixelSink(Array<std::int32_t>& pixels, std::uint32_t width, std::uint64_t rays)
-    : RowTaker({.solids = false, .normals = false, .overlaps = true}, ANSWER_CUT), pixels_(pixels), width_(width) {
+    : RowTaker({.solids = false, .normals = false, .overlaps = true}), pixels_(pixels), width_(width) {
     pixels.resize(rays * width);
 }
 

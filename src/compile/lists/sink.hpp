@@ -13,14 +13,14 @@ namespace csgrt {
 /// Who takes the rows of a list's batches.
 class RowTaker {
 public:
-    /// `answer`: ANSWER_x bits.
-    RowTaker(Fields fields, std::uint32_t answer) : fields_(fields), answer_(answer) {}
+    explicit RowTaker(Fields fields, bool first_row = false) : fields_(fields), first_row_(first_row) {}
     RowTaker(const RowTaker&) = delete;
     RowTaker& operator=(const RowTaker&) = delete;
     virtual ~RowTaker() = default;
 
     Fields fields() const { return fields_; }
-    std::uint32_t answer() const { return answer_; }
+    /// Whether it takes of each ray the first row alone.
+    bool first_row() const { return first_row_; }
     /// Any thread. Copies what the caller may then use again.
     virtual void put(const RowView& rows) = 0;
     /// A batch will not come: nobody waits for it any more.
@@ -40,14 +40,14 @@ public:
 
 private:
     const Fields fields_;
-    const std::uint32_t answer_;
+    const bool first_row_;
 };
 
 /// Puts rows in the order of the rays.
 class RowSink final : public RowTaker {
 public:
     /// Empties the arrays. `rays`: how many there will be. `rows` must outlive this.
-    RowSink(Partitions& rows, Fields fields, std::uint64_t rays, std::uint32_t answer = ANSWER_CUT);
+    RowSink(Partitions& rows, Fields fields, std::uint64_t rays);
 
     /// Waits while too much is kept that earlier rays must come before; the batch that all wait for never does.
     void put(const RowView& rows) override;

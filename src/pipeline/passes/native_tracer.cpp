@@ -195,8 +195,8 @@ void NativeTracer::trace(const kernel::Frame& frame, const RayList& rays, std::u
         rays.fill(first, records);
         // First hits come in the order of the solids' boxes, before which a plate that a ray grazes may begin. Points
         // have nothing in common that a packet could use.
-        const bool by_hits = (frame.answer & ANSWER_FIRST) && !frame.whole_lines && records.size() > 1 &&
-                             records[0].t_near < records[0].t_far;
+        const bool by_hits =
+            frame.first_row && !frame.whole_lines && records.size() > 1 && records[0].t_near < records[0].t_far;
         if (!(by_hits && hit(frame, records, sink.fields(), stop, rows, counts)) &&
             !trace(frame, records, sink.fields(), stop, rows, counts)) {
             if (records.size() == 1) throw_too_long_ray(budget_);
