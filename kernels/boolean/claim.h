@@ -328,17 +328,17 @@ FN u32 is_one_solid(const covered_solids* list) {
     return i == list->count;
 }
 
-// As find_claim, also for a ray that runs in a face of a covering solid. `list`: the solids that c.bits cover,
-// overwritten here.
+// As find_claim, for a ray that runs in a face of a covering solid. `list`: the solids that c.bits cover, overwritten
+// here.
 //
 // Such a ray is moved to each of four sides, which are the same for all solids: above, below, left and right. There it
 // is within one of the solids that meet in a face, so parts that touch do not overlap, and what both have in common is
 // empty. The first region of any side has the partition, and an overlap is that of its side. Around an edge there are
 // as many wedges as faces meet there; solids that fill less than a quarter of the turn may be on none of the sides. But
 // a solid that is touched alone has the ray in any case.
-FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
-                           SolidFilter changed) {
-    const u32 moved = c.beyond || (list->missed && !is_one_solid(list)) ? 1u : 0u, beyond = c.beyond;
+RARE_FN claim find_claim_of_sides(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
+                                  SolidFilter changed) {
+    const u32 moved = c.beyond || !is_one_solid(list) ? 1u : 0u;
     claim found;
     u32 side;
     found.least = found.other = NONE;
@@ -348,10 +348,18 @@ FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* li
         if (moved) list_covered(c, list);
         here = find_claim(c, starting, list, ranks, changed);
         if ((here.least < found.least || (here.least == found.least && here.other < found.other)) &&
-            !(c.missed & beyond))
+            !(c.missed & c.beyond))
             found = here;
     }
     return found;
+}
+
+// The claim of a partition, by c.bits, whose solids are listed.
+FN claim find_claim_beside(cover c, ENDS const u32* starting, covered_solids* list, GLOBAL const u32* ranks,
+                           SolidFilter changed) {
+    c.missed = 0;
+    if (list->missed || c.beyond) return find_claim_of_sides(c, starting, list, ranks, changed);
+    return find_claim(c, starting, list, ranks, changed);
 }
 
 #endif

@@ -32,7 +32,7 @@ FN u32 list_claims(cover c, GLOBAL u32* found) {
 typedef struct {
     u32 first, end;
 } side_range;
-FN side_range sides_of(cover c) {
+FN side_range sides_to_ask(cover c) {
     covered_solids covered;
     side_range sides;
     c.missed = 0;
@@ -44,7 +44,7 @@ FN side_range sides_of(cover c) {
 
 // At most so many numbers all_claimants() stores on the way.
 FN u32 claims_at_most(cover c) {
-    const side_range sides = sides_of(c);
+    const side_range sides = sides_to_ask(c);
     u32 side, count = 0;
     for (side = sides.first; side < sides.end; ++side) {
         c.missed = missed_on(side);
@@ -81,7 +81,7 @@ FN u32 sort_numbers(GLOBAL u32* numbers, u32 count) {
 // The claimants of the first one's rank, ascending, on the side that find_claim_beside() takes. Returns how many;
 // `found` has room for claims_at_most().
 FN u32 all_claimants(cover c, GLOBAL const u32* ranks, GLOBAL u32* found) {
-    const side_range sides = sides_of(c);
+    const side_range sides = sides_to_ask(c);
     u32 side, kept = 0, i;
     for (side = sides.first; side < sides.end; ++side) {
         GLOBAL u32* const here = found + kept;

@@ -139,7 +139,7 @@ TEST_CASE("every solid: verify finds nothing wrong where a ray starts on a surfa
     std::map<std::string, std::size_t> started;
     for (std::size_t i = 0; i < rays.size(); ++i)
         for (const Partition& p : met[i].partitions) {
-            if (++started[sample_of(verifier.renderer().regions()[p.region].path)] > 12) continue;
+            if (++started[sample_of(verifier.renderer().model().regions()[p.region].path)] > 12) continue;
             // All around it rays end before their start, if they end where it does: its own end is rounding's.
             starting.push_back({rays[i].origin + p.out * rays[i].direction, p.out_normal});
         }

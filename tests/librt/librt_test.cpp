@@ -245,7 +245,7 @@ TEST_CASE("however overlaps are decided, each end has its solid and a normal tha
             return 1;
         };
         std::vector<xray> rays;
-        for (const Ray& ray : test::random_rays(Renderer(rtip->scene).bounds(), 200)) {
+        for (const Ray& ray : test::random_rays(Renderer(rtip->scene).model().bounds(), 200)) {
             librt::copy(rays.emplace_back().r_pt, ray.origin);
             librt::copy(rays.back().r_dir, ray.direction);
         }

@@ -249,7 +249,7 @@ TEST_CASE("planes cut pictures open: a pixel shows the first partition of its ra
     }
     CHECK(compared > 50 * skipped);
     Renderer renderer(scenes().back());
-    const Plane plane = random_planes(renderer.bounds(), 1, random).front();
+    const Plane plane = random_planes(renderer.model().bounds(), 1, random).front();
     const Image cut = renderer.render({.width = 45, .height = 45, .clip = {plane}});
     test::require_same(renderer.render({.width = 45, .height = 45, .clip = {{4.0 * plane.normal, plane.distance}}}),
                        cut);  // the distance is from the origin, whatever the normal's length

@@ -131,7 +131,7 @@ void compare_cut(std::uint64_t seed, Tally& tally) {
         if (random.below(20) == 0) {
             const Pick pick = whole.model().pick(cut.view, column, row);
             is_right = is_right &&
-                       (pick.region < 0 ? "" : whole.regions()[static_cast<std::size_t>(pick.region)].path) == right[i];
+                       (pick.region < 0 ? "" : whole.model().regions()[static_cast<std::size_t>(pick.region)].path) == right[i];
         }
         if (is_right && !right[i].empty())
             tally.far += std::fabs(z[i] - right_z[i]) > 1e-5 * (1 + std::fabs(right_z[i]));
