@@ -35,8 +35,9 @@ using namespace csgrt;
     FIELD(Frame, ray_count) FIELD(Frame, starting_node) FIELD(Frame, unbounded_count) FIELD(Frame, node_count) \
     FIELD(Frame, light_count) FIELD(Frame, every_partition) FIELD(Frame, channels) \
     FIELD(Frame, screen) FIELD(Frame, rows) FIELD(Frame, rank_ends) \
-    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) FIELD(Frame, answer) \
-    FIELD(Frame, first_x) FIELD(Frame, first_y) FIELD(Frame, clip) FIELD(Frame, clip_count) FIELD(Frame, whole_lines) \
+    FIELD(Frame, candidate_capacity) FIELD(Frame, segment_capacity) FIELD(Frame, word_capacity) \
+    FIELD(Frame, first_row) FIELD(Frame, first_x) FIELD(Frame, first_y) FIELD(Frame, clip) FIELD(Frame, clip_count) \
+    FIELD(Frame, whole_lines) \
     RECORD(DisplayBytes) FIELD(DisplayBytes, ends) FIELD(DisplayBytes, first) \
     RECORD(ScreenBounds) \
     FIELD(ScreenBounds, left) FIELD(ScreenBounds, top) FIELD(ScreenBounds, right) FIELD(ScreenBounds, bottom) \
