@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(every_partition 1_count_segments.cl scan.cl 2_store_segments.cl 2_rays_in_faces.cl 3_weave.cl 4_evaluate.cl
-    3_deep_rays.cl 5_shade.cl)
+    3_deep_rays.cl 5_shade.cl 6_rows.cl)
 set(double -DCSGRT_REAL=double)
 set(single -DCSGRT_REAL=float)
 set(relative ${single} -DCSGRT_EYE_RELATIVE)

@@ -63,7 +63,7 @@ static u32 next_solid(const coverage* c, u32* at) {
     return segment == NONE ? NONE : c->ends[2 * segment].solid;
 }
 
-static u32 is_one_solid(const coverage* c) {
+static u32 is_alone(const coverage* c) {
     u32 i;
     for (i = 1; i < c->count && i < LISTED_SOLIDS && c->solids[i] == c->solids[0]; ++i) {
     }

@@ -21,7 +21,7 @@ __kernel void KERNEL(__global const Frame* frame, __global const RayCount* offse
     c.ends = all_ends + 2 * (size_t)offset.segments;
     c.bits = all_bits + offset.words + (id - 2 * offset.segments) * words_of(c.segments);
     list_coverage(&c, 0);
-    moved = c.marked && !is_one_solid(&c);  // to each side of the face that the ray runs in
+    moved = c.marked && !is_alone(&c);  // to each side of the face that the ray runs in
     for (side = moved; side < (moved ? SIDES : 1u); ++side) {
         if (moved) list_coverage(&c, missed_on(side));
         FIRST_CLAIM(here)

@@ -130,7 +130,7 @@ __kernel void evaluate_status_tree(__global const Frame* frame, __global const R
         change(&s, c.ends, c.segments, before, 0, c.bits, 0);
         before = c.bits;
         list_coverage(&c, 0);
-        if (c.marked && !is_one_solid(&c)) {  // to each side of the face that the ray runs in, and back
+        if (c.marked && !is_alone(&c)) {  // to each side of the face that the ray runs in, and back
             u32 side, missed = 0;
             for (side = 1; side < SIDES; ++side) {
                 u32 here;
