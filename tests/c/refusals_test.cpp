@@ -467,7 +467,7 @@ TEST_CASE("a verifier in C passes, and says with a status that it does not") {
         REQUIRE_OK(csgrt_verifier_create(scene, nullptr, 0, settings, &verifier));
         REQUIRE_OK(csgrt_verifier_sample(verifier, nullptr, 1, rays.data(), rays.size()));
         for (int i = 0; i < 20; ++i)  // they graze a ball of radius 99.7, within what single precision rounds
-            rays[i] = {{-200, 99.7 + 1e-6 * (i - 10), 0}, {1, 0, 0}};
+            rays[i] = {{-200, 99.7 + 3e-8 * (i - 10), 0}, {1, 0, 0}};
         REQUIRE_OK(csgrt_verifier_shoot(verifier, rays.data(), rays.size()));
         const csgrt_status status = csgrt_verifier_result(verifier, result);
         result->device = "";  // it was the verifier's

@@ -1,4 +1,5 @@
 // csgrt verify: what it says of right answers and of wrong ones.
+#include <cstdio>
 #include <sstream>
 
 #include "cli/command.hpp"
@@ -16,7 +17,11 @@ constexpr const char* ball =
 /// Rays that graze the ball, within what single precision rounds.
 std::string grazing_rays() {
     std::string rays;
-    for (int i = -20; i < 20; ++i) rays += "-200 " + std::to_string(99.7 + 1e-6 * i) + " 0.0 1 0 0\n";
+    char ray[64];
+    for (int i = -20; i < 20; ++i) {
+        std::snprintf(ray, sizeof ray, "-200 %.9f 0.0 1 0 0\n", 99.7 + 3e-8 * i);
+        rays += ray;
+    }
     return rays;
 }
 
