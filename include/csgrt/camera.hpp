@@ -14,9 +14,9 @@ namespace csgrt {
 /// An orthographic view has no eye. Its rays start on a plane in front of the whole model, so that all of the model is
 /// seen however small the view is. That plane cuts half-spaces, which have no end.
 struct Camera {
-    double azimuth = 35;              ///< Degrees of the direction from the model to the eye: from +x about z.
-    double elevation = 25;            ///< Degrees of the same direction above the xy plane.
-    double perspective = 0;           ///< Degrees of the angle of view across the picture's height, below 180; 0: parallel.
+    double azimuth = 35;     ///< Degrees of the direction from the model to the eye: from +x about z.
+    double elevation = 25;   ///< Degrees of the same direction above the xy plane.
+    double perspective = 0;  ///< Degrees of the angle of view across the picture's height, below 180; 0: parallel.
     std::optional<Vec3> center = {};  ///< The middle of the picture; the middle of the model's box if not given.
     /// Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel view
     /// shows everything before its plane, however small it is.

@@ -93,14 +93,39 @@ enum { CSGRT_TOLERANCE_LENGTH, CSGRT_TOLERANCE_SURFACES, CSGRT_TOLERANCE_RELATIV
 /// csgrt::Settings. NULL in place of a pointer to it: the defaults.
 typedef struct csgrt_settings {
     size_t size;
-    const char* device;  ///< a number of csgrt_device(), "cpu", "gpu", or a part of a name; "": whichever is best
-    int reference, wait_for_device;
-    double device_timeout;  ///< seconds; negative: 60 for a GPU
-    uint64_t max_memory, max_instances;
-    int precision, tolerance_rule;
-    double tolerance;  ///< millimetres; negative: the scene's
-    int air, skip_unsupported, display_shading;
-    unsigned check, threads;
+    /// Which device: its number in the list of devices, its type ("cpu", "gpu"), or part of its name or platform;
+    /// several with commas between them, or all "gpus", share the work.
+    const char* device;
+    /// The CPU reference computes, and no device.
+    int reference;
+    /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits.
+    int wait_for_device;
+    /// Seconds that a device may take for an answer before it is given up; 0: any time.
+    double device_timeout;
+    /// Bytes of memory to use on each device; a frame that needs more is drawn in batches.
+    uint64_t max_memory;
+    /// Most solids of the model, as often as its trees use them; they are counted before any is made.
+    uint64_t max_instances;
+    /// Numbers of the geometry; single ones are relative to the eye.
+    int precision;
+    /// Which ends of segments along a ray count as one.
+    int tolerance_rule;
+    /// Millimetres along a ray, for the rule of a length; negative: the scene's.
+    double tolerance;
+    /// Regions of air are part of the model.
+    int air;
+    /// Solids of types that csgrt does not know are left out, with a warning, as they always are in a BRL-CAD database
+    /// that is not read strictly.
+    int skip_unsupported;
+    /// The model's colours are shaded as they are, as BRL-CAD does; else they are decoded from sRGB to linear light
+    /// first.
+    int display_shading;
+    /// The CPU reference traces the first batch of rays and every N-th after it as well, and a call whose bits differ
+    /// fails.
+    unsigned check;
+    /// Threads that work on processors at a time, for all calls together.
+    unsigned threads;
+    /// A function that is called with the done fraction, and ends the call if it returns false.
     csgrt_progress progress;  ///< NULL: none
     void* user;
 } csgrt_settings;
@@ -127,8 +152,10 @@ typedef struct csgrt_scene csgrt_scene;
 
 typedef struct csgrt_load_options {
     size_t size;
-    int strict;                       ///< 1: any fault of a BRL-CAD database is an error
-    const char* const* file_folders;  ///< below which a scene may name files, besides the folder of its own file
+    /// A BRL-CAD database in which anything is missing or broken is refused, as a .json always is.
+    int strict;
+    /// Folders below which the scene may name files (the cells of an ebm, vol or dsp), besides its own.
+    const char* const* file_folders;
     size_t file_folder_count;
 } csgrt_load_options;
 
@@ -461,14 +488,25 @@ typedef struct csgrt_pixel_rectangle {
 /// csgrt::View: what to draw.
 typedef struct csgrt_view {
     size_t size;
-    int width, height;
+    /// Pixels.
+    int width;
+    /// Pixels.
+    int height;
     const csgrt_camera* camera;  ///< NULL: CSGRT_CAMERA
+    /// Everything along each ray is computed; else first hits alone, several times faster, without the channels depth,
+    /// partitions and overlap.
     int every_partition;
-    unsigned channels;        ///< CSGRT_CHANNEL_COLOR | ...
-    const csgrt_plane* clip;  ///< up to six
+    /// The groups of channels that the picture has, a bit each.
+    unsigned channels;
+    /// Up to six planes: what is beyond any of them is gone.
+    const csgrt_plane* clip;
     size_t clip_count;
-    const csgrt_pixel_rectangle* part;  ///< NULL: the whole picture
-    int samples, transparent;
+    /// The pixels that the picture has alone, each as in the whole.
+    const csgrt_pixel_rectangle* part;  ///< NULL: all of them
+    /// Rays a pixel, whose mean the colours are.
+    int samples;
+    /// No background: red, green, blue and alpha are 0 where a ray hits nothing.
+    int transparent;
 } csgrt_view;
 
 /// A picture's memory, which the next frame uses again.

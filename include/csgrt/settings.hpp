@@ -14,8 +14,8 @@ namespace csgrt {
 struct Settings {
     bool reference = false;  ///< The CPU reference computes, and no device.
     /// Which device: its number in the list of devices, its type ("cpu", "gpu"), or part of its name or platform;
-    /// several with commas between them, or all "gpus", share the work. "": a GPU if there is one, else a native device,
-    /// else any device, else the reference, with a warning.
+    /// several with commas between them, or all "gpus", share the work. "": a GPU if there is one, else a native
+    /// device, else any device, else the reference, with a warning.
     std::string device = {};
     /// Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits. A
     /// driver takes up to half a minute to compile. Measurements need the GPU from the first call on.
@@ -31,7 +31,7 @@ struct Settings {
     /// throws Error (scene). One with many parts counts as several (docs/limits.md). 0: Limits::instances, or twice as
     /// many as the scene's solids once each, if that is more. At most Limits::most_instances.
     std::uint64_t max_instances = 0;
-    Precision precision = Precision::double_;  ///< Numbers of the geometry; single ones are relative to the eye.
+    Precision precision = Precision::double_;      ///< Numbers of the geometry; single ones are relative to the eye.
     Tolerance tolerance_rule = Tolerance::length;  ///< Which ends of segments along a ray count as one.
     double tolerance = -1;  ///< Millimetres along a ray, for the rule of a length; negative: the scene's.
     bool air = false;       ///< Regions of air are part of the model.
@@ -49,10 +49,10 @@ struct Settings {
     /// device, the compilation of the scene and pixels on their way into a picture. 0: one for each processor.
     unsigned threads = 0;
     /// A function that is called with the done fraction, and ends the call if it returns false. The thread whose call
-    /// it is calls it, and waits while others work: with 0 at the beginning of a call, then every 20 ms, and with 1 when
-    /// all is done. A call that it ends throws Error (interrupted): on a processor within 50 ms, but for a single ray
-    /// that takes longer and for a driver that compiles kernels; on a GPU after the kernels that are queued. The answer
-    /// to the last call changes nothing. It must not use the object whose call it reports.
+    /// it is calls it, and waits while others work: with 0 at the beginning of a call, then every 20 ms, and with 1
+    /// when all is done. A call that it ends throws Error (interrupted): on a processor within 50 ms, but for a single
+    /// ray that takes longer and for a driver that compiles kernels; on a GPU after the kernels that are queued. The
+    /// answer to the last call changes nothing. It must not use the object whose call it reports.
     std::function<bool(double)> progress = {};
     /// Empty. csgrt's own benchmarks compare methods by it; no public header makes one.
     std::shared_ptr<const struct Laboratory> laboratory = {};

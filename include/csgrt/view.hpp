@@ -35,9 +35,9 @@ struct View {
     /// partitions and overlap. A scene with plates (a bot of that mode) takes as long as if true.
     bool every_partition = true;
     std::uint32_t channels = channel::all;  ///< The groups of channels that the picture has, a bit each.
-    /// Up to six planes: what is beyond any of them is gone. They leave what half-spaces in the model's tree would leave.
-    /// What they cut open has the region's colour, the plane's normal and no solid. Counts include what is beyond the
-    /// planes that the ray leaves through. A plane's normal may have any length but 0.
+    /// Up to six planes: what is beyond any of them is gone. They leave what half-spaces in the model's tree would
+    /// leave. What they cut open has the region's colour, the plane's normal and no solid. Counts include what is
+    /// beyond the planes that the ray leaves through. A plane's normal may have any length but 0.
     std::vector<Plane> clip = {};
     std::optional<PixelRectangle> part = {};  ///< The pixels that the picture has alone, each as in the whole.
     /// Rays a pixel, whose mean the colours are. 1 to 256, in a pattern that does not change. The other channels are

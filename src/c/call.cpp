@@ -120,9 +120,7 @@ std::vector<Light> lights_of(const csgrt_light* lights, std::size_t count) {
     return all;
 }
 
-View view_of(const csgrt_view* view) {
-    return described<View>(read(view, csgrt_view CSGRT_VIEW, "view"), "view");
-}
+View view_of(const csgrt_view* view) { return described<View>(read(view, csgrt_view CSGRT_VIEW, "view"), "view"); }
 
 Matrix matrix_of(const double* matrix) {
     Matrix all = identity;
@@ -170,10 +168,10 @@ csgrt_status csgrt_last_diagnostic(size_t index, csgrt_diagnostic* diagnostic) {
     }
 }
 
-#define CSGRT_INIT(type, defaults)     \
-    void type##_init(type* given) {    \
-        const type usual defaults;     \
-        if (given) *given = usual;     \
+#define CSGRT_INIT(type, defaults)  \
+    void type##_init(type* given) { \
+        const type usual defaults;  \
+        if (given) *given = usual;  \
     }
 CSGRT_INIT(csgrt_diagnostic, CSGRT_DIAGNOSTIC)
 CSGRT_INIT(csgrt_settings, CSGRT_SETTINGS)

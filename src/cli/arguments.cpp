@@ -100,13 +100,12 @@ void define(Options& options, RenderArguments& arguments) {
     options.choice("--format", "format on standard output, a device or a pipe; exr if not given", arguments.format,
                    formats);
     define_size(options, arguments.picture.width, arguments.picture.height);
-    define_members(options, arguments.picture.camera, form::Concern::picture,
-                   [&](const auto& member, Option& option) {
-                       option.accept = [accept = option.accept, &arguments, name = member.option.name](const auto& text) {
-                           arguments.given.insert(name);
-                           return accept(text);
-                       };
-                   });
+    define_members(options, arguments.picture.camera, form::Concern::picture, [&](const auto& member, Option& option) {
+        option.accept = [accept = option.accept, &arguments, name = member.option.name](const auto& text) {
+            arguments.given.insert(name);
+            return accept(text);
+        };
+    });
     options.text("--view", "FILE",
                  "view as MGED's saveview writes it: viewsize, orientation and eye_pt; databases hold no views",
                  arguments.view);

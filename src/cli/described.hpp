@@ -27,6 +27,9 @@ inline std::string help_of(std::string sentence, const form::Option& option) {
     return sentence;
 }
 
+inline bool allows(form::Any, double) { return true; }
+inline bool allows(const form::Bounds& bounds, double number) { return bounds.hold(number); }
+
 template <class Member, class Target>
 Option& define_member(Options& options, const Member& member, Target& target) {
     const form::Option& o = member.option;
@@ -40,8 +43,9 @@ Option& define_member(Options& options, const Member& member, Target& target) {
         return options.list(o.name, o.value, help + "; may be given several times", target);
     } else if constexpr (std::is_same_v<Target, std::vector<Plane>>) {
         return options.each(o.name, o.value,
-                            help + "; z:2.5 is across the axis z at 2.5 mm, NX,NY,NZ:2.5 across a direction, 2.5 mm from "
-                                   "the origin along it; may be given several times",
+                            help +
+                                "; z:2.5 is across the axis z at 2.5 mm, NX,NY,NZ:2.5 across a direction, 2.5 mm from "
+                                "the origin along it; may be given several times",
                             target, parse_plane, "a plane such as z:2.5 or 1,0,1:2.5");
     } else if constexpr (std::is_same_v<Kind, form::Bytes>) {
         return options.value(o.name, o.value, help + "; such as 512M or 2G, too (powers of 1024)", target, parse_memory,
@@ -53,12 +57,12 @@ Option& define_member(Options& options, const Member& member, Target& target) {
                              static_cast<std::uint64_t>(member.kind.high));
     } else if constexpr (std::is_same_v<Target, std::optional<Vec3>>) {
         return options.value(o.name, o.value, help, target, parse_vector,
-                             "three numbers with commas between them, such as 10,0,-5");
+                             std::string(*o.expected ? o.expected : "a point") +
+                                 ": three numbers with commas between them, such as 10,0,-5");
     } else {
         const auto read = [rule = member.rule](const std::string& text) {
             auto number = parse_number(text);
-            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(rule)>, form::Bounds>)
-                if (number && !rule.hold(*number)) number.reset();
+            if (number && !allows(rule, *number)) number.reset();
             return number;
         };
         return options.value(o.name, o.value, help, target, read, o.expected);

@@ -1,7 +1,7 @@
 // How the members of a struct are described: once, for all that goes over them. Of a scene these are JSON's reader and
 // writer, the schema and the checks; of what a caller asks for (requests.hpp), the command's options, C's structs,
-// Python's attributes and the page's requests. A description, form::of<S>, has a line a member: its keys, where it is in
-// the struct, its kind, what is allowed, and what it means.
+// Python's attributes and the page's requests. A description, form::of<S>, has a line a member: its keys, where it is
+// in the struct, its kind, what is allowed, and what it means.
 #pragma once
 
 #include <array>
@@ -245,7 +245,8 @@ struct Maker {
         return {key, at, kind, {}, help};
     }
     template <class At, class Kind>
-    constexpr Member<given, At, Kind, Any> operator()(Key key, At at, Kind kind, const char* help, Option option) const {
+    constexpr Member<given, At, Kind, Any> operator()(Key key, At at, Kind kind, const char* help,
+                                                      Option option) const {
         return {key, at, kind, {}, help, option};
     }
     template <class At, class Kind, class Rule>

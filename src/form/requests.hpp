@@ -1,5 +1,6 @@
 // What a caller can ask for: the descriptions of the public structs that callers fill. Each sentence stands in the C++
-// header, too (tests/form/requests_test.cpp compares them). The lines have the order of C's members: new ones come last.
+// header, too (tests/form/requests_test.cpp compares them). The lines have the order of C's members: new ones come
+// last.
 #pragma once
 
 #include <csgrt/scene_io.hpp>
@@ -15,9 +16,7 @@ inline constexpr auto of<LoadOptions> = Form{
     plain("load_options"),
     optional("strict", &LoadOptions::strict, flag,
              "A BRL-CAD database in which anything is missing or broken is refused, as a .json always is.",
-             {.concern = Concern::model,
-              .name = "--strict",
-              .absent = "what is broken is left out, with a warning,"}),
+             {.concern = Concern::model, .name = "--strict", .absent = "what is broken is left out, with a warning,"}),
     optional("file_folders", &LoadOptions::file_folders, texts,
              "Folders below which the scene may name files (the cells of an ebm, vol or dsp), besides its own.",
              {.concern = Concern::model, .name = "--allow-files", .value = "FOLDER"}),
@@ -37,12 +36,10 @@ inline constexpr auto of<Settings> = Form{
               .changes_answers = false}),
     optional("reference", &Settings::reference, flag, "The CPU reference computes, and no device.",
              {.concern = Concern::work, .name = "--reference", .changes_answers = false}),
-    optional("wait_for_device", &Settings::wait_for_device, flag,
-             "Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits.",
-             {.concern = Concern::either,
-              .name = "--wait-for-device",
-              .excludes = "--reference",
-              .changes_answers = false}),
+    optional(
+        "wait_for_device", &Settings::wait_for_device, flag,
+        "Calls wait until a GPU's kernels are compiled; else this processor computes until then, with the same bits.",
+        {.concern = Concern::either, .name = "--wait-for-device", .excludes = "--reference", .changes_answers = false}),
     optional("device_timeout", &Settings::device_timeout, number, not_negative(),
              "Seconds that a device may take for an answer before it is given up; 0: any time.",
              {.concern = Concern::work,
@@ -60,9 +57,10 @@ inline constexpr auto of<Settings> = Form{
               .absent = "what the device has",
               .expected = "a number of bytes such as 800000, 512M or 2G",
               .changes_answers = false}),
-    optional("max_instances", &Settings::max_instances, Amount{1, Limits::most_instances},
-             "Most solids of the model, as often as its trees use them; they are counted before any is made.",
-             {.concern = Concern::model, .name = "--max-instances", .value = "N", .absent = "what docs/limits.md says"}),
+    optional(
+        "max_instances", &Settings::max_instances, Amount{1, Limits::most_instances},
+        "Most solids of the model, as often as its trees use them; they are counted before any is made.",
+        {.concern = Concern::model, .name = "--max-instances", .value = "N", .absent = "what docs/limits.md says"}),
     optional("precision", &Settings::precision, Named{&precision_names},
              "Numbers of the geometry; single ones are relative to the eye.",
              {.concern = Concern::work, .name = "--precision", .absent = "double"}),
@@ -106,8 +104,9 @@ inline constexpr auto of<Camera> = Form{
     optional("azimuth", &Camera::azimuth, number,
              "Degrees of the direction from the model to the eye: from +x about z.",
              {.name = "--azimuth", .value = "DEG", .absent = "the scene's, or 35,", .expected = "an angle in degrees"}),
-    optional("elevation", &Camera::elevation, number, "Degrees of the same direction above the xy plane.",
-             {.name = "--elevation", .value = "DEG", .absent = "the scene's, or 25,", .expected = "an angle in degrees"}),
+    optional(
+        "elevation", &Camera::elevation, number, "Degrees of the same direction above the xy plane.",
+        {.name = "--elevation", .value = "DEG", .absent = "the scene's, or 25,", .expected = "an angle in degrees"}),
     optional("perspective", &Camera::perspective, number,
              Bounds{0, 180, true, false, "", "must be 0 (parallel), or an angle below 180 degrees"},
              "Degrees of the angle of view across the picture's height, below 180; 0: parallel.",
@@ -118,20 +117,22 @@ inline constexpr auto of<Camera> = Form{
     optional("center", &Camera::center, lengths,
              "The middle of the picture; the middle of the model's box if not given.",
              {.name = "--center", .value = "X,Y,Z"}),
-    optional(Key{"size", "", "view_size"}, &Camera::view_size, length, positive(),
-             "Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel "
-             "view shows everything before its plane, however small it is.",
-             {.name = "--view-size", .value = "MM", .expected = "a length in millimetres, greater than 0"}),
-    optional("eye", &Camera::eye, lengths,
-             "Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; "
-             "a parallel view takes only its direction from it.",
-             {.name = "--eye", .value = "X,Y,Z"}),
+    optional(
+        Key{"size", "", "view_size"}, &Camera::view_size, length, positive(),
+        "Height of the view at the middle of the picture; the diagonal of the model's box if not given. A parallel "
+        "view shows everything before its plane, however small it is.",
+        {.name = "--view-size", .value = "MM", .expected = "a length in millimetres, greater than 0"}),
+    optional(
+        "eye", &Camera::eye, lengths,
+        "Where the eye is, in place of azimuth and elevation. With a perspective it gives the size of the view, too; "
+        "a parallel view takes only its direction from it.",
+        {.name = "--eye", .value = "X,Y,Z"}),
     optional("look_at", &Camera::look_at, lengths, "Another name of the picture's middle.",
              {.name = "--look-at", .value = "X,Y,Z"}),
     optional("up", &Camera::up, axis,
              "The direction that points up in the picture; +z if not given, or in a view straight down or up the "
              "direction that azimuth 0 has.",
-             {.name = "--up", .value = "X,Y,Z"}),
+             {.name = "--up", .value = "X,Y,Z", .expected = "a direction"}),
 };
 
 template <>

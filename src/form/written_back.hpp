@@ -56,7 +56,8 @@ std::string options_text(const S& given) {
     form::for_members(form::of<S>, [&](const auto& member) {
         if constexpr (std::is_member_object_pointer_v<decltype(member.at)>) {
             using Value = std::remove_cvref_t<decltype(given.*member.at)>;
-            if constexpr (!std::is_same_v<Value, Camera> && !std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Special>) {
+            if constexpr (!std::is_same_v<Value, Camera> &&
+                          !std::is_same_v<std::remove_cvref_t<decltype(member.kind)>, form::Special>) {
                 if (*member.option.name && member.option.changes_answers)
                     text += option_text(member, given.*member.at, std::optional<Value>(usual.*member.at));
             }

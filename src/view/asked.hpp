@@ -63,5 +63,4 @@ Json to_json(const Vec3& v);
 /// As requests have it.
 std::string_view name_of(State state);
 
-
 }  // namespace csgrt

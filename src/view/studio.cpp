@@ -388,8 +388,8 @@ void Studio::exr(const Request& request, const Client& client) {
     image = {};
     client.send({}, std::filesystem::file_size(path));
     std::ifstream in(path, std::ios::binary);
-    for (std::vector<char> piece(1 << 18); in.read(piece.data(), std::ssize(piece)), in.gcount() > 0;)
-        client.send_more({piece.data(), static_cast<std::size_t>(in.gcount())});
+    for (std::vector<char> block(1 << 18); in.read(block.data(), std::ssize(block)), in.gcount() > 0;)
+        client.send_more({block.data(), static_cast<std::size_t>(in.gcount())});
 }
 
 void Studio::load_again() {

@@ -204,7 +204,7 @@ TEST_CASE("one render writes several pictures, whole and nothing beside them") {
     CHECK(image.names.size() == 13);
     CHECK(image.attributes.at("csgrt:title") == "two balls");
     CHECK(image.attributes.at("csgrt:command") ==
-          "csgrt balls.asc all.g --size 64x48 --azimuth 35 --elevation 25 --perspective 0 --tolerance 5e-04");
+          "csgrt balls.asc all.g --tolerance 5e-04 --size 64x48 --azimuth 35 --elevation 25 --perspective 0");
     const std::span<const std::uint32_t> regions = image.ids("region");
     CHECK(*std::max_element(regions.begin(), regions.end()) == 2);
 }
@@ -228,7 +228,7 @@ TEST_CASE("--transparent and --display-shading reach the picture and its header"
     CHECK(usual.attributes.at("csgrt:shading") == "linear light");
     CHECK(display.attributes.at("csgrt:shading") == "display values");
     CHECK(transparent.attributes.at("csgrt:command").ends_with(" --transparent"));
-    CHECK(display.attributes.at("csgrt:command").ends_with(" --display-shading"));
+    CHECK(display.attributes.at("csgrt:command").find(" --display-shading") != std::string::npos);
     CHECK(std::ranges::equal(usual.channel("Z"), display.channel("Z")));
     CHECK_FALSE(std::ranges::equal(usual.channel("R"), display.channel("R")));
 }

@@ -43,14 +43,14 @@ void require_sentences(const std::string& header) {
     });
 }
 
-/// Lines of a comment of at most 120 columns.
-std::string comment(const std::string& sentence) {
-    std::string text, line = "    ///";
+/// Lines of at most 120 columns. `first` begins the first one, `then` the others.
+std::string folded(const std::string& first, const std::string& then, const std::string& sentence) {
+    std::string text, line = first;
     for (std::size_t begin = 0; begin < sentence.size();) {
         const std::size_t end = std::min(sentence.find(' ', begin), sentence.size());
         if (line.size() + 1 + end - begin > 120) {
             text += line + "\n";
-            line = "    ///";
+            line = then;
         }
         line += " " + sentence.substr(begin, end - begin);
         begin = end + 1;
@@ -89,7 +89,7 @@ std::string c_struct() {
     std::string text = "typedef struct " + name + " {\n    size_t size;\n";
     form::for_members(form::of<S>, [&](const auto& member) {
         using Value = std::remove_cvref_t<decltype(S{}.*member.at)>;
-        if (*member.help) text += comment(member.help);
+        if (*member.help) text += folded("    ///", "    ///", member.help);
         text += "    " + c_members<Value>(std::string(member.key.member)) + "\n";
     });
     return text + "} " + name + ";\n";
@@ -109,15 +109,16 @@ std::string default_text(const Value& value) {
         return "";
 }
 
-/// A table of a struct's members, for docs/settings.md.
+/// A list of a struct's members, for docs/settings.md.
 template <class S>
-std::string table(const std::string& title) {
+std::string list(const std::string& title) {
     const S usual{};
-    std::string text = "## " + title + "\n\n| member | option | default | meaning |\n|---|---|---|---|\n";
+    std::string text = "## " + title + "\n\n";
     form::for_members(form::of<S>, [&](const auto& member) {
-        const auto code = [](const std::string& of) { return of.empty() ? of : "`" + of + "`"; };
-        text += "| `" + std::string(member.key.member) + "` | " + code(member.option.name) + " | " +
-                code(default_text(usual.*member.at)) + " | " + member.help + " |\n";
+        std::string line = "`" + std::string(member.key.member) + "`";
+        if (*member.option.name) line += std::string(", `") + member.option.name + "`";
+        if (const std::string value = default_text(usual.*member.at); !value.empty()) line += " (" + value + ")";
+        text += folded("-", " ", line + (*member.help ? std::string(": ") + member.help : std::string()));
     });
     return text + "\n";
 }
@@ -125,11 +126,11 @@ std::string table(const std::string& title) {
 std::string settings_page() {
     return "# Settings and views\n\n"
            "The members of the structs that a caller fills, in C++, C and Python, and the options of the command that "
-           "set\nthem. This page is made of src/form/requests.hpp (`csgrt_tests \"[.made]\"`). "
-           "[command-line.md](command-line.md) has the\noptions that set several members (`--size`, `--tolerance`) or "
+           "set\nthem, with their defaults. This page is made of src/form/requests.hpp (`csgrt_tests \"[.made]\"`).\n"
+           "[command-line.md](command-line.md) has the options that set several members (`--size`, `--tolerance`) or "
            "looks.\n\n" +
-           table<Settings>("csgrt::Settings") + table<LoadOptions>("csgrt::LoadOptions") + table<View>("csgrt::View") +
-           table<Camera>("csgrt::Camera");
+           list<Settings>("csgrt::Settings") + list<LoadOptions>("csgrt::LoadOptions") + list<View>("csgrt::View") +
+           list<Camera>("csgrt::Camera");
 }
 
 void replace_struct(std::string& header, const std::string& made) {
@@ -292,7 +293,8 @@ TEST_CASE("the command that is written back sets the same members") {
             looks.push_back(std::move(look));
         }
         settings.tolerance = ask.coin() ? ask.number(0, 1) : -1;
-        const std::string words = model_words("a file's.json", {"all", "x y"}, load, settings) + drawing_options(view, looks);
+        const std::string words =
+            model_words("a file's.json", {"all", "x y"}, load, settings) + drawing_options(view, looks);
         INFO(words);
         std::vector<std::string> again = split(words);
         again.insert(again.end(), {"-o", "x.exr"});

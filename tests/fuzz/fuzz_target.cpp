@@ -18,6 +18,7 @@
 #include "cli/text/rays.hpp"
 #include "formats/brlcad/view_script.hpp"
 #ifdef CSGRT_HAVE_VIEW
+#include "form/written_back.hpp"
 #include "view/asked.hpp"
 #include "view/request_head.hpp"
 #endif
@@ -73,7 +74,8 @@ void read_request(std::string_view bytes) {
          head.path.size() < guard.root().size()))
         std::abort();  // what the server relies on
     const Request request{std::string(bytes.substr(body))};
-    static_cast<void>(command_options(read_asked(request)));
+    const Asked asked = read_asked(request);
+    static_cast<void>(drawing_options(asked.view, asked.looks));
     static_cast<void>(read_slice(request));
 #else
     static_cast<void>(bytes);

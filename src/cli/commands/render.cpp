@@ -34,7 +34,8 @@ void check_view(const RenderArguments& arguments) {
     const auto is_given = [&](const char* option) { return arguments.given.contains(option); };
     const auto exclude = [&](const char* option, std::initializer_list<const char*> others, const char* reason) {
         for (const char* other : others)
-            if (is_given(option) && is_given(other)) refuse(option, std::string("cannot be combined with ") + other, reason);
+            if (is_given(option) && is_given(other))
+                refuse(option, std::string("cannot be combined with ") + other, reason);
     };
     for (const std::string& option : arguments.given)
         if (option != "--perspective" && !arguments.view.empty())
@@ -168,7 +169,8 @@ Status run(const RenderArguments& arguments) {
     Statistics statistics = render_frames(scene, arguments, view, image);
     statistics.ms.load = load;
 #ifdef CSGRT_HAVE_IMAGE
-    image.attributes["csgrt:command"] = "csgrt " +
+    image.attributes["csgrt:command"] =
+        "csgrt " +
         model_words(std::filesystem::path(arguments.scene).filename().string(), arguments.objects, arguments.load,
                     arguments.settings, statistics.tolerance) +
         drawing_options(drawn, arguments.looks);

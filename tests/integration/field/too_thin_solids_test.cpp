@@ -101,7 +101,8 @@ TEST_CASE("a shell between two solids that became one is named, with both", "[fi
                 settings.tolerance_rule = Tolerance::surfaces;
                 Renderer renderer(made.scene, made.objects, settings);
                 const Ray ray{moved_point(turn, {28, 3, -100}), moved_direction(turn, {kind == 2 ? 0 : -0.28, 0, 1})};
-                return std::pair(test::texts(renderer.model().warnings()), renderer.shoot({ray}).front().partitions.size());
+                return std::pair(test::texts(renderer.model().warnings()),
+                                 renderer.shoot({ray}).front().partitions.size());
             };
             CAPTURE(kind, by);
             const auto [notes, hits] = notes_and_hits(by, 0);
