@@ -7,6 +7,7 @@
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/stress/check.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;

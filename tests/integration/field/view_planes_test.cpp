@@ -9,6 +9,7 @@
 #include "integration/same_answers.hpp"
 #include "integration/samples.hpp"
 #include "integration/stress/check.hpp"
+#include "sanitized.hpp"
 
 using namespace csgrt;
 using namespace csgrt::stress;
@@ -161,7 +162,9 @@ void compare_cuts(std::uint64_t first, std::uint64_t count) {
 
 }  // namespace
 
-TEST_CASE("planes of a view show what half-spaces in the tree show") { compare_cuts(0, 300); }
+TEST_CASE("planes of a view show what half-spaces in the tree show") {
+    compare_cuts(0, static_cast<std::uint64_t>(test::tries(200)));
+}
 
 TEST_CASE("10,000 pictures with planes show at each of 225 pixels what half-spaces in the tree show", "[.long]") {
     compare_cuts(1000, 10'000);
