@@ -24,7 +24,7 @@ typedef struct {
     GLOBAL const u32* trees;
 } cover;
 
-FN u32 is_missed(cover c, u32 segment) { return c.missed && c.missed && (c.ends[2 * segment].surface & c.missed); }
+FN u32 is_missed(cover c, u32 segment) { return c.missed && (c.ends[2 * segment].surface & c.missed); }
 FN u32 covers(cover c, u32 segment) { return (c.bits[segment >> 5] >> (segment & 31u) & 1u) && !is_missed(c, segment); }
 
 // The solids that cover a partition: a list if they are few, and a filter (as Bloom's) that most others do not pass.

@@ -59,4 +59,10 @@ inline std::string decimal_fault(Decimal found, const std::string& text) {
     return "'" + text + (found == Decimal::not_finite ? "' is not a finite number" : "' is not a number");
 }
 
+/// Appends the shortest text that is read as the same double.
+inline void append_shortest(std::string& out, double value) {
+    char text[32];
+    out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
 }  // namespace csgrt

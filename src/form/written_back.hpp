@@ -2,12 +2,12 @@
 // that the descriptions have; what one option says about two members, or several options about one, is here.
 #pragma once
 
-#include <charconv>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "base/decimal.hpp"
 #include "base/shell_word.hpp"
 #include "form/requests.hpp"
 
@@ -15,8 +15,9 @@ namespace csgrt {
 
 /// The shortest decimal that is read as the same double.
 inline std::string shortest(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+    std::string text;
+    append_shortest(text, value);
+    return text;
 }
 inline std::string shortest(const Vec3& v) { return shortest(v.x) + "," + shortest(v.y) + "," + shortest(v.z); }
 

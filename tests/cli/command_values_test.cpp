@@ -77,7 +77,7 @@ TEST_CASE("numbers are written so that they read back") {
     append_number(text, 0.1);
     CHECK(text == "0.10000000000000001");
     text.clear();
-    append_shortest(text, 0.1);
+    csgrt::append_shortest(text, 0.1);
     CHECK(text == "0.1");
     text.clear();
     append_number(text, -std::numeric_limits<double>::infinity());

@@ -35,11 +35,6 @@ void append_number(std::string& out, double value) {
     out.append(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17).ptr);
 }
 
-void append_shortest(std::string& out, double value) {
-    char text[64];
-    out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
 void append_name(std::string& out, std::string_view name) {
     for (char c : name) {
         auto byte = static_cast<unsigned char>(c);

@@ -15,6 +15,7 @@
 
 #include <csgrt/renderer.hpp>
 
+#include "base/decimal.hpp"
 #include "lines.hpp"
 
 namespace csgrt::cli {
@@ -33,8 +34,6 @@ private:
 
 /// Appends a number with 17 significant digits, as printf's %.17g does in the C locale.
 void append_number(std::string& out, double value);
-/// Appends the shortest text that reads back to the same number.
-void append_shortest(std::string& out, double value);
 /// Appends a name, its blanks escaped.
 void append_name(std::string& out, std::string_view name);
 

@@ -13,6 +13,7 @@
 #include "formats/json/parse_text.hpp"
 #include "integration/same_answers.hpp"
 #include "integration/stress/check.hpp"
+#include "integration/tree_value.hpp"
 #include "sanitized.hpp"
 
 using namespace csgrt;
@@ -66,29 +67,6 @@ private:
                 {{0, 1, 0}, high.y}, {{0, 0, 1}, low.z},  {{0, 0, 1}, high.z}};
     }
 };
-
-/// Of a tree in code: nodes in postfix order.
-bool evaluate(const Tree& tree, const std::vector<Part>& parts, const Vec3& p) {
-    std::vector<bool> stack;
-    for (const TreeNode& node : tree.nodes) {
-        if (node.op == Operator::leaf) {
-            stack.push_back(parts[std::stoul(node.object.substr(1))].holds(p));
-            continue;
-        }
-        const std::size_t first = stack.size() - node.arity;
-        bool value = stack[first];
-        for (std::size_t i = first + 1; i < stack.size(); ++i) {
-            if (node.op == Operator::union_) value = value || stack[i];
-            if (node.op == Operator::intersection) value = value && stack[i];
-            if (node.op == Operator::difference) value = value && !stack[i];
-            if (node.op == Operator::xor_) value = value != stack[i];
-        }
-        if (node.op == Operator::not_) value = !value;
-        stack.resize(first);
-        stack.push_back(value);
-    }
-    return stack.back();
-}
 
 struct Model {
     Scene scene;
@@ -168,8 +146,9 @@ struct Tally {
 
 std::set<std::int32_t> regions_at(const Model& model, const Vec3& p) {
     std::set<std::int32_t> found;
+    const auto holds = [&](const std::string& name) { return model.parts[std::stoul(name.substr(1))].holds(p); };
     for (std::size_t r = 0; r < model.regions.size(); ++r)
-        if (evaluate(model.regions[r], model.parts, p)) found.insert(static_cast<std::int32_t>(r));
+        if (test::value_of(model.regions[r], holds)) found.insert(static_cast<std::int32_t>(r));
     return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 #include "integration/same_answers.hpp"
+#include "integration/tree_value.hpp"
 #include "sanitized.hpp"
 #include "integration/stress/known_failures.hpp"
 
@@ -83,30 +84,6 @@ void run_sample(const std::string& family) {
         family == "deep_trees" || family == "depth" ? Part{scenes} : Part{scenes, 5, test::sanitized ? 1u : 2u};
     print_head();
     run(family, part, bounds_of(sample_bounds, family));
-}
-
-/// Is the tree true where the named leaves are?
-bool value_of(const Tree& tree, const std::set<std::string>& true_leaves) {
-    std::vector<bool> stack;
-    for (const TreeNode& node : tree.nodes) {
-        if (node.op == Operator::leaf) {
-            stack.push_back(true_leaves.count(node.object) > 0);
-            continue;
-        }
-        const std::size_t first = stack.size() - node.arity;
-        bool value = stack[first];
-        for (std::size_t i = first + 1; i < stack.size(); ++i) {
-            if (node.op == Operator::union_) value = value || stack[i];
-            if (node.op == Operator::intersection) value = value && stack[i];
-            if (node.op == Operator::difference) value = value && !stack[i];
-            if (node.op == Operator::xor_) value = value != stack[i];
-        }
-        if (node.op == Operator::not_) value = !value;
-        stack.resize(first);
-        stack.push_back(value);
-    }
-    REQUIRE(stack.size() == 1);
-    return stack.front();
 }
 
 Tree tree_of(std::initializer_list<TreeNode> nodes) { return {nodes}; }
@@ -253,7 +230,8 @@ TEST_CASE("trees in other words have the same value", "[stress]") {
             std::set<std::string> leaves;
             for (std::size_t i = 0; i < names.size(); ++i)
                 if (bits >> i & 1) leaves.insert(names[i]);
-            CHECK(value_of(other, leaves) == value_of(tree, leaves));
+            const auto is_true = [&](const std::string& name) { return leaves.count(name) > 0; };
+            CHECK(value_of(other, is_true) == value_of(tree, is_true));
         }
         const auto count = [&](Operator wanted) {
             return std::count_if(other.nodes.begin(), other.nodes.end(),
