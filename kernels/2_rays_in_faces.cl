@@ -1,6 +1,6 @@
 // Kernels 1 and 2 of candidates whose ray may run in a face of the solid: kernel 1 has marked them (IN_SOME_FACE). Such
 // rays are rare, and what is done for them is large: within kernels 1 and 2 it would slow down all other rays of a GPU
-// (measured: docs/experiments/contact.md). A program has these kernels if its scene has such solids (FLAT_FACED).
+// (measured: docs/experiments.md). A program has these kernels if its scene has such solids (FLAT_FACED).
 #include "traversal/camera.h"
 #include "shared/capacity.h"
 #include "shared/scene_args.h"

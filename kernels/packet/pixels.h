@@ -140,7 +140,7 @@ FN packet_view view_of(const packet* p, __global const Frame* f, Geometry g, app
 }
 
 // Stores the pixels of the active rays; those of the hit mask see something. Left a call: measured
-// (docs/experiments/processors.md).
+// (docs/experiments.md).
 NOINLINE_FN void put_pixels(const packet* p, __global const Frame* f, Geometry g, appearance_tables a,
                             __global float* picture, u32 active_mask, u32 hit_mask) {
     const size_t size = channel_size(f);

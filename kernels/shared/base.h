@@ -47,7 +47,7 @@ typedef uint u32;
 #define INLINE_FN FN inline __attribute__((always_inline))
 #endif
 // Rare code within hot code. On a processor it is a call. On a GPU it is inlined, because a call takes registers from
-// all code around it (measured: docs/experiments/contact.md).
+// all code around it (measured: docs/experiments.md).
 #if defined(CSGRT_PACKETS) || defined(CSGRT_NO_INLINE)
 #define RARE_FN NOINLINE_FN
 #else

@@ -11,7 +11,7 @@ namespace csgrt {
 namespace {
 
 // A piece is worth the time in which a copy begins, 4 microseconds; with two underway, the bus has no pause
-// (docs/experiments/gpu-frames.md).
+// (docs/experiments.md).
 constexpr std::size_t most_underway = 2 * CopyFeed::piece;
 constexpr std::size_t floats_a_thread = std::size_t{1} << 19;  // fewer are written sooner than a thread wakes
 

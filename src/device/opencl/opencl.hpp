@@ -76,7 +76,7 @@ using Event = Handle<cl_event, &OpenCl::ReleaseEvent>;
 /// (device_fault) if the driver's patience ends before: then the device is lost. So do all waits.
 void wait_for(const Event& event);
 /// The same by looking at it now and then: a thread that waits within NVIDIA's driver slows others that queue commands
-/// (measured: docs/experiments/gpu-frames.md). May return some ten microseconds late.
+/// (measured: docs/experiments.md). May return some ten microseconds late.
 void wait_patiently(const Event& event);
 /// Whether it is done, or has failed, which a wait for it then tells.
 bool is_done(const Event& event);

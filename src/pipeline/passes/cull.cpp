@@ -9,7 +9,7 @@ Event CullPass::launch(const SceneTables& scene, BatchBuffers& batch, const kern
     const std::uint32_t tiles = frame.ray_count / tile_rays;
     batch.costs.reserve(tiles);
     // A GPU finds the candidates of every partition as fast without lists, which take most of culling's time
-    // (docs/architecture.md, modes).
+    // (docs/experiments.md, modes).
     if (frame.every_partition && device_.info().type != "cpu")
         batch.tile_nodes.release();
     else

@@ -14,7 +14,7 @@ std::vector<std::string> options_of(const Device& device, const CompiledScene& s
     std::vector<std::string> options = program_options(device, ProgramNeeds(scene), settings);
     options.push_back("CSGRT_PRIVATE_ENDS");
     if (prefetches(device, scene, settings)) options.push_back("CSGRT_PREFETCH");
-    if (scene.solids.size() > 32) options.push_back("CSGRT_FEW=64u");  // measured: docs/experiments/gpu-kernels.md
+    if (scene.solids.size() > 32) options.push_back("CSGRT_FEW=64u");  // measured: docs/experiments.md
     return options;
 }
 

@@ -63,7 +63,7 @@ void put_tile(const ChannelMemory& channel, std::size_t width, const Rectangle& 
 
 /// Adds what follows beneath, to the last one if the pixels around both take less time than another copy.
 void add(std::vector<Rectangle>& all, const Rectangle& next) {
-    constexpr std::size_t copy_cost = 1 << 12;  // pixels: docs/experiments/gpu-frames.md
+    constexpr std::size_t copy_cost = 1 << 12;  // pixels: docs/experiments.md
     if (!all.empty()) {
         Rectangle& last = all.back();
         const Rectangle both{std::min(last.left, next.left), std::max(last.right, next.right), last.top, next.bottom};
@@ -114,7 +114,7 @@ std::vector<Rectangle> take_rectangles(const kernel::Frame& frame, std::uint32_t
         std::size_t right = tiles.columns, left = next_covered(needed, 0, right);
         if (left == right) continue;
         while (!needed[right - 1]) --right;
-        // Whole lines of the processor's cache: a GPU writes those a quarter sooner (docs/experiments/gpu-frames.md).
+        // Whole lines of the processor's cache: a GPU writes those a quarter sooner (docs/experiments.md).
         if (left > 0) left -= (tiles.left + left) % 2;
         if (right < tiles.columns) right += (tiles.left + right) % 2;
         add(found, tiles.pixels(row, left, right));

@@ -31,7 +31,7 @@ DeviceGroup::DeviceGroup(const std::vector<FoundDevice>& devices, const Compiled
 }
 
 // A device's share of first hits comes in 8 parts, for launches soon cost as much as rays; that of every partition in
-// 5, for the host waits in each (docs/experiments/gpu-frames.md). One device alone takes all rays at once, unless it
+// 5, for the host waits in each (docs/experiments.md). One device alone takes all rays at once, unless it
 // copies the first ones' pixels while it draws others.
 Parts DeviceGroup::parts_of(std::uint64_t rays, std::uint64_t row, std::size_t devices, bool every_partition) const {
     if (devices == 1 && (every_partition || !pipelines_.front()->is_asynchronous()))
