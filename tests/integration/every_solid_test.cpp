@@ -1,7 +1,6 @@
 // What the documents promise of every ray's answer and of every picture, for a solid of every type: under each operator
-// with a second placement of itself, and overlapping it, with the ray's start anywhere. docs/promises.md says which
-// sentences. The reference's answers are looked at, and the device has their bits: ctest runs these tests with PoCL,
-// too.
+// with a second placement of itself, and overlapping it, with the ray's start anywhere. The reference's answers are
+// looked at, and the device has their bits: ctest runs these tests with PoCL, too.
 #include "catch.hpp"
 
 #include <limits>
